@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 from preflight_analysis.catalogue.launches import CataloguedFile, catalogued_file
@@ -34,7 +35,7 @@ from preflight_analysis.evaluation.tree import (
     Unknown,
     Use,
 )
-from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 
 MAX_TEXT = 8_000_000
@@ -72,8 +73,10 @@ class Collector:
         cwd: str,
         results: Commands,
         surroundings: Surroundings | None = None,
+        assumed: AbstractSet[Location] = frozenset(),
     ) -> None:
         self.generation = generation
+        self._assumed = assumed
         self.files = files
         self.executables = executables
         self.results = results
@@ -176,9 +179,9 @@ class Collector:
         self.problem(ValueTooLong(f"{MAX_TEXT} characters"), origin)
         return False
 
-    def note_not_taken(self, action: Action, condition: ActionAttribute, value: str, origin: Origin) -> None:
-        """Note a tag that its condition leaves out, of those that would start something."""
-        self.not_taken.append(NotTaken(action, condition, value, origin))
+    def is_assumed(self, tag: Location) -> bool:
+        """Whether a tag is taken, whatever its condition says."""
+        return tag in self._assumed
 
     def note_unknown(self, what: str, reason: str, location: Location, param: str | None = None) -> None:
         """Note a value that cannot be known, of the parameter `param` if it is one's."""

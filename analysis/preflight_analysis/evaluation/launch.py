@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
@@ -23,12 +25,13 @@ def evaluate_launch(
     cwd: str,
     commands: Commands,
     surroundings: Surroundings | None = None,
+    assumed: AbstractSet[Location] = frozenset(),
 ) -> LaunchTree:
     """What launching `path` with `name:=value...` would start; see `evaluate` and `evaluate_ros2`."""
     found = files.launch_file(path)
     if isinstance(found, Unreadable) or found.generation == ROS1.number:
-        return evaluate(path, args, files, executables, environment, cwd, commands, surroundings)
+        return evaluate(path, args, files, executables, environment, cwd, commands, surroundings, assumed)
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 
-    return evaluate_ros2(path, args, files, executables, environment, cwd, commands, surroundings)
+    return evaluate_ros2(path, args, files, executables, environment, cwd, commands, surroundings, assumed)

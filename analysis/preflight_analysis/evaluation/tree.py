@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin, Span
@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.generation import Generation, ros
 from preflight_analysis.incremental.once import Once
-from preflight_analysis.launch.model import Action, ActionAttribute
+from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.problems import ProblemKind
 
 ParamValue = Any
@@ -246,14 +246,31 @@ class Use(NamedTuple):
     origin: Origin = ()
 
 
-class NotTaken(NamedTuple):
-    """A tag that its condition leaves out: with all that is below it, it is never looked into. `condition` is the
-    attribute, `value` what that came to; `origin` ends at the tag."""
+Condition = Literal["if", "unless"]
 
-    action: Action
-    condition: ActionAttribute
-    value: str
+
+class NotTaken(NamedTuple):
+    """A tag that its condition leaves out: with all that is below it, it is never looked into. `condition` is the name
+    of the attribute, `place` where its value stands, `value` what that came to, None where it is not known; `origin`
+    ends at the tag."""
+
+    tag: Tag
+    condition: Condition
+    value: str | None
     origin: Origin
+    place: Location
+
+    @property
+    def action(self) -> Action:
+        """The tag, with its places in the text as it is now."""
+        return self.tag.action
+
+    @property
+    def written(self) -> Value:
+        """The condition as written, with its places in the text as it is now."""
+        found = self.action.value(self.condition)
+        assert found is not None, "a tag is left out by an attribute that it has"
+        return found
 
 
 DEFAULT_MACHINE_TIMEOUT = 10.0
@@ -318,7 +335,7 @@ class LaunchTree(Once):
     commands: tuple[Command, ...] = ()
     """In the order in which roslaunch would run them."""
     not_taken: tuple[NotTaken, ...] = ()
-    """What would start nodes if a condition were another."""
+    """The tags that are left out, in the order in which they were met."""
     edited: Mapping[str, Edited] = field(default_factory=dict)
     """Python launch files whose text has no good run yet."""
     nodes_before: tuple[int, ...] = ()

@@ -88,7 +88,9 @@ def _of_file(
             key = (finding.rule, finding.location)
             same = first.setdefault(key, [])
             # One root may say several things of one place; a second root's wording of the same thing is not news.
-            if not same or (root in same[0].roots and finding not in same):
+            if same and same[0].condition and not finding.condition:
+                same[:] = [finding]  # what needs no condition counts before what has one
+            elif not same or (root in same[0].roots and finding not in same and not finding.condition):
                 same.append(finding)
             if root not in (roots_of := holds.setdefault(key, [])):
                 roots_of.append(root)

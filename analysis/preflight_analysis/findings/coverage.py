@@ -21,11 +21,12 @@ WAYS: Mapping[str, str] = {
 @dataclass(frozen=True, slots=True)
 class Coverage:
     """`files` launch files were looked at, of which `evaluated` were evaluated as a whole. `nodes` counts nodes by the
-    source of their interface (`WAYS`)."""
+    source of their interface (`WAYS`), `untried` the tags left out by conditions that were not looked into."""
 
     files: int = 0
     evaluated: int = 0
     nodes: Mapping[str, int] = field(default_factory=dict)
+    untried: int = 0
 
     @property
     def total_nodes(self) -> int:
@@ -40,4 +41,6 @@ class Coverage:
         )
         files = f"{self.evaluated} of {self.files} launch file{'' if self.files == 1 else 's'} evaluated"
         nodes = f"{self.total_nodes} node{'' if self.total_nodes == 1 else 's'}"
-        return f"{files}, {nodes}" + (f": {known}" if known else "")
+        tags = f"{self.untried} tag{'' if self.untried == 1 else 's'}"
+        untried = f"; {tags} that conditions leave out not looked into" if self.untried else ""
+        return f"{files}, {nodes}" + (f": {known}" if known else "") + untried

@@ -72,5 +72,7 @@ class Finding:
     """Of one about connections: the ends that it speaks of, for a picture of the graph."""
     every_root: bool = field(default=False, compare=False)
     """It holds only if it holds in each launch that reads the file, as one of a rule with `Rule.every_root`."""
+    condition: str = ""
+    """Where it holds only if the launch is given other arguments: which ones, or what of a condition; `sim:=true`."""
     lack: Lack | None = None
     """What is missing on this machine, where the finding speaks of nothing else."""

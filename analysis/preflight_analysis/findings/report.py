@@ -203,6 +203,7 @@ def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[s
         "severity": finding.severity,
         "confidence": finding.confidence,
         "message": finding.message,
+        "condition": finding.condition,
         "file": finding.location.file,
         "range": _range_json(finding.location, documents),
         "related": [

@@ -84,6 +84,7 @@ def _result(
         "properties": {
             "severity": finding.severity,
             "confidence": finding.confidence,
+            **({"condition": finding.condition} if finding.condition else {}),
             "roots": [relative(root, base) for root in finding.roots],
         },
     }

@@ -75,8 +75,14 @@ def node_tree(analysis: Analysis, findings: Mapping[str, Sequence[Finding]]) -> 
     items = [*_namespace(top, "/"), *_includes(analysis)]
     if shared := by_owner.get("", ()):
         items.append(Item("section", "Shared parameters", str(len(shared)), children=_listed(shared, "")))
-    if tree.not_taken:
-        left_out = tuple(_not_taken(analysis, each) for each in tree.not_taken)
+    tags = tags_of(tree.generation)
+    not_started = [
+        each
+        for each in tree.not_taken
+        if each.value is not None and (tag := tags.get(each.action.kind.lower())) is not None and tag.starts
+    ]
+    if not_started:
+        left_out = tuple(_not_taken(analysis, each, each.value or "") for each in not_started)
         items.append(Item("section", "Not started", str(len(left_out)), children=left_out))
     return NodeTree(tree.files, len(tree.nodes), tuple(items))
 
@@ -237,11 +243,10 @@ def _is_within(include: Include, outer: Include) -> bool:
 # What a condition leaves out
 
 
-def _not_taken(analysis: Analysis, left_out: NotTaken) -> Item:
-    condition = left_out.condition
-    written = " ".join(condition.value.text.split())
-    said = f" is {left_out.value.strip()}" if written != left_out.value.strip() else ""
-    note = f"left out: {condition.name} {written}{said}"
+def _not_taken(analysis: Analysis, left_out: NotTaken, value: str) -> Item:
+    written = " ".join(left_out.written.text.split())
+    said = f" is {value.strip()}" if written != value.strip() else ""
+    note = f"left out: {left_out.condition} {written}{said}"
     return _written(analysis, left_out.action, left_out.origin[-1].file, note)
 
 

@@ -72,4 +72,5 @@ RULE = Rule(
     instead='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camera)"/>',
     check=_check,
     problems=(UndeclaredArgument,),
+    in_branches=True,
 )

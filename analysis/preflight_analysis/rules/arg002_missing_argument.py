@@ -33,4 +33,5 @@ RULE = Rule(
     instead='<include file="$(find camera)/launch/camera.launch">\n  <arg name="serial" value="7cd1"/>\n</include>',
     check=_check,
     problems=(MissingArgument,),
+    in_branches=True,
 )

@@ -40,4 +40,5 @@ RULE = Rule(
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',
     check=_check,
     problems=(UnknownIncludeArgument,),
+    in_branches=True,
 )

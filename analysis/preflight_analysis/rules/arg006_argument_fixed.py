@@ -18,4 +18,5 @@ RULE = Rule(
         lambda fixed: f"argument '{fixed.name}' cannot be passed: the file fixes it with value=", FixedArgument
     ),
     problems=(FixedArgument,),
+    in_branches=True,
 )

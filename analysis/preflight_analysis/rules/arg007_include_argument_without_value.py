@@ -16,4 +16,5 @@ RULE = Rule(
         lambda passed: f"argument '{passed.name}' is passed without a value", IncludeArgumentWithoutValue
     ),
     problems=(IncludeArgumentWithoutValue,),
+    in_branches=True,
 )

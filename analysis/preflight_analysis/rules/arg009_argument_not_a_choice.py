@@ -36,4 +36,5 @@ RULE = Rule(
     instead='<arg name="model" default="s2">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
     check=_check,
     problems=(ArgumentNotAChoice,),
+    in_branches=True,
 )

@@ -20,4 +20,5 @@ RULE = Rule(
         MalformedYaml,
         MalformedPython,
     ),
+    in_branches=True,
 )

@@ -41,4 +41,5 @@ RULE = Rule(
     instead='<node pkg="camera" type="driver" name="camera" respawn="true"/>',
     check=_check,
     problems=(UnknownAttribute,),
+    in_branches=True,
 )

@@ -51,4 +51,5 @@ RULE = Rule(
     instead='<node pkg="camera" type="driver" name="camera"/>',
     check=_check,
     problems=(MissingAttribute,),
+    in_branches=True,
 )

@@ -41,4 +41,5 @@ RULE = Rule(
     instead='<param name="rate" value="30"/>',
     check=_check,
     problems=(ConflictingAttributes,),
+    in_branches=True,
 )

@@ -48,4 +48,5 @@ RULE = Rule(
     instead='<node pkg="camera" type="driver" name="camera" output="screen"/>',
     check=_check,
     problems=(BadValue,),
+    in_branches=True,
 )

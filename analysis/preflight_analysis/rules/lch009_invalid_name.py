@@ -64,4 +64,5 @@ RULE = Rule(
     instead='<node pkg="camera" type="driver" name="camera" ns="front"/>',
     check=_check,
     problems=(InvalidName,),
+    in_branches=True,
 )

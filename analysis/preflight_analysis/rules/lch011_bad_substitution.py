@@ -53,4 +53,5 @@ RULE = Rule(
         BadSubstitution,
         EvalFailed,
     ),
+    in_branches=True,
 )

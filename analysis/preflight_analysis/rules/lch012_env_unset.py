@@ -35,4 +35,5 @@ RULE = Rule(
     instead='<param name="map" value="$(env HOME)/maps/office.yaml"/>',
     check=_check,
     problems=(UnsetVariable,),
+    in_branches=True,
 )

@@ -58,4 +58,5 @@ RULE = Rule(
     instead='<include file="$(find camera)/launch/camera.launch"/>',
     check=_check,
     problems=(IncludeNotFound, LaunchedFileNotFound, IncludeNotCatalogued),
+    in_branches=True,
 )

@@ -15,4 +15,5 @@ RULE = Rule(
     instead='<include file="$(find camera)/launch/camera.launch"/>',
     check=check_unreadable_files(UnreadableInclude, "included file"),
     problems=(UnreadableInclude,),
+    in_branches=True,
 )

@@ -27,4 +27,5 @@ RULE = Rule(
     instead='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="base"/>',
     check=_check,
     problems=(UndefinedMachine,),
+    in_branches=True,
 )

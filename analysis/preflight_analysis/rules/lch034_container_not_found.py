@@ -87,4 +87,5 @@ RULE = Rule(
     generations=(2,),
     check=_check,
     every_root=True,
+    in_branches=True,
 )

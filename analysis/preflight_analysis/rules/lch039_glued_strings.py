@@ -89,4 +89,5 @@ RULE = Rule(
     instead='choices=["diff_drive", "mecanum", "tricycle"]',
     generations=(2,),
     check=_check,
+    in_branches=True,
 )

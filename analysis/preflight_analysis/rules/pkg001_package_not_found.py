@@ -161,4 +161,5 @@ RULE = Rule(
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
     check=_check,
     problems=(PackageNotFound,),
+    in_branches=True,
 )

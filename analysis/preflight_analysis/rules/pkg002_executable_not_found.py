@@ -117,4 +117,5 @@ RULE = Rule(
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
     check=_check,
+    in_branches=True,
 )

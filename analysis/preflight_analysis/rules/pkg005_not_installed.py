@@ -141,4 +141,5 @@ RULE = Rule(
     instead="data_files=[('share/robot/config', glob('config/*')), ('share/robot/launch', glob('launch/*'))]",
     generations=(2,),
     check=_check,
+    in_branches=True,
 )

@@ -49,4 +49,5 @@ RULE = Rule(
     instead='<composable_node pkg="vision" plugin="vision::Detector" name="detector"/>',
     generations=(2,),
     check=_check,
+    in_branches=True,
 )

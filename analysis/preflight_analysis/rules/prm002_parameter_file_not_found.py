@@ -16,4 +16,5 @@ RULE = Rule(
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     check=check_missing_files({ParameterFileNotFound: "parameter file"}),
     problems=(ParameterFileNotFound,),
+    in_branches=True,
 )

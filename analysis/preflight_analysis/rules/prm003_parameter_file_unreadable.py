@@ -15,4 +15,5 @@ RULE = Rule(
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     check=check_unreadable_files(UnreadableParameterFile, "parameter file"),
     problems=(UnreadableParameterFile,),
+    in_branches=True,
 )

@@ -15,4 +15,5 @@ RULE = Rule(
     instead="<rosparam>\nrate: 10\nframe: map\n</rosparam>",
     check=check_problems(lambda bad: f"not valid as parameters: {bad.message}", BadYaml),
     problems=(BadYaml,),
+    in_branches=True,
 )

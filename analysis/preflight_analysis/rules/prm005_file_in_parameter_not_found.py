@@ -282,4 +282,5 @@ RULE = Rule(
     example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
     instead='<param name="camera_info_url" value="file://$(find camera)/config/calibration/left.yaml"/>',
     check=_check,
+    in_branches=True,
 )

@@ -39,4 +39,5 @@ RULE = Rule(
     instead="camera:\n  ros__parameters:\n    rate: 30",
     generations=(2,),
     check=_check,
+    in_branches=True,
 )

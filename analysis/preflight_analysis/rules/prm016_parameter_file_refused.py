@@ -82,4 +82,5 @@ RULE = Rule(
     instead="camera:\n  ros__parameters:\n    gains: [1.0, 2.5]",
     generations=(2,),
     check=_check,
+    in_branches=True,
 )

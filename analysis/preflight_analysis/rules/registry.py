@@ -55,20 +55,10 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     Each is marked as holding in `context.root`. A rule that raises is logged and costs its own findings alone.
     """
     chosen = tuple(all_rules() if rules is None else rules)
-    by_file: dict[str, list[Finding]] = {}
-    ran: list[str] = []
-    for rule in chosen:
-        if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
-            continue
-        try:
-            found = list(rule.check(rule, context))
-        except Exception:
-            _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
-            continue
-        ran.append(rule.id)
-        for finding in filter(
-            None, map(partial(_outside, rule), _in_order(rule, found, context) if rule.problems else found)
-        ):
+    by_file, ran = _found(context, chosen)
+    said = {(finding.rule, finding.location) for found in by_file.values() for finding in found}
+    for finding in context.of_branches:
+        if (finding.rule, finding.location) not in said:
             by_file.setdefault(finding.location.file, []).append(finding)
     of_documents = context.kept.each(_suppressions, context.documents.values())
     suppressions = {path: found for path, found in zip(context.documents, of_documents, strict=True) if found}
@@ -90,6 +80,35 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
         )
     context.kept.end()
     return sorted_findings
+
+
+def found_in_branch(context: Context) -> list[Finding]:
+    """What the rules that speak of branches say of a launch with other arguments, suppressed or not, each with the
+    includes that lead there."""
+    chosen = tuple(rule for rule in all_rules() if rule.in_branches)
+    by_file, _ = _found(context, chosen)
+    chains = _first_chains(context)
+    return [_with_chain(each, chains.get(path, ())) for path, found in by_file.items() for each in found]
+
+
+def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Finding]], list[str]]:
+    """All that rules say, by file, and the ids of those that did not raise."""
+    by_file: dict[str, list[Finding]] = {}
+    ran: list[str] = []
+    for rule in rules:
+        if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
+            continue
+        try:
+            found = list(rule.check(rule, context))
+        except Exception:
+            _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
+            continue
+        ran.append(rule.id)
+        for finding in filter(
+            None, map(partial(_outside, rule), _in_order(rule, found, context) if rule.problems else found)
+        ):
+            by_file.setdefault(finding.location.file, []).append(finding)
+    return by_file, ran
 
 
 def _outside(rule: Rule, finding: Finding) -> Finding | None:
@@ -197,10 +216,14 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
 
 
 def _in_context(finding: Finding, chain: tuple[Related, ...], root: str) -> Finding:
-    """A finding of a root; one about a file, whatever includes it, says how the file is reached."""
+    return in_root(_with_chain(finding, chain), root)
+
+
+def _with_chain(finding: Finding, chain: tuple[Related, ...]) -> Finding:
+    """One about a file, whatever includes it, says how the file is reached."""
     if not chain or any(related.message == INCLUDED_HERE for related in finding.related):
-        return in_root(finding, root)
-    return in_root(replace(finding, related=(*finding.related, *chain)), root)
+        return finding
+    return replace(finding, related=(*finding.related, *chain))
 
 
 def _first_chains(context: Context) -> dict[str, tuple[Related, ...]]:

@@ -62,6 +62,8 @@ class Context(Once):
     graph: Graph | None = None
     why_not_run: str | None = None
     settings_problems: tuple[tuple[str, Location], ...] = ()
+    of_branches: tuple[Finding, ...] = ()
+    """What was found in tags that the tree leaves out (`workspace/branches.py`)."""
     kept: Kept = field(default_factory=Kept, repr=False, compare=False)
     """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
 
@@ -87,6 +89,8 @@ class Rule(RuleDescription):
 
     `problems` are the kinds of problems that the rule reports; each kind has one rule.
     `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
+    `in_branches`: it speaks of what conditions leave out, too: of single tags and values, and never of what is there
+    because something else is not.
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
@@ -98,6 +102,7 @@ class Rule(RuleDescription):
     needs_graph: bool = False
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)
+    in_branches: bool = False
     unused_suppression: Callable[[Rule, Suppression], Finding] | None = field(default=None, repr=False)
     left_out: Callable[[Rule, str, Sequence[Finding]], Finding] | None = field(default=None, repr=False)
 

@@ -12,13 +12,14 @@ from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.disk import CHANGES
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Place
+from preflight_analysis.documents.span import Location, Place
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
+from preflight_analysis.evaluation.inversion import Assignment
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.surroundings import Surroundings
@@ -35,7 +36,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
-from preflight_analysis.rules.registry import run_rules
+from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import Fallback
@@ -45,6 +46,7 @@ from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
+from preflight_analysis.workspace.branches import Branches, WhatIf, branches_of
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.project_settings import (
@@ -58,6 +60,8 @@ from preflight_analysis.workspace.sources import Sources
 
 MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
+MAX_WHAT_IFS_KEPT = 96
+"""How many launches with other arguments, for the tags that these take."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +101,13 @@ class Analysis(Once):
         """Whether it speaks of what a Python file was, where it was edited since."""
         edited = self.tree.edited.get(finding.location.file)
         return edited is not None and edited.replaces(finding.location.span)
+
+    def with_branches(self, branches: Branches) -> Analysis:
+        """The analysis with what was found in tags that it leaves out, as far as its text is still the same."""
+        documents = {**branches.documents, **self.documents}
+        context = replace(self.context, documents=documents)
+        found = tuple(finding for finding, text in branches.findings if context.text(finding.location) == text)
+        return replace(self, documents=documents, context=replace(context, of_branches=found))
 
     @property
     def launch(self) -> Root:
@@ -224,6 +235,16 @@ class Workspace:
             launch=node.location.file,
         )
 
+    def branches(self, analysis: Analysis) -> Branches:
+        """What is found in the tags that a static analysis leaves out. It takes several evaluations of the launch,
+        which are remembered. Within `Database.reading` it raises `Cancelled` where somebody writes meanwhile."""
+        db, path = self.sources.db, analysis.root
+
+        def ask(args: Assignment, assumed: frozenset[Location]) -> WhatIf:
+            return _what_if(db, self, path, tuple(sorted(args.items())), assumed)
+
+        return branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask)
+
     def with_interfaces(
         self,
         analysis: Analysis,
@@ -340,6 +361,29 @@ def _executables(db: Database, workspace: Workspace, environment: Environment) -
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
     executables, commands = _executables(db, workspace, environment), QueriedCommands(db, workspace.commands)
     return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands)
+
+
+@query(limit=MAX_WHAT_IFS_KEPT)
+def _what_if(
+    db: Database,
+    workspace: Workspace,
+    path: str,
+    args: tuple[tuple[str, str], ...],
+    assumed: frozenset[Location],
+) -> WhatIf:
+    CHANGES(db)  # rules look at the disk, too
+    within = _surroundings(db, workspace, workspace.environment_of(path))
+    files, environment, executables = within.files, within.environment, within.executables
+    # What is taken against its condition is not remembered for launches in which it is not.
+    parts = None if assumed else within
+    tree = evaluate_launch(
+        path, dict(args), files, executables, environment, within.cwd, within.commands, parts, assumed
+    )
+    documents, launch_files = workspace.texts_of(tree)
+    index = _executables(db, workspace, environment)
+    context = Context(path, tree, documents, launch_files, environment, index, workspace.sources)
+    found = tuple(each for each in found_in_branch(context) if each.lack is None)
+    return WhatIf(tree, documents, launch_files, found)
 
 
 @query(limit=MAX_ANALYSES)

@@ -6,7 +6,7 @@ import argparse
 import os
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -54,11 +54,13 @@ class _Launched:
     documents: Mapping[str, Document]
     nodes: tuple[str, ...]
     """How it is known what each node does."""
+    untried: int
+    """How many tags that it leaves out were not looked into."""
     left_out: frozenset[str]
     """Those of the files that are not evaluated as a whole."""
 
     @classmethod
-    def of(cls, root: Root, analysis: Analysis) -> _Launched:
+    def of(cls, root: Root, analysis: Analysis, untried: int) -> _Launched:
         """That of an analysis with its graph."""
         tree = analysis.tree
         interfaces = analysis.graph.processes if analysis.graph else (NOT_RUN,) * len(tree.nodes)
@@ -69,6 +71,7 @@ class _Launched:
             analysis.findings,
             analysis.documents,
             nodes=tuple(interface.source for interface in interfaces),
+            untried=untried,
             left_out=frozenset(problem.location.file for problem in tree.problems if problem.kind.leaves_out),
         )
 
@@ -132,7 +135,9 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                 project = launch.workspace.analysed(root.path, dict(root.args))
                 settings = os.path.join(launch.home, SETTINGS_FILE)
                 if not changed or touched(project.analysis, changed[launch.home], settings):
-                    found.append(_Launched.of(root, run_nodes(project, args, report=progress.part)))
+                    branches = launch.workspace.workspace.branches(project.analysis)
+                    project = replace(project, analysis=project.analysis.with_branches(branches))
+                    found.append(_Launched.of(root, run_nodes(project, args, report=progress.part), branches.untried))
     finally:
         progress.end()
     kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))
@@ -140,7 +145,8 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     documents = {path: document for each in kept for path, document in each.documents.items()}
     left_out = frozenset[str]().union(*(each.left_out for each in kept))
     nodes = Counter(source for each in kept for source in each.nodes)
-    coverage = Coverage(len(files), len(files) - len(left_out.intersection(files)), nodes)
+    untried = sum(each.untried for each in kept)
+    coverage = Coverage(len(files), len(files) - len(left_out.intersection(files)), nodes, untried)
     problems = dict.fromkeys(
         problem for launch in chosen for problem in launch.workspace.workspace.environment.problems
     )

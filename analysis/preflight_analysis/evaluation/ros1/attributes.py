@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import resolve
+from preflight_analysis.evaluation.tree import Condition, NotTaken, Tag
 from preflight_analysis.launch.model import Action, ActionAttribute
 from preflight_analysis.launch.problems import BadValue, ConflictingAttributes, MissingAttribute, UnknownAttribute
 from preflight_analysis.launch.schema import one_of
@@ -19,6 +20,7 @@ from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.substitutions import parse_value
 
 T = TypeVar("T")
+_CONDITIONS: tuple[Condition, ...] = ("if", "unless")
 
 
 class Attributes:
@@ -137,7 +139,7 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
     if action.attribute("if") is None and action.attribute("unless") is None:
         return True
     attributes = Attributes(state, scope, action)
-    results = {name: attributes.get(name) for name in ("if", "unless")}
+    results = {name: attributes.get(name) for name in _CONDITIONS}
     given = [name for name, found in results.items() if found is not None]
     if len(given) == 2:
         state.problem(ConflictingAttributes(action.kind, tuple(given)), scope.origin(action.kind_span))
@@ -145,9 +147,10 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
     for name, found in results.items():
         if found is None:
             continue
+        if state.is_assumed(scope.location(action.head_span)):
+            return True
         if not found.known:
-            attribute = action.attribute(name)
-            span = attribute.value.span if attribute else action.kind_span
+            span = _note_not_taken(state, scope, action, name, None)
             state.unknown(f"<{action.kind} {name}>", "its condition is not known", scope, span)
             return False
         try:
@@ -155,8 +158,17 @@ def applies(state: State, scope: Scope, action: Action) -> bool:
         except values.BadValueError as error:
             attributes.bad_value(name, found.text, str(error), TAGS[action.kind.lower()].attributes[name].choices)
             return False
-        condition = action.attribute(name)
-        if not taken and condition is not None and TAGS[action.kind.lower()].starts:
-            state.note_not_taken(action, condition, found.text, scope.origin(action.head_span))
+        if not taken:
+            _note_not_taken(state, scope, action, name, found.text)
         return taken
     return True
+
+
+def _note_not_taken(state: State, scope: Scope, action: Action, condition: Condition, value: str | None) -> Span:
+    """Where the condition is written."""
+    attribute = action.attribute(condition)
+    span = attribute.value.span if attribute else action.kind_span
+    origin = scope.origin(action.head_span)
+    tag = Tag(action, origin[-1], scope.lines.text[slice(*action.span)])
+    state.not_taken.append(NotTaken(tag, condition, value, origin, scope.location(span)))
+    return span

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from functools import partial
 
 from preflight_analysis.documents.reading import Unreadable
@@ -69,15 +70,17 @@ def evaluate(
     cwd: str,
     commands: Commands = NO_RESULTS,
     surroundings: Surroundings | None = None,
+    assumed: AbstractSet[Location] = frozenset(),
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
     paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing: the values
     of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With
-    `surroundings`, of the same things, includes are remembered.
+    `surroundings`, of the same things, includes are remembered. The tags at `assumed` are taken whatever their
+    conditions say; give no `surroundings` then.
     """
-    state = State(files, executables, environment, cwd, commands, surroundings)
+    state = State(files, executables, environment, cwd, commands, surroundings, assumed=assumed)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
@@ -219,7 +222,7 @@ def _node_alone(state: State, scope: Scope, action: Action, default_machine: str
     has places of this text."""
     inner = state.inner()
     evaluate_node(inner, scope, action, default_machine)
-    lasting = not (inner.problems or inner.not_taken or inner.depends_on_outside)
+    lasting = not (inner.problems or inner.depends_on_outside)
     return inner.record(scope) if lasting else None
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Set as AbstractSet
+
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
@@ -29,8 +31,9 @@ class State(Collector):
         surroundings: Surroundings | None = None,
         *,
         is_included: bool = False,
+        assumed: AbstractSet[Location] = frozenset(),
     ) -> None:
-        super().__init__(1, files, executables, environment, cwd, results, surroundings)
+        super().__init__(1, files, executables, environment, cwd, results, surroundings, assumed)
         self.is_included = is_included
         """Whether it is that of an included file alone, without what is above it."""
         self.node_names: dict[str, Location | None] = {"/rosout": None}
@@ -51,7 +54,10 @@ class State(Collector):
 
     def inner(self) -> State:
         """A state for one tag alone, to be taken over with `absorb`."""
-        inner = State(self.files, self.executables, self.environment, self.cwd, self.results, self.surroundings)
+        within = self.surroundings
+        inner = State(
+            self.files, self.executables, self.environment, self.cwd, self.results, within, assumed=self._assumed
+        )
         inner._digests, inner._room = self._digests, self._room
         return inner
 

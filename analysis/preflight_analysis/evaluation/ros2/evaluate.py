@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 from functools import cache
 
 from preflight_analysis.documents.reading import Unreadable
@@ -39,19 +40,20 @@ def evaluate_ros2(
     cwd: str,
     commands: Commands = NO_RESULTS,
     surroundings: Surroundings | None = None,
+    assumed: AbstractSet[Location] = frozenset(),
 ) -> LaunchTree:
     """What `ros2 launch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What
     starts of processes bring about comes after the rest, then, marked as deferred, what timers and other events do.
     Reads through `files` only; runs nothing. With `surroundings`, of the same things, and within a query, parts are
-    remembered.
+    remembered. The tags at `assumed` are taken whatever their conditions say; give no `surroundings` then.
     """
     within = surroundings if files.db.is_making else None
     try:
-        state = _launched(path, args, State(files, executables, environment, cwd, commands, within))
+        state = _launched(path, args, State(files, executables, environment, cwd, commands, within, assumed=assumed))
     except NotByPartsError:
-        state = _launched(path, args, State(files, executables, environment, cwd, commands))
+        state = _launched(path, args, State(files, executables, environment, cwd, commands, assumed=assumed))
     return LaunchTree(
         os.path.normpath(path),
         2,

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from typing import cast
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Origin
+from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collected, Collector
 from preflight_analysis.evaluation.commands import Commands
@@ -44,8 +45,9 @@ class State(Collector):
         results: Commands,
         surroundings: Surroundings | None = None,
         before: Before | None = None,
+        assumed: AbstractSet[Location] = frozenset(),
     ) -> None:
-        super().__init__(2, files, executables, environment, cwd, results, surroundings)
+        super().__init__(2, files, executables, environment, cwd, results, surroundings, assumed)
         self.nodes_before: list[int] = []
         """For each include how many nodes came before it."""
         self._before = before

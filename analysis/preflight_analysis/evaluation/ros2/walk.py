@@ -39,12 +39,14 @@ from preflight_analysis.evaluation.ros2.state import Added, State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.ros2.written import is_from_yaml
+from preflight_analysis.evaluation.tree import Condition, NotTaken
 from preflight_analysis.launch.configurations import configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.launch.schema import Tag
 
+_CONDITIONS: tuple[Condition, ...] = ("if", "unless")
 MAX_DEPTH = 150
 """Of groups and includes within each other."""
 MAX_INCLUDES = 2_000
@@ -220,8 +222,6 @@ class Walk:
         part = Walk(self.state.part(before), self.context.part(before), self.language)
         part.deferred, part._depth = self.deferred, self._depth
         part._execute(Performer(part.state, part.context, place), action, known)
-        if any(each.origin[-1].file == place.file for each in part.state.not_taken):
-            return None, before.answers
         (names,) = part.names
         record = Record(
             part.state.added(),
@@ -276,29 +276,31 @@ class Walk:
 
     def applies(self, performer: Performer, action: Action) -> bool:
         """Whether an action is executed, by its `if` and `unless` (`launch.conditions`)."""
-        for name in ("if", "unless"):
+        for name in _CONDITIONS:
             attribute = action.attribute(name)
             if attribute is not None:
-                return self._condition(performer, action, attribute, name == "if")
+                return self._condition(performer, action, attribute, name)
         return True
 
-    def _condition(self, performer: Performer, action: Action, attribute: ActionAttribute, wanted: bool) -> bool:
-        """Whether a condition is what is wanted; it is not where it is not known or none."""
+    def _condition(self, performer: Performer, action: Action, attribute: ActionAttribute, name: Condition) -> bool:
+        """Whether a condition is as it has to be; it is not where it is not known or none."""
         result = performer.value(attribute.value)
         span = attribute.value.span
-        known, tag = self.language.actions.get(action.kind), self.language.tags.get(action.kind)
+        if performer.state.is_assumed(performer.place.location(action.head_span)):
+            return True
+        known = self.language.actions.get(action.kind)
         if not result.known:
             at = performer.place.location(span)
             performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
             if known is not None and known.configures:
                 performer.context.cannot_follow(at)
+            _note_not_taken(performer, action, attribute, name, None)
             return False
         word = result.text.strip().lower()
         if word in ("true", "1", "false", "0"):
-            taken = (word in ("true", "1")) == wanted
-            if not taken and tag is not None and tag.starts:
-                origin = performer.place.origin(action.head_span)
-                performer.state.note_not_taken(action, attribute, result.text, origin)
+            taken = (word in ("true", "1")) == (name == "if")
+            if not taken:
+                _note_not_taken(performer, action, attribute, name, result.text)
             return taken
         bad = BadValue(action.kind, attribute.name, result.text, "true, false, 1 or 0", ("true", "false"))
         performer.state.problem(bad, performer.place.origin(span))
@@ -329,6 +331,14 @@ class Walk:
         for child in action.children:
             if child.kind == "on_exit":
                 self.events.later(place, child.children)
+
+
+def _note_not_taken(
+    performer: Performer, action: Action, attribute: ActionAttribute, condition: Condition, value: str | None
+) -> None:
+    place = performer.place
+    at = place.location(attribute.value.span)
+    performer.state.not_taken.append(NotTaken(place.tag(action), condition, value, place.origin(action.head_span), at))
 
 
 def only_read(walk: Walk, performer: Performer, action: Action) -> None:

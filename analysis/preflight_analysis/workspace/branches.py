@@ -1,0 +1,217 @@
+"""What conditions leave out of a launch is looked at, too.
+
+Each tag that is left out is taken once: the launch is evaluated again with the arguments that its condition asks for
+(`evaluation/inversion.py`), with all that they imply, and what the rules say then and did not say before is said with
+these arguments. All combinations are not tried. A tag whose condition cannot be read backwards is evaluated as if it
+were taken, and what is found in it is less sure.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.inversion import Assignment, assignments, named_values
+from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
+from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.rules.problems import INCLUDED_HERE
+
+MAX_WHAT_IFS = 24
+"""Further evaluations of one launch."""
+_MAX_ASSUMED = 3
+"""Of these, how often the tags are taken that stand in tags which no arguments take."""
+_TRUTH = {"true": True, "1": True, "false": False, "0": False}
+_Key = tuple[tuple[str, str], ...]
+_LONGEST = 60
+"""Characters of a condition in a message."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WhatIf:
+    """A launch with other arguments: `found` is what the rules that speak of branches say, without what is missing on
+    this machine."""
+
+    tree: LaunchTree
+    documents: Mapping[str, Document]
+    launch_files: Mapping[str, LaunchFile]
+    found: tuple[Finding, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Branches:
+    """What is found in the tags that a launch leaves out, each finding with the text that it is about. `documents` are
+    those of the files that it speaks of, `untried` is the number of tags that were not looked into, as there are so
+    many."""
+
+    findings: tuple[tuple[Finding, str], ...] = ()
+    documents: Mapping[str, Document] = field(default_factory=dict, compare=False, repr=False)
+    untried: int = 0
+
+
+Ask = Callable[[Assignment, frozenset[Location]], WhatIf]
+"""Evaluates the launch with these arguments, and with the tags at these places taken whatever their conditions say."""
+
+
+def branches_of(tree: LaunchTree, launch_files: Mapping[str, LaunchFile], args: Assignment, ask: Ask) -> Branches:
+    """What is found where a launch is evaluated with other arguments than `args`, with which `tree` is made."""
+    return _Search(tree, launch_files, args, ask).branches()
+
+
+class _Search:
+    def __init__(self, tree: LaunchTree, launch_files: Mapping[str, LaunchFile], args: Assignment, ask: Ask) -> None:
+        self._tree, self._given, self._ask = tree, args, ask
+        self._launch_files = dict(launch_files)
+        self._what_ifs: dict[_Key, WhatIf] = {}
+        self._evaluations = 0
+        self._findings: dict[tuple[str, Location], tuple[Finding, str]] = {}
+        self._documents: dict[str, Document] = {}
+        self._untried: set[Location] = set()
+
+    def branches(self) -> Branches:
+        """All that is found."""
+        for key, left_out in self._by_arguments().items():
+            self._assume(dict(key), left_out)
+        return Branches(tuple(self._findings.values()), self._documents, len(self._untried))
+
+    def _by_arguments(self) -> dict[_Key, list[NotTaken]]:
+        """Look at each branch that arguments take. Gives the others, by the arguments that lead there."""
+        queue = deque((self._given, self._tree, left_out) for left_out in _open(self._tree))
+        seen: set[Location] = set()
+        refused: dict[_Key, list[NotTaken]] = {}
+        while queue:
+            args, within, left_out = queue.popleft()
+            tag = left_out.origin[-1]
+            if tag in seen or self._is_taken_somewhere(left_out):
+                continue
+            seen.add(tag)
+            for wanted in assignments(within, self._launch_files, left_out, args):
+                what_if = self._with(wanted)
+                if what_if is None:
+                    self._untried.add(tag)
+                    break
+                if takes(what_if.tree, left_out):
+                    self._note(what_if.found, _shown(wanted, self._given), what_if.documents)
+                    queue.extend((wanted, what_if.tree, each) for each in _open(what_if.tree))
+                    break
+            else:
+                refused.setdefault(_key(args), []).append(left_out)
+        return refused
+
+    def _is_taken_somewhere(self, left_out: NotTaken) -> bool:
+        trees = (self._tree, *(what_if.tree for what_if in self._what_ifs.values()))
+        return any(takes(tree, left_out) for tree in trees)
+
+    def _with(self, args: Assignment) -> WhatIf | None:
+        """The launch with these arguments; None where there were too many others before."""
+        key = _key(args)
+        found = self._what_ifs.get(key)
+        if found is None and self._has_room():
+            found = self._what_ifs[key] = self._ask(args, frozenset())
+            self._launch_files = {**found.launch_files, **self._launch_files}
+        return found
+
+    def _has_room(self) -> bool:
+        self._evaluations += 1
+        return self._evaluations <= MAX_WHAT_IFS
+
+    def _assume(self, args: Assignment, left_out: Iterable[NotTaken]) -> None:
+        """Evaluate tags as if they were taken, then those that are left out in them."""
+        todo = {each.origin[-1]: each for each in left_out}
+        taken: dict[Location, NotTaken] = {}
+        for _ in range(_MAX_ASSUMED):
+            todo = {tag: each for tag, each in todo.items() if tag not in taken and not _speaks_of_condition(each)}
+            if not todo:
+                return
+            if not self._has_room():
+                self._untried |= todo.keys()
+                return
+            taken |= todo
+            what_if = self._ask(args, frozenset(taken))
+            for each in todo.values():
+                doubted = (_doubted(found) for found in what_if.found if _stands_in(found, each))
+                self._note(doubted, _in_words(each), what_if.documents)
+            inside = (
+                each for each in _open(what_if.tree) if any(_holds(outer, each.origin) for outer in todo.values())
+            )
+            todo = {each.origin[-1]: each for each in inside}
+
+    def _note(self, found: Iterable[Finding], condition: str, documents: Mapping[str, Document]) -> None:
+        for finding in found:
+            key = (finding.rule, finding.location)
+            if key not in self._findings:
+                document = documents.get(finding.location.file)
+                text = document.text[slice(*finding.location.span)] if document is not None else ""
+                self._findings[key] = _under(finding, condition), text
+                places = (finding.location, *(related.location for related in finding.related))
+                self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
+
+
+def takes(tree: LaunchTree, left_out: NotTaken) -> bool:
+    """Whether a launch takes a tag that another one leaves out."""
+    return (left_out.place, left_out.written.text, left_out.condition == "if") in tree.once(_outcomes)
+
+
+def _outcomes(tree: LaunchTree) -> frozenset[tuple[Location, str, bool]]:
+    """The values of the launch that are true or false, by place and text."""
+    values = (use for use in tree.uses if use.kind == "value" and use.value is not None)
+    return frozenset(
+        (use.location, use.name, truth)
+        for use in values
+        if (truth := _TRUTH.get((use.value or "").strip().lower())) is not None
+    )
+
+
+def _open(tree: LaunchTree) -> Iterator[NotTaken]:
+    """What is left out by more than a plain word: that is how tags are commented out."""
+    return (each for each in tree.not_taken if not each.written.is_literal)
+
+
+def _key(args: Assignment) -> _Key:
+    return tuple(sorted(args.items()))
+
+
+def _shown(args: Assignment, given: Assignment) -> str:
+    return " ".join(f"{name}:={text}" for name, text in _key(args) if given.get(name) != text)
+
+
+def _in_words(left_out: NotTaken) -> str:
+    written = " ".join(left_out.written.text.split())
+    shown = written if len(written) <= _LONGEST else f"{written[: _LONGEST - 3]}..."
+    return f"{shown} is {'true' if left_out.condition == 'if' else 'false'}"
+
+
+def _under(finding: Finding, condition: str) -> Finding:
+    message = f"{finding.message} (if {condition})"
+    return replace(finding, message=message, condition=condition, stops_launch=False, launch_order=0)
+
+
+def _doubted(finding: Finding) -> Finding:
+    less = SEVERITIES[max(0, SEVERITIES.index(finding.severity) - 1)]
+    return replace(finding, severity=less, confidence="possible")
+
+
+def _speaks_of_condition(left_out: NotTaken) -> bool:
+    """Whether what is in the tag is made of that which its condition asks about: it would be another one there."""
+    asked = named_values(left_out.written)
+    values = (
+        attribute.value
+        for action in left_out.action.walk()
+        for attribute in action.attributes
+        if attribute.value != left_out.written
+    )
+    return any(not asked.isdisjoint(named_values(value)) for value in values)
+
+
+def _stands_in(finding: Finding, left_out: NotTaken) -> bool:
+    """Whether a finding is of a tag, or of what that includes."""
+    chain = (related.location for related in finding.related if related.message == INCLUDED_HERE)
+    return _holds(left_out, (finding.location, *chain))
+
+
+def _holds(left_out: NotTaken, places: Iterable[Location]) -> bool:
+    file, around = left_out.origin[-1].file, left_out.action.span
+    return any(place.file == file and around.start <= place.span.start < around.end for place in places)
