@@ -27,11 +27,13 @@ import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import PurePosixPath
 from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.evaluation.commands import CommandResult
@@ -40,9 +42,10 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit, Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
-from preflight_analysis.rules.registry import run_rules
+from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, MadeNode, Outcome, ParamUse, Range, Role
+from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
 
 _FILE = re.compile(r"//- (\S+)\s*\Z")
@@ -141,14 +144,37 @@ def analyse(
     why_not_run: str | None = None,
     external: Sequence[str] = (),
     sources: Sources | None = None,
+    branches: bool = False,
 ) -> Context:
-    """What the rules get to see of a fixture. `sources` are those of fixtures before, whose files it replaces."""
+    """What the rules get to see of a fixture. `sources` are those of fixtures before, whose files it replaces. With
+    `branches` what conditions leave out is looked at, too."""
     sources = sources or Sources()
     for path, text in fixture.files.items():
         sources.open(path, text)
+    given = dict(args or {})
+    context = replace(_evaluated(fixture, sources, given, frozenset()), why_not_run=why_not_run)
+    if branches:
+        ask = partial(_what_if, fixture, sources)
+        found = branches_of(context.tree, context.launch_files, given, ask)
+        documents = {**found.documents, **context.documents}
+        context = replace(context, documents=documents, of_branches=tuple(each for each, _ in found.findings))
+    tree = context.tree
+    annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
+    if fixture.interfaces is None and not annotated:
+        return context
+    graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}), external)
+    return replace(context, graph=graph)
+
+
+def _what_if(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> WhatIf:
+    context = _evaluated(fixture, sources, args, assumed)
+    return WhatIf(context.tree, context.documents, context.launch_files, tuple(found_in_branch(context)))
+
+
+def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> Context:
     environment = environment_of(fixture)
     executables, results = _EveryExecutable(environment), _Results(fixture.commands)
-    tree = evaluate_launch(fixture.root, args or {}, sources, executables, environment, "/", results)
+    tree = evaluate_launch(fixture.root, args, sources, executables, environment, "/", results, assumed=assumed)
     documents: dict[str, Document] = {}
     launch_files = {}
     for path in (*tree.files, *tree.inputs):
@@ -162,21 +188,8 @@ def analyse(
             text = sources.text(path)
             if isinstance(text, Document):
                 documents[path] = text
-    context = Context(
-        fixture.root,
-        tree,
-        documents,
-        launch_files,
-        environment,
-        ExecutableIndex(environment, sources),
-        sources,
-        why_not_run=why_not_run,
-    )
-    annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
-    if fixture.interfaces is None and not annotated:
-        return context
-    graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}), external)
-    return replace(context, graph=graph)
+    index = ExecutableIndex(environment, sources)
+    return Context(fixture.root, tree, documents, launch_files, environment, index, sources)
 
 
 def findings_of(text: str, **options: Any) -> list[Finding]:

@@ -123,7 +123,10 @@ class _Reader:
     def _of_root(self, name: str, text: str) -> Iterator[Assignment]:
         arg = self._tree.args.get(name)
         now = (arg.value if arg.value is not None else arg.default) if arg is not None else None
-        yield {name: _in_style(text, now)}
+        # What is not empty counts as true in an expression: that says nothing of which text it has to be. And nobody
+        # empties an argument to see what its file does without.
+        if text and (text not in ("true", "false") or now is None or now.lower() in _WORDS):
+            yield {name: _in_style(text, now)}
 
     def _parts(
         self, parts: Sequence[Literal | Substitution], text: str, file: str, chain: Origin
@@ -184,8 +187,8 @@ def _any_of(each: Iterable[_Found]) -> Iterator[Assignment]:
 
 
 def _all_of(each: Iterable[_Found]) -> Iterator[Assignment]:
-    """Each combination in which no argument has two values."""
-    for combination in product(*(list(islice(found(), MOST)) for found in each)):
+    """Each combination in which no argument has two values. What cannot be read backwards may be right as it is."""
+    for combination in product(*(list(islice(found(), MOST)) or [{}] for found in each)):
         merged: dict[str, str] = {}
         if all(merged.setdefault(name, text) == text for one in combination for name, text in one.items()):
             yield merged
@@ -232,7 +235,7 @@ def _solved(node: ast.expr, wanted: bool, names: Mapping[str, str] | None) -> It
             yield from _solved(inner, not wanted, names)
         case ast.BoolOp(op=op, values=values):
             if isinstance(op, ast.And) == wanted:
-                for several in product(*(list(islice(_solved(v, wanted, names), MOST)) for v in values)):
+                for several in product(*(list(islice(_solved(v, wanted, names), MOST)) or [()] for v in values)):
                     yield tuple(each for one in several for each in one)
             else:
                 for value in values:
@@ -283,7 +286,7 @@ def _constant(node: ast.expr, names: Mapping[str, str] | None) -> str | None:
     return None
 
 
-def named_values(value: Value) -> frozenset[str]:
-    """The arguments, packages and variables that a value names."""
-    named = (first_word(part)[0] for part in nested(value.parts) if part.command != "eval")
-    return frozenset((*named, *(name for name, _ in arg_references(value))))
+def named_arguments(value: Value) -> frozenset[str]:
+    """The arguments that a value names."""
+    compared = (part for part in nested(value.parts) if part.command in _COMPARISONS)
+    return frozenset((*(first_word(part)[0] for part in compared), *(name for name, _ in arg_references(value))))

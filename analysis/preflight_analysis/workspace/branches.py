@@ -8,16 +8,18 @@ were taken, and what is found in it is less sure.
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.inversion import Assignment, assignments, named_values
+from preflight_analysis.evaluation.inversion import Assignment, assignments, named_arguments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.rules.problems import INCLUDED_HERE
 
 MAX_WHAT_IFS = 24
@@ -26,6 +28,9 @@ _MAX_ASSUMED = 3
 """Of these, how often the tags are taken that stand in tags which no arguments take."""
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _Key = tuple[tuple[str, str], ...]
+_OF_ARGUMENTS = "ARG"
+_ARGUMENT = re.compile(r"\$\((?:arg|var|eval)\b")
+_ONE_ARGUMENT = re.compile(r"\s*\$\((?:arg|var)\s[^()]*\)\s*")
 _LONGEST = 60
 """Characters of a condition in a message."""
 
@@ -45,11 +50,12 @@ class WhatIf:
 class Branches:
     """What is found in the tags that a launch leaves out, each finding with the text that it is about. `documents` are
     those of the files that it speaks of, `untried` is the number of tags that were not looked into, as there are so
-    many."""
+    many. `pending` are the runs of Python launch files that have yet to be made to know more."""
 
     findings: tuple[tuple[Finding, str], ...] = ()
     documents: Mapping[str, Document] = field(default_factory=dict, compare=False, repr=False)
     untried: int = 0
+    pending: tuple[str, ...] = ()
 
 
 Ask = Callable[[Assignment, frozenset[Location]], WhatIf]
@@ -70,12 +76,15 @@ class _Search:
         self._findings: dict[tuple[str, Location], tuple[Finding, str]] = {}
         self._documents: dict[str, Document] = {}
         self._untried: set[Location] = set()
+        self._pending: list[str] = []
 
     def branches(self) -> Branches:
         """All that is found."""
         for key, left_out in self._by_arguments().items():
             self._assume(dict(key), left_out)
-        return Branches(tuple(self._findings.values()), self._documents, len(self._untried))
+        return Branches(
+            tuple(self._findings.values()), self._documents, len(self._untried), tuple(dict.fromkeys(self._pending))
+        )
 
     def _by_arguments(self) -> dict[_Key, list[NotTaken]]:
         """Look at each branch that arguments take. Gives the others, by the arguments that lead there."""
@@ -94,7 +103,8 @@ class _Search:
                     self._untried.add(tag)
                     break
                 if takes(what_if.tree, left_out):
-                    self._note(what_if.found, _shown(wanted, self._given), what_if.documents)
+                    found = (each for each in what_if.found if not _is_given(each, what_if.documents))
+                    self._note(found, _shown(wanted, self._given), what_if.documents)
                     queue.extend((wanted, what_if.tree, each) for each in _open(what_if.tree))
                     break
             else:
@@ -111,6 +121,7 @@ class _Search:
         found = self._what_ifs.get(key)
         if found is None and self._has_room():
             found = self._what_ifs[key] = self._ask(args, frozenset())
+            self._pending += (each.line for each in found.tree.commands if each.launch_file and each.result is None)
             self._launch_files = {**found.launch_files, **self._launch_files}
         return found
 
@@ -123,7 +134,7 @@ class _Search:
         todo = {each.origin[-1]: each for each in left_out}
         taken: dict[Location, NotTaken] = {}
         for _ in range(_MAX_ASSUMED):
-            todo = {tag: each for tag, each in todo.items() if tag not in taken and not _speaks_of_condition(each)}
+            todo = {tag: each for tag, each in todo.items() if tag not in taken}
             if not todo:
                 return
             if not self._has_room():
@@ -132,7 +143,8 @@ class _Search:
             taken |= todo
             what_if = self._ask(args, frozenset(taken))
             for each in todo.values():
-                doubted = (_doubted(found) for found in what_if.found if _stands_in(found, each))
+                found = (found for found in what_if.found if _stands_in(found, each))
+                doubted = (_doubted(found) for found in found if not _depends(found, each, what_if.documents))
                 self._note(doubted, _in_words(each), what_if.documents)
             inside = (
                 each for each in _open(what_if.tree) if any(_holds(outer, each.origin) for outer in todo.values())
@@ -143,9 +155,7 @@ class _Search:
         for finding in found:
             key = (finding.rule, finding.location)
             if key not in self._findings:
-                document = documents.get(finding.location.file)
-                text = document.text[slice(*finding.location.span)] if document is not None else ""
-                self._findings[key] = _under(finding, condition), text
+                self._findings[key] = _under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
 
@@ -194,16 +204,29 @@ def _doubted(finding: Finding) -> Finding:
     return replace(finding, severity=less, confidence="possible")
 
 
-def _speaks_of_condition(left_out: NotTaken) -> bool:
-    """Whether what is in the tag is made of that which its condition asks about: it would be another one there."""
-    asked = named_values(left_out.written)
-    values = (
-        attribute.value
+def _is_given(finding: Finding, documents: Mapping[str, Document]) -> bool:
+    """Whether it is about the value of an argument as it is: one that is not given where nobody asks for it."""
+    return not finding.rule.startswith(_OF_ARGUMENTS) and _ONE_ARGUMENT.fullmatch(_text(finding, documents)) is not None
+
+
+def _depends(finding: Finding, left_out: NotTaken, documents: Mapping[str, Document]) -> bool:
+    """Whether it depends on arguments: where a tag is not taken they may be others than where it is. What is said of
+    the arguments themselves does not."""
+    if finding.rule.startswith(_OF_ARGUMENTS):
+        return False
+    if finding.location.file == left_out.origin[-1].file and not finding.location.file.endswith(PYTHON_SUFFIX):
+        return _ARGUMENT.search(_text(finding, documents)) is not None
+    return any(
+        named_arguments(attribute.value)
         for action in left_out.action.walk()
         for attribute in action.attributes
         if attribute.value != left_out.written
     )
-    return any(not asked.isdisjoint(named_values(value)) for value in values)
+
+
+def _text(finding: Finding, documents: Mapping[str, Document]) -> str:
+    document = documents.get(finding.location.file)
+    return document.text[slice(*finding.location.span)] if document is not None else ""
 
 
 def _stands_in(finding: Finding, left_out: NotTaken) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -29,7 +29,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Cancelled, Database, query
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import LaunchFile
@@ -104,10 +104,16 @@ class Analysis(Once):
 
     def with_branches(self, branches: Branches) -> Analysis:
         """The analysis with what was found in tags that it leaves out, as far as its text is still the same."""
-        documents = {**branches.documents, **self.documents}
-        context = replace(self.context, documents=documents)
+        if not branches.findings:
+            return self
+        context = replace(self.context, documents={**branches.documents, **self.documents})
         found = tuple(finding for finding, text in branches.findings if context.text(finding.location) == text)
-        return replace(self, documents=documents, context=replace(context, of_branches=found))
+        return replace(self, context=replace(context, of_branches=found))
+
+    @property
+    def all_documents(self) -> Mapping[str, Document]:
+        """The documents with those that only what is left out reaches."""
+        return {**self.context.documents, **self.documents}
 
     @property
     def launch(self) -> Root:
@@ -235,12 +241,15 @@ class Workspace:
             launch=node.location.file,
         )
 
-    def branches(self, analysis: Analysis) -> Branches:
+    def branches(self, analysis: Analysis, stops: Callable[[], bool] = lambda: False) -> Branches:
         """What is found in the tags that a static analysis leaves out. It takes several evaluations of the launch,
-        which are remembered. Within `Database.reading` it raises `Cancelled` where somebody writes meanwhile."""
+        which are remembered. It raises `Cancelled` when it `stops`, and within `Database.reading` where somebody writes
+        meanwhile."""
         db, path = self.sources.db, analysis.root
 
         def ask(args: Assignment, assumed: frozenset[Location]) -> WhatIf:
+            if stops():
+                raise Cancelled
             return _what_if(db, self, path, tuple(sorted(args.items())), assumed)
 
         return branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask)

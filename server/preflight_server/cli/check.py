@@ -69,7 +69,7 @@ class _Launched:
             tuple(file for file in analysis.tree.files if catalogued_file(file) is None),
             tuple(analysis.tree.inputs),
             analysis.findings,
-            analysis.documents,
+            analysis.all_documents,
             nodes=tuple(interface.source for interface in interfaces),
             untried=untried,
             left_out=frozenset(problem.location.file for problem in tree.problems if problem.kind.leaves_out),
@@ -135,7 +135,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                 project = launch.workspace.analysed(root.path, dict(root.args))
                 settings = os.path.join(launch.home, SETTINGS_FILE)
                 if not changed or touched(project.analysis, changed[launch.home], settings):
-                    branches = launch.workspace.workspace.branches(project.analysis)
+                    branches = launch.workspace.branches(project.analysis)
                     project = replace(project, analysis=project.analysis.with_branches(branches))
                     found.append(_Launched.of(root, run_nodes(project, args, report=progress.part), branches.untried))
     finally:

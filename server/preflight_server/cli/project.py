@@ -18,9 +18,10 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.kept_traces import KeptTraces
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
-from preflight_analysis.workspace.commands import CommandResults
+from preflight_analysis.workspace.branches import Branches
+from preflight_analysis.workspace.commands import CommandResults, run_commands
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.resolve_commands import resolve_together
+from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS, resolve_together
 from preflight_analysis.workspace.run_results import RunResults, node_keys, with_results
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -83,6 +84,25 @@ class OpenWorkspace:
         """A launch file with its arguments."""
         self.run_commands([Root.of(path, values)])
         return Project(self.workspace, self.workspace.static(path, values))
+
+    def branches(self, analysis: Analysis) -> Branches:
+        """What is found in the tags that an analysis leaves out, once the Python launch files are run that these
+        include."""
+        found = self.workspace.branches(analysis)
+        for _ in range(MAX_ROUNDS):
+            lines = [line for line in found.pending if line not in self._tried]
+            if self.no_run or not lines:
+                break
+            self._tried.update(lines)
+            cancel = threading.Event()
+            try:
+                self.results.update(run_commands(self._runner, lines, cancel))
+            except KeyboardInterrupt:
+                cancel.set()
+                raise
+            self.workspace.look_at_results()
+            found = self.workspace.branches(analysis)
+        return found
 
     @cached_property
     def _runner(self) -> CommandRunner:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from lsprotocol import types
 from preflight_analysis.findings.contexts import RootFindings, lacks_once
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing, missing
+from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.merged import counting, merged
 from preflight_analysis.workspace.run_results import RunResults, with_results
@@ -37,6 +40,15 @@ class Round:
     """Whether the graph of the one that was analysed is still missing."""
 
 
+def branches_of(workspace: Workspace, root: Root, stops: Callable[[], bool]) -> Branches | None:
+    """What is found in the tags that a launch leaves out; None where something was written before that was known, or
+    it `stops`. Call it in a thread."""
+    static = workspace.static(root.path, dict(root.args))
+    with suppress(Cancelled), workspace.sources.db.reading():
+        return workspace.branches(static, stops)
+    return None
+
+
 @dataclass(frozen=True, slots=True)
 class Snapshot:
     """A session at one moment. `root` is to be analysed, None where only the findings are to be put together anew."""
@@ -44,6 +56,8 @@ class Snapshot:
     root: Root | None
     results: RunResults
     """Of its nodes."""
+    branches: Branches
+    """What was found last in the tags that it leaves out."""
     analyses: Mapping[Root, Analysis]
     stale: Collection[Root]
     """Those of them that an edit made out of date."""
@@ -63,7 +77,7 @@ class Snapshot:
             workspace.refresh()
         root, analyses, preliminary = self.root, dict(self.analyses), False
         if root is not None:
-            static = workspace.static(root.path, dict(root.args))
+            static = workspace.static(root.path, dict(root.args)).with_branches(self.branches)
             preliminary = root not in analyses and len(static.tree.nodes) >= LARGE
             whole = static if preliminary else with_results(workspace, static, self.results, analyses.get(root))
             analyses[root] = whole
@@ -81,7 +95,9 @@ class Snapshot:
             if root in reports and path in reports[root].files:
                 findings[path] = merged([reports[root]]).get(path, ())
         newest_last = sorted(shown_roots, key=lambda root: root not in self.stale)
-        documents = {path: document for root in newest_last for path, document in shown_roots[root].documents.items()}
+        documents = {
+            path: document for root in newest_last for path, document in shown_roots[root].all_documents.items()
+        }
         before = self.before.converter if self.before is not None else None
         converter = Converter(self.texts, documents, related=self.shows_related, before=before)
         shown = {path: kept.get(lacks_once, path, found) for path, found in findings.items()}

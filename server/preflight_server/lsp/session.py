@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
@@ -25,6 +26,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
+from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.run_results import RunResults
 from preflight_analysis.workspace.sources import Sources
@@ -35,7 +37,7 @@ from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
 from preflight_server.lsp.root_choice import RootChoice
-from preflight_server.lsp.rounds import Round, Snapshot
+from preflight_server.lsp.rounds import Round, Snapshot, branches_of
 from preflight_server.lsp.runs import Runs
 from preflight_server.lsp.settings import Settings
 from preflight_server.lsp.text_store import OpenDocument
@@ -97,6 +99,11 @@ class Session:
         """Roots whose analysis is out of date, and the edit that made it so."""
         self._broken: dict[Root, int] = {}
         """Roots whose analysis raised, and the edit at which it did: it is not tried again before the next."""
+        self._branches: dict[Root, Branches] = {}
+        """What was found last in the tags that each root leaves out."""
+        self._branches_of: dict[Root, int] = {}
+        """The edit at which that was looked for."""
+        self._branching: asyncio.Task[None] | None = None
         self._touched: set[str] | None = set()
         """The files that changed since the analysis that is being made began; None: any may have."""
         self._edits = 0
@@ -429,6 +436,30 @@ class Session:
         finally:
             self._settle()
         self.runs.wake()
+        if self._branching is None or self._branching.done():
+            self._branching = self._server.spawn(self._look_into_branches())
+
+    async def _look_into_branches(self) -> None:
+        """Evaluate what conditions leave out, while all that is shown is up to date: no edit waits for it, and the next
+        one ends it."""
+        with contextlib.suppress(asyncio.CancelledError):
+            while self._settled.is_set() and not self._closed:
+                root = next((r for r in self._wanted() if self._branches_of.get(r) != self._edits), None)
+                workspace, edit = self._workspace, self._edits
+                if root is None or workspace is None:
+                    break
+                try:
+                    found = await self.in_pool(partial(branches_of, workspace, root, lambda: self._closed))
+                except Exception:
+                    _log.exception("what %s leaves out could not be looked at", root)
+                    found = Branches()
+                if found is None or edit != self._edits:
+                    continue
+                self._branches_of[root] = edit
+                if found != self._branches.get(root, Branches()):
+                    self._branches[root] = found
+                    self._dirty[root] = self._edits
+                    self._start()
 
     def _is_due(self, root: Root) -> bool:
         if self._broken.get(root) == self._edits:
@@ -476,6 +507,7 @@ class Session:
         return Snapshot(
             root,
             self.runs.results(root) if root is not None else RunResults(),
+            self._branches.get(root, Branches()) if root is not None else Branches(),
             {root: analysis for root, analysis in self._analyses.items() if root in wanted},
             frozenset(self._dirty) - {root},
             frozenset((*self._choice.selected.values(), *self.indexing.named)),
@@ -491,6 +523,8 @@ class Session:
         wanted = set(self._wanted())
         self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
         self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
+        self._branches = {root: found for root, found in self._branches.items() if root in wanted}
+        self._branches_of = {root: edit for root, edit in self._branches_of.items() if root in wanted}
         self._last = round_
         current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
         clean = {

@@ -1,0 +1,262 @@
+"""What conditions leave out is looked at, with the arguments under which it bites."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.branches import MAX_WHAT_IFS
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.check import check
+
+
+def test_what_an_argument_leaves_out_is_looked_at() -> None:
+    (group, param) = check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <group if="$(arg sim)">
+            <include file="$(find p)/none.launch"/>
+                           ^^^^^^^^^^^^^^^^^^^^^ error[LCH013] 'p/none.launch' does not exist (if sim:=true)
+          </group>
+          <param name="a" value="$(arg nme)" if="$(arg sim)"/>
+                                 ^^^^^^^^^^ error[ARG001] argument 'nme' is not declared (if sim:=true)
+        </launch>
+        """,
+        branches=True,
+    )
+    assert [group.condition, param.condition] == ["sim:=true"] * 2
+    assert not group.stops_launch
+    assert group.confidence == "certain"
+
+
+@pytest.mark.parametrize(
+    ("argument", "condition", "asked"),
+    [
+        ('default="true"', 'unless="$(arg a)"', "a:=false"),
+        ('default="1"', 'unless="$(arg a)"', "a:=0"),
+        ('default="False"', 'if="$(arg a)"', "a:=True"),
+        ('default="no"', "if=\"$(eval a == 'yes')\"", "a:=yes"),
+        ('default="no"', "unless=\"$(eval arg('a') != 'yes')\"", "a:=yes"),
+        ('default="no"', "if=\"$(eval a.lower() in ['yes', 'y'])\"", "a:=yes"),
+        ('default="false"', 'if="$(eval a and 1)"', "a:=true"),
+        ('default="3"', 'if="$(eval 4 == a)"', "a:=4"),
+        ("", 'if="$(arg a)"', "a:=true"),
+        ("", 'unless="$(arg a)"', "a:=false"),
+    ],
+)
+def test_a_condition_is_read_backwards(argument: str, condition: str, asked: str) -> None:
+    text = f'<launch><arg name="a" {argument}/><include file="/none.launch" {condition}/></launch>'
+    assert asked in [found.condition for found in _ros1(text)]
+
+
+def test_over_an_include_and_a_default() -> None:
+    check(
+        """
+        <launch>
+          <arg name="robot" default="pr2"/>
+          <arg name="sim" default="false"/>
+          <include file="/b.launch">
+            <arg name="kind" value="$(arg robot)"/>
+            <arg name="real" value="$(eval not sim)"/>
+          </include>
+        </launch>
+        //- /b.launch
+        <launch>
+          <arg name="kind"/>
+          <arg name="real" default="true"/>
+          <arg name="fake" default="$(eval not real)"/>
+          <group if="$(eval kind == 'hsr')"><include file="/hsr.launch"/></group>
+                                                           ^^^^^^^^^^^ error[LCH013] '/hsr.launch' does not exist (if robot:=hsr)
+          <include if="$(arg fake)" file="/fake.launch"/>
+                                          ^^^^^^^^^^^^ error[LCH013] '/fake.launch' does not exist (if sim:=true)
+        </launch>
+        """,
+        branches=True,
+    )
+
+
+def test_a_tag_in_a_tag_that_is_left_out() -> None:
+    check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <arg name="world" default="empty"/>
+          <group if="$(arg sim)">
+            <group if="$(eval world == 'office')"><include file="/office.launch"/></group>
+                                                                 ^^^^^^^^^^^^^^ error[LCH013] (if sim:=true world:=office)
+          </group>
+        </launch>
+        """,
+        branches=True,
+    )
+
+
+def test_what_a_branch_implies_counts() -> None:
+    check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <arg if="$(arg sim)" name="base" value="gazebo"/>
+          <arg unless="$(arg sim)" name="base" value="real"/>
+          <include file="/$(arg base).launch"/>
+                         ^^^^^^^^^^^^^^^^^^^ error[LCH013] '/gazebo.launch' does not exist (if sim:=true)
+          <group if="$(arg sim)"><include file="/only_$(arg base).launch"/></group>
+        </launch>
+        //- /real.launch
+        <launch/>
+        //- /only_gazebo.launch
+        <launch/>
+        """,
+        branches=True,
+    )
+
+
+def test_a_condition_that_cannot_be_read_backwards_is_assumed_and_in_doubt() -> None:
+    findings = check(
+        """
+        <launch>
+          <group if="$(optenv ROBOT_REAL false)">
+            <include file="/none.launch"/>
+                           ^^^^^^^^^^^^ warning[LCH013] does not exist (if $(optenv ROBOT_REAL false) is true)
+            <group if="$(optenv ROBOT_ARM false)"><include file="/arm.launch"/></group>
+                                                                 ^^^^^^^^^^^ warning[LCH013] (if $(optenv ROBOT_ARM false) is true)
+          </group>
+        </launch>
+        """,
+        branches=True,
+    )
+    assert {found.confidence for found in findings} == {"possible"}
+
+
+def test_what_may_be_another_value_where_a_tag_is_taken_is_left_alone() -> None:
+    check(
+        """
+        <launch>
+          <arg name="robot" default="pr2"/>
+          <arg name="path" default="false"/>
+          <arg name="load" default="false"/>
+          <include if="$(optenv ARM false)" file="/$(arg robot)_arm.launch"/>
+          <include if="$(arg load)" file="$(arg path)"/>
+          <include unless="$(eval robot == 'pr2')" file="/other_than_$(arg robot).launch"/>
+          <include if="$(eval robot == '')" file="/robot$(arg robot).launch"/>
+        </launch>
+        """,
+        branches=True,
+    )
+
+
+def test_what_is_commented_out_by_a_plain_word_is_left_alone() -> None:
+    found = _ros1('<launch><include if="false" file="/none.launch"/><include unless="1" file="/n.launch"/></launch>')
+    assert {finding.rule for finding in found} == {"LCH025"}
+
+
+def test_what_is_said_without_a_condition_is_said_once() -> None:
+    (finding,) = check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <param name="sim" value="1" if="$(arg sim)"/>
+          <include file="/none.launch"/>
+                         ^^^^^^^^^^^^ error[LCH013] '/none.launch' does not exist
+        </launch>
+        """,
+        branches=True,
+    )
+    assert finding.condition == ""
+
+
+def test_a_tag_that_is_taken_in_another_context_is_not_tried() -> None:
+    check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <include file="/b.launch"><arg name="on" value="true"/></include>
+          <include file="/b.launch"><arg name="on" value="$(arg sim)"/></include>
+        </launch>
+        //- /b.launch
+        <launch><arg name="on"/><include if="$(arg on)" file="/c.launch"/></launch>
+        //- /c.launch
+        <launch/>
+        """,
+        branches=True,
+    )
+
+
+def test_a_suppressed_finding_of_a_branch_makes_its_comment_useful() -> None:
+    check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <!-- preflight: ignore[LCH013] not here -->
+          <include if="$(arg sim)" file="/none.launch"/>
+        </launch>
+        """,
+        branches=True,
+    )
+
+
+def test_there_is_an_end(tmp_path: Path) -> None:
+    args = "".join(f'<arg name="a{n}" default="false"/>' for n in range(MAX_WHAT_IFS + 3))
+    tags = "".join(f'<include if="$(arg a{n})" file="/none{n}.launch"/>' for n in range(MAX_WHAT_IFS + 3))
+    path = tmp_path / "a.launch"
+    path.write_text(f"<launch>{args}{tags}</launch>")
+    workspace = _workspace(1)
+    found = workspace.branches(workspace.static(str(path)))
+    assert (len(found.findings), found.untried) == (MAX_WHAT_IFS, 3)
+
+
+ROS2 = {
+    "launch.xml": """<launch>
+  <arg name="sim" default="false"/>
+  <arg name="mode" default="slam"/>
+  <include file="/sim.launch.py" if="$(var sim)"/>
+  <include file="/nav.launch.py" if="$(equals $(var mode) nav)"/>
+  <include file="/both.launch.py" if="$(and $(var sim) $(not $(equals $(var mode) slam)))"/>
+  <include file="/eval.launch.py" if="$(eval '\\'$(var mode)\\' == \\'map\\'')"/>
+</launch>""",
+    "launch.yaml": """launch:
+- arg: {name: sim, default: 'false'}
+- arg: {name: mode, default: slam}
+- include: {file: /sim.launch.py, if: $(var sim)}
+- include: {file: /nav.launch.py, if: $(equals nav $(var mode))}
+- include: {file: /eval.launch.py, unless: $(not-equals $(var mode) map)}
+""",
+}
+
+
+@pytest.mark.parametrize("suffix", ROS2)
+def test_in_ros_2(suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"a.{suffix}"
+    path.write_text(ROS2[suffix])
+    workspace = _workspace(2)
+    doubtful = "$(and $(var sim) $(not $(equals $(var mode) slam))) is true"
+    found = {finding.message.split("'")[1]: finding.condition for finding, _ in _found(workspace, path)}
+    assert found.pop("/both.launch.py", doubtful) == doubtful
+    assert found == {"/sim.launch.py": "sim:=true", "/nav.launch.py": "mode:=nav", "/eval.launch.py": "mode:=map"}
+
+
+def test_an_argument_of_an_included_file_is_set_from_outside_in_ros_2(tmp_path: Path) -> None:
+    (tmp_path / "a.launch.xml").write_text(f'<launch><include file="{tmp_path}/b.launch.xml"/></launch>')
+    (tmp_path / "b.launch.xml").write_text(
+        '<launch><arg name="gui" default="false"/><include if="$(var gui)" file="/none.launch.xml"/></launch>'
+    )
+    ((finding, text),) = _found(_workspace(2), tmp_path / "a.launch.xml")
+    assert (finding.condition, text) == ("gui:=true", "/none.launch.xml")
+
+
+def _ros1(text: str) -> list[Finding]:
+    from support.check import findings_of
+
+    return findings_of(text, branches=True)
+
+
+def _workspace(generation: int) -> Workspace:
+    return Workspace(detect_environment(None, {"ROS_VERSION": str(generation)}, ()), Sources())
+
+
+def _found(workspace: Workspace, path: Path) -> tuple[tuple[Finding, str], ...]:
+    return workspace.branches(workspace.static(str(path))).findings
