@@ -10,7 +10,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.branches import MAX_WHAT_IFS
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from support.check import check
+from support.check import check, findings_of
 
 
 def test_what_an_argument_leaves_out_is_looked_at() -> None:
@@ -69,8 +69,10 @@ def test_over_an_include_and_a_default() -> None:
           <arg name="kind"/>
           <arg name="real" default="true"/>
           <arg name="fake" default="$(eval not real)"/>
-          <group if="$(eval kind == 'hsr')"><include file="/hsr.launch"/></group>
-                                                           ^^^^^^^^^^^ error[LCH013] '/hsr.launch' does not exist (if robot:=hsr)
+          <group if="$(eval kind == 'hsr')">
+            <include file="/hsr.launch"/>
+                           ^^^^^^^^^^^ error[LCH013] '/hsr.launch' does not exist (if robot:=hsr)
+          </group>
           <include if="$(arg fake)" file="/fake.launch"/>
                                           ^^^^^^^^^^^^ error[LCH013] '/fake.launch' does not exist (if sim:=true)
         </launch>
@@ -86,8 +88,10 @@ def test_a_tag_in_a_tag_that_is_left_out() -> None:
           <arg name="sim" default="false"/>
           <arg name="world" default="empty"/>
           <group if="$(arg sim)">
-            <group if="$(eval world == 'office')"><include file="/office.launch"/></group>
-                                                                 ^^^^^^^^^^^^^^ error[LCH013] (if sim:=true world:=office)
+            <group if="$(eval world == 'office')">
+              <include file="/office.launch"/>
+                             ^^^^^^^^^^^^^^ error[LCH013] does not exist (if sim:=true world:=office)
+            </group>
           </group>
         </launch>
         """,
@@ -122,8 +126,10 @@ def test_a_condition_that_cannot_be_read_backwards_is_assumed_and_in_doubt() -> 
           <group if="$(optenv ROBOT_REAL false)">
             <include file="/none.launch"/>
                            ^^^^^^^^^^^^ warning[LCH013] does not exist (if $(optenv ROBOT_REAL false) is true)
-            <group if="$(optenv ROBOT_ARM false)"><include file="/arm.launch"/></group>
-                                                                 ^^^^^^^^^^^ warning[LCH013] (if $(optenv ROBOT_ARM false) is true)
+            <group if="$(optenv ROBOT_ARM false)">
+              <include file="/arm.launch"/>
+                             ^^^^^^^^^^^ warning[LCH013] does not exist (if $(optenv ROBOT_ARM false) is true)
+            </group>
           </group>
         </launch>
         """,
@@ -249,8 +255,6 @@ def test_an_argument_of_an_included_file_is_set_from_outside_in_ros_2(tmp_path: 
 
 
 def _ros1(text: str) -> list[Finding]:
-    from support.check import findings_of
-
     return findings_of(text, branches=True)
 
 

@@ -93,8 +93,9 @@ def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
 
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
-    points. `findings` has one for each cause, `rules` counts all places. `files`, `evaluated`, `nodes`, `traced` and
-    `known` are the counts, `environment` is what is missing."""
+    points. `findings` has one for each cause, with a `condition` where it needs other arguments than those of its root;
+    `rules` counts all places. `files`, `evaluated`, `nodes`, `traced` and `known` are the counts, `environment` is what
+    is missing."""
     coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
@@ -203,7 +204,7 @@ def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[s
         "severity": finding.severity,
         "confidence": finding.confidence,
         "message": finding.message,
-        "condition": finding.condition,
+        **({"condition": finding.condition} if finding.condition else {}),
         "file": finding.location.file,
         "range": _range_json(finding.location, documents),
         "related": [

@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.inversion import Assignment, assignments, named_arguments
@@ -176,8 +177,10 @@ def _outcomes(tree: LaunchTree) -> frozenset[tuple[Location, str, bool]]:
 
 
 def _open(tree: LaunchTree) -> Iterator[NotTaken]:
-    """What is left out by more than a plain word: that is how tags are commented out."""
-    return (each for each in tree.not_taken if not each.written.is_literal)
+    """What is left out by more than a plain word, which is how tags are commented out, in files that can be mended."""
+    return (
+        each for each in tree.not_taken if not each.written.is_literal and catalogued_file(each.origin[-1].file) is None
+    )
 
 
 def _key(args: Assignment) -> _Key:
