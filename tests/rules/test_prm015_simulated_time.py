@@ -29,6 +29,43 @@ def test_simulated_time() -> None:
     check(launch.format(expected="", clock='<node pkg="p" exec="clock" name="clock"/>', interfaces=told))
 
 
+def test_simulated_time_is_shown_where_it_is_given() -> None:
+    (finding,) = check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="time" default="true"/>
+                                    ^^^^ info[PRM015] use_sim_time is true
+          <include file="/arm.launch.xml"><arg name="sim" value="$(var time)"/></include>
+        </launch>
+        //- /arm.launch.xml
+        <launch>
+          <arg name="sim" default="false"/>
+          <arg name="other" default="true"/>
+          <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="$(var sim)"/></node>
+          <node pkg="p" exec="b" name="b"><param name="c" value="$(var other)"/></node>
+        </launch>
+        //- interfaces
+        {"/a": {}, "/b": {"params": {"c": false}}}
+    """)
+    assert finding.related[0].message == "/a gets it here"
+    assert finding.related[0].location.file == "/arm.launch.xml"
+
+
+def test_a_plain_value_is_shown_where_it_is() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="c" default="true"/>
+          <node pkg="p" exec="a" name="a">
+            <param name="use_sim_time" value="true"/><param name="c" value="$(var c)"/>
+                         ^^^^^^^^^^^^ info[PRM015] use_sim_time is true
+          </node>
+        </launch>
+        //- interfaces
+        {"/a": {"params": {"c": false}}}
+    """)
+
+
 def test_nodes_on_two_clocks() -> None:
     check("""
         //- /robot.launch.xml

@@ -2,13 +2,18 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
+_FAR = 40
+"""Characters between the name of a parameter and its value."""
+_ENDS = frozenset(",<>{}")
+_MOST_STEPS = 10
 _TIMELESS = ("static_transform_publisher",)
 """What it sends holds at any time."""
 
@@ -27,13 +32,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     )
     if not has_clock:
         node, param = on[0]
+        given = _given(context, param.place)
+        related = include_chain(node.origin)
+        if given != param.place:
+            related = (Related(f"{node.name} gets it here", param.place), *related)
         yield rule.finding(
             "use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
             "`ros2 bag play --clock` beside it, time stands still",
-            param.place,
+            given,
             severity="info",
             confidence="likely" if graph.complete else "possible",
-            related=include_chain(node.origin),
+            related=related,
         )
     simulated = {id(node) for node, _ in on}
     off = [
@@ -49,6 +58,28 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             confidence="possible",
             related=(Related(f"true for {on[0][0].name}", on[0][1].place), *include_chain(off[0].origin)),
         )
+
+
+def _given(context: Context, place: Location) -> Location:
+    """Where the value is written of the parameter whose name is at a place: from one argument to the next, back to a
+    default or to what an include passes."""
+    for _ in range(_MOST_STEPS):
+        use = next((use for use in context.tree.uses if _gives(context, use, place)), None)
+        if use is None or use.origin[-1] == place:
+            break
+        place = use.origin[-1]
+    return place
+
+
+def _gives(context: Context, use: Use, place: Location) -> bool:
+    """Whether a use of an argument is the value at the place, or of the name that is there."""
+    if use.kind != "arg" or not use.origin or use.location.file != place.file or use.value is None:
+        return False
+    near = place.span.start <= use.location.span.start < place.span.end + _FAR
+    if not near or use.value.lower() != "true" or (document := context.documents.get(place.file)) is None:
+        return False
+    # Behind a comma or the end of a tag is something else.
+    return not _ENDS.intersection(document.text[place.span.end : use.location.span.start])
 
 
 def _sim_time(node: LaunchNode) -> Param | None:
