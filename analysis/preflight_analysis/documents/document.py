@@ -59,26 +59,18 @@ class Attribute(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
+class Text(Movable):
     """Character data or CDATA between tags."""
 
     content: SpannedText
 
-    def moved(self, by: int) -> Text:
-        """The same where the text in front of it has become longer by so many characters."""
-        return Text(self.content.moved(by))
-
 
 @dataclass(frozen=True, slots=True)
-class Comment:
+class Comment(Movable):
     """`<!-- text -->`; `span` covers the delimiters."""
 
     content: SpannedText
     span: Span
-
-    def moved(self, by: int) -> Comment:
-        """The same where the text in front of it has become longer by so many characters."""
-        return Comment(self.content.moved(by), self.span.moved(by))
 
 
 @dataclass(frozen=True, slots=True)

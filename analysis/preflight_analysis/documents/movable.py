@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from preflight_analysis.incremental.once import Once
@@ -10,6 +11,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
 
+@dataclass(frozen=True, slots=True)
 class Movable(Once):
     """A base for immutable objects with slots whose fields are texts, other scalars, what has `moved`, or tuples of
     such: what is parsed of a part of a text.
@@ -18,48 +20,39 @@ class Movable(Once):
     nearly all of them nobody wants to know more than where they begin.
     """
 
-    __slots__ = ("_by", "_original")
-    _by: int
-    _original: Self
+    _original: Self | None = field(default=None, init=False, repr=False, compare=False)
+    moved_by: int = field(default=0, init=False, repr=False, compare=False)
+    """How far it is from where its original is."""
 
     def moved(self, by: int) -> Self:
         """The same where the text in front of it has become longer by so many characters."""
-        original, by = self.original, self.moved_by + by
+        original, by = self._original or self, self.moved_by + by
         if not by:
             return original
         new = object.__new__(type(self))
         object.__setattr__(new, "_original", original)
-        object.__setattr__(new, "_by", by)
+        object.__setattr__(new, "moved_by", by)
         return new
 
     @property
     def original(self) -> Self:
         """What this one was moved from, itself where it was not. What is made of that `once` is made once, however
         often it moves."""
-        try:
-            return self._original
-        except AttributeError:
-            return self
-
-    @property
-    def moved_by(self) -> int:
-        """How far it was moved from there."""
-        try:
-            return self._by
-        except AttributeError:
-            return 0
+        return self._original or self
 
     def __getattr__(self, name: str) -> Any:
         """A field that nobody has asked for yet."""
-        if name.startswith("_"):
-            raise AttributeError(name)
-        value = moved(getattr(self._original, name), self._by)
+        if name.startswith("_") or self._original is None:
+            raise AttributeError(f"{type(self).__name__} has no {name}", name=name, obj=self)
+        value = moved(getattr(self._original, name), self.moved_by)
         object.__setattr__(self, name, value)
         return value
 
 
 def moved(value: Any, by: int) -> Any:
     """What a field of a `Movable` may be, moved."""
+    if not by:
+        return value
     if type(value) is tuple:
         return tuple([moved(item, by) for item in value])
     return value.moved(by) if hasattr(value, "moved") else value

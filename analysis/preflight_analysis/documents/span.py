@@ -101,7 +101,7 @@ class LineIndex:
     @property
     def _starts(self) -> list[int]:
         if self._offsets is None:
-            self._offsets = [0, *(found.end() for found in _LINE_END.finditer(self.text))]
+            self._offsets = _line_starts(self.text)
         return self._offsets
 
     def __len__(self) -> int:
@@ -142,8 +142,9 @@ class LineIndex:
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of `offset`, both counted from 0, the column in code points."""
         offset = max(0, min(offset, len(self.text)))
-        line = bisect_right(self._starts, offset) - 1
-        return line, offset - self._starts[line]
+        starts = self._offsets or self._starts
+        line = bisect_right(starts, offset) - 1
+        return line, offset - starts[line]
 
     def line_start(self, line: int) -> int:
         """Offset of the first character of `line`, counted from 0; the end of the text for lines past it."""
@@ -181,6 +182,14 @@ class LineIndex:
 
     def __hash__(self) -> int:
         return hash(self.text)
+
+
+def _line_starts(text: str) -> list[int]:
+    if "\r" in text:
+        return [0, *(found.end() for found in _LINE_END.finditer(text))]
+    starts = [0, *accumulate([len(line) + 1 for line in text.split("\n")])]
+    starts.pop()  # the last line has no end
+    return starts
 
 
 _NUMBERS = itertools.count()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterable
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
 P = ParamSpec("P")
 T = TypeVar("T")
+Item = TypeVar("Item", bound="Once")
 
 
 class Once:
@@ -25,8 +26,22 @@ class Once:
             made = self._made
         except AttributeError:
             object.__setattr__(self, "_made", made := {})
-        key = (make, *arguments) if arguments else make
+        key = (make, *arguments)
         if key not in made:
             made[key] = make(self, *arguments, **none)
         result: T = made[key]
         return result
+
+
+def each_once(
+    items: Iterable[Item], make: Callable[Concatenate[Item, P], T], /, *arguments: P.args, **none: P.kwargs
+) -> list[T]:
+    """`item.once(make, *arguments)` for each item, for many of them."""
+    key = (make, *arguments)
+    found: list[T] = []
+    for item in items:
+        try:
+            found.append(item._made[key])
+        except (AttributeError, KeyError):
+            found.append(item.once(make, *arguments, **none))
+    return found

@@ -14,7 +14,7 @@ from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.movable import Movable, moved
 from preflight_analysis.documents.span import Span
-from preflight_analysis.incremental.once import Once
+from preflight_analysis.incremental.once import Once, each_once
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -141,10 +141,15 @@ class Action(Movable):
         of one tag whose results a `Movable` may hold; of the tags right below this one that have only moved they are
         those of before."""
         found = [*find(self, *shared, **none)]
-        for child in self.children:
-            if below := child.original.once(_gathered, find, shared):
-                found += moved(below, by) if (by := child.moved_by) else below
+        originals = self.once(_original_children)
+        for child, below in zip(self.children, each_once(originals, _gathered, find, shared), strict=True):
+            if below:
+                found += moved(below, child.moved_by)
         return found
+
+
+def _original_children(action: Action) -> tuple[Action, ...]:
+    return tuple([child.original for child in action.children])
 
 
 def _gathered(action: Action, find: Callable[..., Iterable[T]], shared: tuple[Any, ...]) -> tuple[T, ...]:

@@ -34,16 +34,20 @@ LAUNCH_FOLDER = "launch"
 LAUNCH_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
 """What launch calls in a Python launch file."""
 
-_ONLY_ROS2 = (
+# Each begins with what is quickly found: all of a long file is looked through on each keystroke.
+_TAGS_OF_ROS2 = re.compile(
     r"""<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
     r"""|unset_env|append_env|node_container|composable_node|load_composable_node|executable|timer)[\s/>]"""
-    r"""|<arg\s[^<>]*\bdescription\s*=|<(?:node|test)\s[^<>]*\bexec\s*=|<param\s[^<>]*\bfrom\s*="""
 )
-"""Tags and attributes that roslaunch never had."""
-_NEVER_ROS1 = re.compile(_ONLY_ROS2)
-_ROS2_MARKS = re.compile(
-    r"""\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"""
-    r"""|<log[\s/>]|<include\s[^<>]*\.(?:py|ya?ml)["']|""" + _ONLY_ROS2
+_TAG_OF_BOTH = re.compile(r"<(arg|node|test|param)\s([^<>]*)")
+_ATTRIBUTES_OF_ROS2 = {"arg": "description", "node": "exec", "test": "exec", "param": "from"}
+"""By tag one that it never had in roslaunch."""
+_ROS2_MARKS = (
+    re.compile(
+        r"\$\((?:var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|filename|not|and|or|equals|not-equals)\s"
+    ),
+    re.compile(r"<log[\s/>]"),
+    re.compile(r"""<include\s[^<>]*\.(?:py|ya?ml)["']"""),
 )
 _ROS1_MARKS = re.compile(
     r"""\$\((?:arg|find|optenv)\s|<(?:rosparam|machine|test)[\s/>]"""
@@ -97,16 +101,25 @@ def generation_of(path: str, text: str, undecided: int = 1, of_package: OfPackag
     if path.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX)):
         return 2
     code = without_comments(text)
-    ros2, ros1 = _ROS2_MARKS.search(code), _ROS1_MARKS.search(code)
-    if ros2 is not None and ros1 is None:
+    never_ros1 = _is_never_ros1(code)
+    ros2, ros1 = never_ros1 or any(mark.search(code) for mark in _ROS2_MARKS), _ROS1_MARKS.search(code) is not None
+    if ros2 and not ros1:
         return 2
-    if ros1 is not None and ros2 is None:
+    if ros1 and not ros2:
         # By that name, and in a package of ROS 2, it is one that speaks the older language by mistake.
         return 2 if path.endswith(".launch.xml") and of_package(path) == 2 else 1
     found = of_package(path)
-    if found is None and ros2 is not None:  # what only ROS 2 has, beside what both have had at some time
-        return 2 if _NEVER_ROS1.search(code) is not None else 1
+    if found is None and ros2:  # what only ROS 2 has, beside what both have had at some time
+        return 2 if never_ros1 else 1
     return found or undecided
+
+
+def _is_never_ros1(code: str) -> bool:
+    """Whether a tag or an attribute is there that roslaunch never had."""
+    return _TAGS_OF_ROS2.search(code) is not None or any(
+        (name := _ATTRIBUTES_OF_ROS2[tag]) in rest and re.search(rf"\b{name}\s*=", rest) is not None
+        for tag, rest in _TAG_OF_BOTH.findall(code)
+    )
 
 
 def generation_of_manifest(text: str) -> int | None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import compress
 
 from preflight_analysis.documents.document import Document, Element
+from preflight_analysis.incremental.once import each_once
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.substitutions import parse_value
 from preflight_analysis.launch.xml_actions import MAX_DEPTH, action_of
@@ -26,7 +28,8 @@ def _find_launch(document: Document) -> Iterator[Element]:
         yield from (element for element in level if element.tag == "launch")
         level = [below for element in level for below in element.elements]
         if depth == 0:
-            level = [element for element in level if element.original.once(_has_launch)]
+            originals = [element.original for element in level]
+            level = [*compress(level, each_once(originals, _has_launch))]
         if not level:
             return
 

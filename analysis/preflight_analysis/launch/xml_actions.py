@@ -18,7 +18,7 @@ def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Acti
     """The action of an element and those below it; `parse_value`, a pure function, cuts its values into pieces."""
     comments: list[SpannedText] = []
     children: list[Action] = []
-    texts: list[SpannedText] = []
+    texts: list[Text] = []
     for child in element.children:
         if isinstance(child, Element):
             if depth == 0:
@@ -29,7 +29,7 @@ def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Acti
         elif isinstance(child, Comment):
             comments.append(child.content)
         elif isinstance(child, Text):
-            texts.append(child.content)
+            texts.append(child)
     return Action(
         element.tag,
         element.tag_span,
@@ -42,11 +42,11 @@ def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Acti
     )
 
 
-def _body(texts: list[SpannedText], element: Element, parse_value: ParseValue) -> Value:
+def _body(texts: list[Text], element: Element, parse_value: ParseValue) -> Value:
     if len(texts) == 1:
-        return parse_value(texts[0])
+        return parse_value(texts[0].content)
     if not texts:
         return Value("", Span(element.open_span.end, element.open_span.end), ())
-    span = Span(texts[0].span.start, texts[-1].span.end)
+    span = Span(texts[0].content.span.start, texts[-1].content.span.end)
     # Several pieces (CDATA, comments between): one text without a way back to single characters.
-    return Value("".join(t.text for t in texts), span, ())
+    return Value("".join([text.original.content.text for text in texts]), span, ())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix
@@ -10,14 +10,6 @@ from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse
-
-
-def by_namespace(context: Context) -> Mapping[str, list[Param]]:
-    """All of them, `/a/b/c` under `/a/b` and `/c` under the empty text. Ask through `context.once`."""
-    groups: dict[str, list[Param]] = {}
-    for param, namespace in zip(context.tree.all_params, context.once(_each_namespace), strict=True):
-        groups.setdefault(namespace, []).append(param)
-    return groups
 
 
 def namespaces(context: Context) -> frozenset[str]:

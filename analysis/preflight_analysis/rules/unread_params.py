@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from rapidfuzz.distance import OSA
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import by_namespace, grouped
+from preflight_analysis.rules.parameters import grouped
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
@@ -38,7 +38,17 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     graph = context.graph
     if graph is None or not any(reports_params(interface) for interface in graph.interfaces):
         return ()
-    return tuple(_unread(context, graph))
+    tree = graph.tree
+    return context.kept.get(
+        _unread,
+        None,
+        tree.nodes,
+        graph.interfaces,
+        graph.param_reads,
+        tree.all_params,
+        context.tree.all_params,
+        tree.complete,
+    )
 
 
 def reports_params(interface: Interface) -> bool:
@@ -83,10 +93,24 @@ class _Reads:
         return "/" in self.names or not self.names.isdisjoint(namespaces)
 
 
-def _unread(context: Context, graph: Graph) -> Iterator[Unread]:
-    groups = context.once(by_namespace)
-    reads = _collect(graph, groups)
-    nodes = {node.name: node for node in graph.tree.nodes}
+def _unread(
+    nodes: tuple[LaunchNode, ...],
+    interfaces: tuple[Interface, ...],
+    param_reads: tuple[ParamRead, ...],
+    params: tuple[Param, ...],
+    looked_at: tuple[Param, ...],
+    complete: bool,
+) -> tuple[Unread, ...]:
+    """Those of the parameters that are `looked_at`. `params` are all that are set, `complete` says whether they are."""
+    groups = grouped(looked_at)
+    opaque = {node.name for node, each in zip(nodes, interfaces, strict=True) if not reports_params(each)}
+    reads = _collect(param_reads, {param.name for param in params}, groups, opaque)
+    return tuple(_unread_of(groups, reads, {node.name: node for node in nodes}, complete))
+
+
+def _unread_of(
+    groups: Mapping[str, list[Param]], reads: _Reads, nodes: Mapping[str, LaunchNode], complete: bool
+) -> Iterator[Unread]:
     orphans: list[Param] = []
     by_leaf: dict[str, list[ParamRead]] = {}
     for read in reads.unset.values():
@@ -111,23 +135,25 @@ def _unread(context: Context, graph: Graph) -> Iterator[Unread]:
     for param, read in _misplaced([param for param in orphans if param.name not in reported], reads):
         reported.add(param.name)
         yield Unread(param, None, read)
-    if graph.tree.complete and not reads.opaque:
+    if complete and not reads.opaque:
         for param in orphans:
             found = _shifted_reads(param, by_leaf) if param.name not in reported else ()
             if found:
                 yield Unread(param, None, found[0], len(found) == 1)
 
 
-def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
+def _collect(
+    param_reads: Iterable[ParamRead], params: Collection[str], namespaces: Iterable[str], opaque: set[str]
+) -> _Reads:
+    """`params` are the names of those that are set, `opaque` those of nodes of which it is not known what they read."""
     read_names: set[str] = set()
     searched: set[str] = set()
     asked: dict[str, ParamRead] = {}
     sought: dict[str, ParamRead] = {}
-    opaque = {n.name for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if not reports_params(i)}
     filled = names.with_namespaces(namespaces)
     made: set[str] = set()
     listed = False
-    for read in graph.param_reads:
+    for read in param_reads:
         if read.use.access == "list":
             opaque.add(read.node.name)
             listed = True
@@ -136,13 +162,13 @@ def _collect(graph: Graph, namespaces: Iterable[str]) -> _Reads:
             sought.setdefault(names.leaf(read.use.name.lstrip("~")), read)
         elif read.use.access in ("get", "has"):
             read_names.add(read.name.rstrip("/") or "/")
-            if not read.use.builtin and read.name not in graph.tree.params and read.name not in filled:
+            if not read.use.builtin and read.name not in params and read.name not in filled:
                 asked.setdefault(read.name, read)
         else:
             read_names.add(read.name)
             made.add(read.name)
     unset = {name: read for name, read in asked.items() if name not in made}
-    for name in {names.leaf(name) for name in graph.tree.params} | {names.leaf(name) for name in made}:
+    for name in {names.leaf(name) for name in params} | {names.leaf(name) for name in made}:
         sought.pop(name, None)
     prefixes = frozenset(names.with_namespaces(name.rpartition("/")[0] for name in read_names))
     return _Reads(frozenset(read_names), prefixes, frozenset(searched), unset, frozenset(opaque), sought, listed)

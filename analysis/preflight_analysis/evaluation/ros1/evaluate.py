@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from functools import partial
 
@@ -49,6 +49,7 @@ from preflight_analysis.evaluation.ros1.tags import (
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
 from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.hashed import Hashed
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
 
@@ -167,13 +168,13 @@ def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
 
 
 def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
-    within: Hashable = None
+    within: Hashed | None = None
     made = 0
     for action in actions:
         if action.kind in ("node", "test"):
             # Those that follow each other have the same scope, but for the anonymous names that one of them makes.
             if within is None or len(scope.anonymous) != made:
-                within, made = tags_key_of(scope, default_machine), len(scope.anonymous)
+                within, made = _within(state, scope, default_machine), len(scope.anonymous)
             _node(state, scope, action, default_machine, within)
             continue
         within = None
@@ -199,11 +200,21 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
     return default_machine
 
 
-def _node(state: State, scope: Scope, action: Action, default_machine: str | None, within: Hashable) -> None:
+def _within(state: State, scope: Scope, default_machine: str | None) -> Hashed | None:
+    """All of a scope that the tags of nodes in it depend on, the same object while that is equal; None where nothing
+    of them can be remembered."""
+    db, key = state.files.db, tags_key_of(scope, default_machine)
+    if key is None or not db.is_making:
+        return None
+    hashed = Hashed(key)
+    return db.part(hashed, lambda: hashed)
+
+
+def _node(state: State, scope: Scope, action: Action, default_machine: str | None, within: Hashed | None) -> None:
     """As `evaluate_node`: what the tag added in the same scope is added again, where it says and stands the same.
     `within` is all of the scope that it depends on; None where nothing can be remembered."""
     db = state.files.db
-    if within is None or not db.is_making:
+    if within is None:
         evaluate_node(state, scope, action, default_machine)
         return
     lines, source = scope.lines.lines_of(action.span), scope.lines.text[slice(*action.span)]
