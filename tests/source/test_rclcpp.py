@@ -219,6 +219,26 @@ def test_a_base_class_of_another_package(harness: Harness) -> None:
     assert params(found) == {"~size": 1.0}
 
 
+@pytest.mark.parametrize(
+    ("used", "cls"),
+    [
+        ("using robot::sensors::Driver;", "Driver"),
+        ("namespace rs = robot::sensors;", "rs::Driver"),
+        ("using namespace robot::sensors;", "Driver"),
+        ("", "robot::sensors::Driver"),
+    ],
+)
+def test_members_are_defined_by_a_shorter_name_of_their_class(harness: Harness, used: str, cls: str) -> None:
+    before = f"""
+        namespace robot {{ namespace sensors {{ class Driver : public rclcpp::Node {{ public: Driver(); void more(); }}; }} }}
+        {used}
+        {cls}::Driver() : rclcpp::Node("driver") {{ more(); }}
+        void {cls}::more() {{ create_publisher<std_msgs::msg::String>("state", 1); }}
+        """
+    found = harness.main("auto driver = std::make_shared<robot::sensors::Driver>();", before=before)
+    assert [e.name for e in found.endpoints] == ["state"]
+
+
 def test_a_base_class_that_is_not_there(harness: Harness) -> None:
     before = """
         class Driver : public vendor::DriverNode {

@@ -48,20 +48,25 @@ class CppProgram:
         self.includes = tuple(include for file in self.files for include in file.includes)
         for file in self.files:
             for path, functions in file.functions.items():
-                whole = self._whole(path)
+                whole = self._whole(path, file)
                 found = functions if whole == path else [replace(each, scope=whole[:-1]) for each in functions]
                 self.functions.setdefault(whole, []).extend(found)
             for path, variable in file.variables.items():
-                whole = self._whole(path)
+                whole = self._whole(path, file)
                 known = self.variables.get(whole)
                 if known is None or known.value is None:
                     self.variables[whole] = replace(variable, scope=whole[:-1])
 
-    def _whole(self, path: Path) -> Path:
-        """The name of a member that is defined outside of its class, where namespaces that are used are left out."""
+    def _whole(self, path: Path, file: FileText) -> Path:
+        """The name of a member that is defined outside of its class, where namespaces that are used are left out, or
+        the file has another name for the class or its namespace."""
         cls = path[:-1]
         if not cls or cls in self.classes:
             return path
+        for length in range(len(cls), 0, -1):
+            meant = file.aliases.get(cls[:length])
+            if meant is not None and (*(named := path_of(meant[0])), *cls[length:]) in self.classes:
+                return (*named, *path[length:])
         for space in self._namespaces:
             if (*space, *cls) in self.classes:
                 return (*space, *path)

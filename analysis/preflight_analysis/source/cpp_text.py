@@ -143,6 +143,8 @@ def path_of(node: Node | None) -> Path:
         return path_of(node.child_by_field_name("scope")) + path_of(node.child_by_field_name("name"))
     if node.type in ("template_type", "template_function", "template_method", "dependent_name", *_CLASSES):
         return path_of(node.child_by_field_name("name") or first_child(node))
+    if node.type == "nested_namespace_specifier":
+        return tuple(part.strip() for part in text_of(node).split("::"))
     return (text_of(node),)
 
 
