@@ -24,6 +24,7 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "mavlink/mavros": {"noetic": "master", "jazzy": "ros2"},
     # Nodes
     "ros2/geometry2": {"jazzy": "jazzy"},
+    "ros2/rclcpp": {"jazzy": "jazzy"},
     "ros/ros_comm": {"noetic": "noetic-devel"},
     "ros/ros_tutorials": {"noetic": "noetic-devel", "jazzy": "rolling"},
     "ros/nodelet_core": {"noetic": "noetic-devel"},
