@@ -171,7 +171,8 @@ def test_what_is_missing_here_is_said_once_and_is_no_finding() -> None:
 
 
 def test_one_cause_in_several_places_is_shown_once() -> None:
-    text = to_text(Report.of([finding("error", f"/{n}.launch", 1) for n in range(8)], {}, Coverage()))
+    same = [finding("error", f"/{n}.launch", 1, "package 'p' is not known") for n in range(8)]
+    text = to_text(Report.of(same, {}, Coverage()))
     assert text.count("error ABC001") == 1
     assert text.count("the same here") == 5
     assert "  and in 2 more places\n" in text
@@ -179,13 +180,19 @@ def test_one_cause_in_several_places_is_shown_once() -> None:
 
 
 def test_programs_get_one_finding_for_each_cause() -> None:
-    same = [replace(finding("error", f"/{n}.launch", 1), roots=(f"/{n}.launch",)) for n in range(8)]
+    gone = "there is no /map"
+    same = [replace(finding("error", f"/{n}.launch", 1, gone), roots=(f"/{n}.launch",)) for n in range(8)]
     report = Report.of([*same, finding("error", "/0.launch", 1, "other")], {}, Coverage())
     first, other = to_json(report)["findings"]
     assert [related["file"] for related in first["related"]] == [f"/{n}.launch" for n in range(1, 8)]
     assert first["roots"] == [f"/{n}.launch" for n in range(8)]
     assert (other["message"], other["related"]) == ("other", [])
     assert to_json(report)["rules"] == {"ABC001": {"error": 9}}
+
+
+def test_what_names_nothing_is_of_one_cause_in_one_file() -> None:
+    given = [finding("warning", file, at, "no effect in <include>") for file in ("/a", "/b") for at in (1, 5)]
+    assert [f["file"] for f in to_json(Report.of(given, {}, Coverage()))["findings"]] == ["/a", "/b"]
 
 
 def test_findings_that_point_at_each_other_have_one_cause() -> None:

@@ -230,7 +230,9 @@ def test_a_base_class_of_another_package(harness: Harness) -> None:
 )
 def test_members_are_defined_by_a_shorter_name_of_their_class(harness: Harness, used: str, cls: str) -> None:
     before = f"""
-        namespace robot {{ namespace sensors {{ class Driver : public rclcpp::Node {{ public: Driver(); void more(); }}; }} }}
+        namespace robot {{ namespace sensors {{
+        class Driver : public rclcpp::Node {{ public: Driver(); void more(); }};
+        }} }}
         {used}
         {cls}::Driver() : rclcpp::Node("driver") {{ more(); }}
         void {cls}::more() {{ create_publisher<std_msgs::msg::String>("state", 1); }}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -162,17 +163,24 @@ def _by_rule(report: Report) -> dict[str, list[Severity]]:
     return found
 
 
+_NAMED = re.compile(r"'|(?<!<)/\w")
+"""In a message that says what is wrong with something of a name, not only what kind of mistake it is."""
+
+
 def _causes(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
-    """Findings that say the same of several places, or of which each points at the other's place, together."""
-    found: dict[tuple[str, Severity, str], list[Finding]] = {}
+    """Findings that say the same of several places, or of which each points at the other's place, together. What names
+    nothing is of one cause in one file only."""
+    found: dict[tuple[str, Severity, str, str], list[Finding]] = {}
     pointing: dict[tuple[str, Location, Location], list[Finding]] = {}
     for finding in findings:
-        same = found.get((finding.rule, finding.severity, finding.message))
+        where = "" if _NAMED.search(finding.message) else finding.location.file
+        key = finding.rule, finding.severity, finding.message, where
+        same = found.get(key)
         to = [(related.location, finding.location) for related in finding.related]
         back = (pointing.get((finding.rule, there, here)) for there, here in to)
         group = same if same is not None else next(filter(None, back), None)
         if group is None:
-            group = found[finding.rule, finding.severity, finding.message] = []
+            group = found[key] = []
         group.append(finding)
         for there, here in to:
             pointing.setdefault((finding.rule, here, there), group)
