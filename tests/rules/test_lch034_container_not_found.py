@@ -1,7 +1,7 @@
 """LCH034: components for a container that the launch does not start (ROS 2)."""
 
 import pytest
-from support.check import check
+from support.check import apply, check
 
 
 def test_a_container_that_is_not_there() -> None:
@@ -55,4 +55,46 @@ def test_a_container_in_its_namespace() -> None:
             <composable_node pkg="p" plugin="p::A" name="a"/>
           </load_composable_node>
         </launch>
+    """)
+
+
+def test_a_nodelet_manager_that_is_not_there() -> None:
+    fixture = """
+        <launch>
+          <group ns="camera">
+            <node pkg="nodelet" type="nodelet" name="camera_manager" args="manager"/>
+            <node pkg="nodelet" type="nodelet" name="a" args="load p/A camera_manager"/>
+            <node pkg="nodelet" type="nodelet" name="b" args="load p/B camera_manger --no-bond"/>
+                                                                       ^^^^^^^^^^^^^ warning[LCH034] did you mean
+          </group>
+          <node pkg="nodelet" type="nodelet" name="c" args="load p/C camera_manager"/>
+                                                                     ^^^^^^^^^^^^^^ warning[LCH034] no node
+          <node pkg="nodelet" type="nodelet" name="d" args="load p/D elsewhere"/>
+                                                                     ^^^^^^^^^ hint[LCH034] '/elsewhere'
+        </launch>
+        //- /nodelet/package.xml
+        <package/>
+    """
+    findings = check(fixture)
+    mended = [apply(fixture, f.fixes[0].edits)["/main.launch"] for f in findings if f.fixes]
+    assert "load p/B /camera/camera_manager --no-bond" in mended[0]
+    assert "load p/C /camera/camera_manager" in mended[1]
+
+
+@pytest.mark.silent
+def test_nodelets_whose_manager_is_there_or_that_need_none() -> None:
+    check("""
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="manager" args="manager" ns="camera"/>
+          <node pkg="nodelet" type="nodelet" name="a" args="load p/A manager" ns="camera"/>
+          <node pkg="nodelet" type="nodelet" name="b" args="load p/B /camera/manager"/>
+          <node pkg="nodelet" type="nodelet" name="c" args="load p/C manager">
+            <remap from="manager/load_nodelet" to="/camera/manager/load_nodelet"/>
+          </node>
+          <node pkg="nodelet" type="nodelet" name="d" args="standalone p/D"/>
+          <node pkg="p" type="own_manager" name="own"/>
+          <node pkg="nodelet" type="nodelet" name="e" args="load p/E own"/>
+        </launch>
+        //- /nodelet/package.xml
+        <package/>
     """)

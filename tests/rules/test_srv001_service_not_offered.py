@@ -72,3 +72,19 @@ def test_a_service_that_is_waited_for_may_be_the_one_that_nobody_calls() -> None
                     "answers": ["it waits for the service /load_map, and was told that it is there"],
                     "notes": ["it waits for the service /load_map, and was told that it is there"]}}
     """)
+
+
+@pytest.mark.silent
+def test_a_nodelet_that_asks_for_its_manager_is_lch034s() -> None:
+    check("""
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="manager" args="manager"/>
+          <node pkg="nodelet" type="nodelet" name="a" args="load p/A maneger"/>
+                                                                     ^^^^^^^ warning[LCH034] did you mean '/manager'?
+        </launch>
+        //- /nodelet/package.xml
+        <package/>
+        //- interfaces
+        {"/manager": {"services": {"~load_nodelet": "nodelet/NodeletLoad"}},
+         "/a": {"clients": {"maneger/load_nodelet": "nodelet/NodeletLoad"}}}
+    """)

@@ -1,31 +1,46 @@
-"""LCH034: components for a container that the launch does not start (ROS 2)."""
+"""LCH034: components or nodelets for a container that the launch does not start."""
+
+from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.rules.nearest import did_you_mean, likeness
+from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.tracing.request import split_args
+
+
+@dataclass(frozen=True, slots=True)
+class _Load:
+    """A component or nodelet that is to be loaded: where its container is named, how, and what that is in full."""
+
+    node: LaunchNode
+    location: Location
+    written: str
+    full: str
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
-    loaded: dict[tuple[str, Location], LaunchNode] = {}
-    tags = Tags(context.launch_files)
     nodes = {node.name: node for node in tree.nodes if node.kind != "composable"}
-    for node in tree.nodes:
-        if node.kind != "composable" or not node.container or node.unknowns or _full(node.container) in nodes:
-            continue
-        loaded.setdefault((node.container, _target(context, tags, node, node.container)), node)
+    loads = [*_components(context), *_nodelets(context)]
+    lost: dict[tuple[str, Location], _Load] = {}
+    for load in loads:
+        if not load.node.unknowns and load.full not in nodes:
+            lost.setdefault((load.full, load.location), load)
     containers = {name: node for name, node in nodes.items() if node.kind == "container" or _may_load(node)}
-    filled = {_full(node.container) for node in tree.nodes if node.container}
-    for (container, location), node in loaded.items():
-        full = _full(container)
+    filled = {load.full for load in loads}
+    loaded, container = ("components", "container") if tree.ros.ament else ("nodelets", "manager")
+    for (full, location), load in lost.items():
         leaf = names.leaf(full)
         near = [name for name in containers if names.leaf(name) == leaf]
         if not near:
@@ -34,21 +49,53 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             near = [name for name in containers if name not in filled]
         near = near[:1] if len(near) == 1 else []
         # What an argument says may be the container of another launch, which includes this file.
-        written = context.text(location)
-        given = "$(" in written or container not in written
-        message = f"no node '{full}' is started by this launch, into which components are to be loaded"
-        if near and names.leaf(near[0]) == leaf and not container.startswith("/"):
+        text = context.text(location)
+        given = "$(" in text or load.written not in text
+        message = f"no node '{full}' is started by this launch, into which {loaded} are to be loaded"
+        if near and names.leaf(near[0]) == leaf and tree.ros.ament and not load.written.startswith("/"):
             message += "; a target without a leading slash is below '/', whatever namespace surrounds it"
-        related = tuple(Related("the container that there is", containers[name].location) for name in near)
-        fixes = rename(context, location, container, near[0]) if near else ()
+        related = tuple(Related(f"the {container} that there is", containers[name].location) for name in near)
+        fixes = rename(context, location, load.written, near[0]) if near else ()
         yield rule.finding(
             message + did_you_mean(near[0] if near else None),
             location,
             severity="warning" if near and tree.complete and not given else "hint",
             confidence="likely" if near else "possible",
-            related=(*related, *include_chain(node.origin)),
+            related=(*related, *include_chain(load.node.origin)),
             fixes=fixes,
         )
+
+
+def _components(context: Context) -> Iterator[_Load]:
+    tags = Tags(context.launch_files)
+    for node in context.tree.nodes:
+        if node.kind == "composable" and node.container:
+            yield _Load(node, _target(context, tags, node, node.container), node.container, _full(node.container))
+
+
+def _nodelets(context: Context) -> Iterator[_Load]:
+    """`nodelet load TYPE MANAGER`: its process asks for the service `MANAGER/load_nodelet`."""
+    for node in context.tree.nodes:
+        words = [word for word in split_args(node.args) if not word.startswith("-")] if is_nodelet(node) else []
+        if len(words) > 2 and words[0] == "load":
+            remaps = {source: target for source, (_, target) in effective_remaps(node, 1).items()}
+            service = names.resolve(f"{words[2]}/load_nodelet", node.name)
+            full = remaps.get(service, service).removesuffix("/load_nodelet")
+            yield _Load(node, _word(context, attribute_location(context, node, "args"), words[2]), words[2], full)
+
+
+def is_nodelet(node: LaunchNode) -> bool:
+    """Whether it is the program that loads nodelets or manages them (ROS 1)."""
+    return node.package == "nodelet" and node.executable == "nodelet"
+
+
+def _word(context: Context, place: Location, word: str) -> Location:
+    """The word within the place, where it stands there once."""
+    text = context.text(place)
+    if text.count(word) != 1:
+        return place
+    start = place.span.start + text.index(word)
+    return context.location(place.file, Span(start, start + len(word)))
 
 
 def _target(context: Context, tags: Tags, node: LaunchNode, container: str) -> Location:
@@ -69,22 +116,23 @@ def _full(container: str) -> str:
 
 
 def _may_load(node: LaunchNode) -> bool:
-    return node.executable.startswith("component_container")
+    manages = is_nodelet(node) and split_args(node.args)[:1] == ("manager",)
+    return manages or node.executable.startswith("component_container")
 
 
 RULE = Rule(
     id="LCH034",
     name="container-not-found",
     severity="warning",
-    what="Reports a `<load_composable_node>` (`LoadComposableNodes`) whose target is no node of the launch. Where "
-    "there is a container of that name in another namespace, of nearly that name, or a single one that nothing "
-    "is loaded into, it is a warning; otherwise it is but a hint, as the container may be started elsewhere (ROS 2).",
-    why="launch waits for the service of the container, without end, and the components are never loaded.",
+    what="Reports a `<load_composable_node>` (`LoadComposableNodes`, ROS 2) whose target is no node of the launch, and "
+    "a nodelet that is to be loaded into a manager which is none (ROS 1). Where there is a container of that name in "
+    "another namespace, of nearly that name, or a single one that nothing is loaded into, it is a warning; otherwise "
+    "it is but a hint, as the container may be started elsewhere.",
+    why="The loader waits for the service of the container, without end, and nothing is ever loaded.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'
     '<load_composable_node target="vision">...</load_composable_node>',
     instead='<load_composable_node target="/robot/vision">...</load_composable_node>',
-    generations=(2,),
     check=_check,
     every_root=True,
     in_branches=True,

@@ -29,7 +29,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
     remapped = context.once(meant_endpoints)
-    near = [pair for pair in near_misses(context, "services") if id(pair.consumer) not in remapped]
+    pairs = near_misses(context, "services")
+    near = [pair for pair in pairs if id(pair.consumer) not in remapped and not _loads(pair.consumer)]
     for pair in near:
         message = (
             f"{nodes_looked_at(graph)} offers service '{pair.consumer.name}', which {pair.consumer.node.name} calls; "
@@ -43,7 +44,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     unused = by_type(dangling_providers(context, "services")) if answers else {}
     explained = {id(pair.consumer) for pair in near} | remapped
     for connection in dangling_consumers(context, "services"):
-        if id(connection) not in explained:
+        if id(connection) not in explained and not _loads(connection):
             meant = _meant(connection, answers.get(id(connection.node), ()), unused)
             if graph.blind and meant is None:
                 continue
@@ -57,6 +58,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity="hint" if meant is None else "warning",
                 related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
             )
+
+
+def _loads(connection: Connection) -> bool:
+    """Whether a nodelet asks its manager to be loaded: LCH034 says where that is not there."""
+    return connection.endpoint.type == "nodelet/NodeletLoad" and connection.node.package == "nodelet"
 
 
 def _meant(
