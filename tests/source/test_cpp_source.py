@@ -317,6 +317,28 @@ def test_a_default_has_the_type_of_the_template_argument(harness: Harness) -> No
     assert [type(value) for value in defaults.values()] == [str, float, bool, int, list]
 
 
+def test_a_default_that_is_a_list_in_braces(harness: Harness) -> None:
+    found = harness.read(
+        """
+        template <class T, class U> void param(const ros::NodeHandle& nh, const std::string& name, T& into, U&& other) {
+          if (!nh.param(name, into, std::forward<T>(other))) ROS_WARN("missing");
+        }
+        int main(int argc, char** argv) {
+          ros::init(argc, argv, "t");
+          ros::NodeHandle pnh("~");
+          std::vector<double> matrix;
+          param(pnh, "matrix", matrix, std::vector<double>{ 1, 0, 0 });
+          std::vector<int> one;
+          pnh.param("one", one, std::vector<int>{ 1 });
+          pnh.param("none", one, std::vector<int>{});
+          ros::spin();
+        }
+        """
+    )
+    assert found is not None
+    assert {use.name: use.default for use in found.params} == {"~matrix": [1.0, 0.0, 0.0], "~one": [1], "~none": []}
+
+
 def test_uses_of_parameters(harness: Harness) -> None:
     found = harness.read(
         """

@@ -58,9 +58,7 @@ class Objects(Functions):
         if node.type in ("argument_list", "initializer_list"):
             if type_ is None or pointer:
                 return self._value(first_child(node), scope) if node.named_child_count else None
-            if node.type == "initializer_list" and standard(type_.name) in LISTS | MAPS:
-                return self._make(type_, [Argument(self._value(node, scope))], place, scope)
-            return self._make(type_, self._arguments(node, scope), place, scope)
+            return self._make(type_, self._made_of(type_, node, scope), place, scope)
         value = self._value(node, scope)
         if type_ is None or type_.name in PRIMITIVES:
             return converted(value, type_)
@@ -71,8 +69,18 @@ class Objects(Functions):
     def _new(self, node: Node, scope: Scope) -> Any:
         type_ = self._type(node.child_by_field_name("type"), scope)
         listed = node.child_by_field_name("arguments") or node.child_by_field_name("value")
-        args = self._arguments(listed, scope) if listed is not None else []
-        return self._make(type_, args, self._place(node, scope), scope) if type_ is not None else UNKNOWN
+        if type_ is None:
+            if listed is not None:
+                self._arguments(listed, scope)
+            return UNKNOWN
+        args = self._made_of(type_, listed, scope) if listed is not None else []
+        return self._make(type_, args, self._place(node, scope), scope)
+
+    def _made_of(self, type_: CppType, listed: Node, scope: Scope) -> list[Argument]:
+        """What an object is made of: of a container, what stands in braces are its items."""
+        if listed.type == "initializer_list" and listed.named_child_count and standard(type_.name) in LISTS | MAPS:
+            return [Argument(self._value(listed, scope))]
+        return self._arguments(listed, scope)
 
     def _make(self, type_: CppType, args: list[Argument], place: Place, scope: Scope) -> Any:
         """An object of a type."""
