@@ -70,6 +70,17 @@ def test_an_exception_is_shown_on_the_line_of_the_launch_file(tmp_path: Path) ->
     assert helper.text[other.location.span.start : other.location.span.end].strip() == "return {}[n]"
 
 
+def test_a_file_that_is_not_there_may_be_another_one(tmp_path: Path) -> None:
+    (tmp_path / "params").mkdir()
+    (tmp_path / "params" / "nav2.yaml").touch()
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    said = f"[Errno 2] No such file or directory: '{tmp_path}/params/{{}}'"
+    for name, near in (("nva2.yaml", True), ("slam_toolbox.yaml", False)):
+        analysis = _launched(tmp_path, _error(tmp_path, "FileNotFoundError", said.format(name)))
+        (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+        assert finding.message.endswith("params/nav2.yaml'?") == near
+
+
 def test_an_assert_without_a_message_is_shown(tmp_path: Path) -> None:
     text = "import os\nassert os.path.isdir(\n    '/no/such/folder')\nraise StopIteration\n"
     path = str(tmp_path / "a.launch.py")

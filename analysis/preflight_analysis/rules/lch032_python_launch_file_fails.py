@@ -7,10 +7,12 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.files import nearest_file
 from preflight_analysis.rules.installed import has_ros, lack_of_module
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
+_NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
 _LAUNCH = re.compile(r"launch(_\w+)?\Z")
 
 
@@ -29,11 +31,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 message = _import(context, failed, problem.location.file, has_ros=there)
             case PythonException(error, said, frames):
                 message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
+                near = _near_file(context, error, said)
+                if near is not None:
+                    message += f"; did you mean '{shown(near, context)}'?"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
             rule, problem, message, severity=severity, confidence=confidence, related=related, lack=lack
         )
+
+
+def _near_file(context: Context, error: str, said: str) -> str | None:
+    """The file that was meant by one that is not there."""
+    found = _NO_FILE.search(said) if error == "FileNotFoundError" else None
+    return nearest_file(context.disk, found[1], context.environment) if found else None
 
 
 def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:
