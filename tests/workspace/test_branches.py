@@ -138,6 +138,24 @@ def test_a_condition_that_cannot_be_read_backwards_is_assumed_and_in_doubt() -> 
     assert {found.confidence for found in findings} == {"possible"}
 
 
+def test_tags_of_opposite_conditions_are_never_taken_together() -> None:
+    check(
+        """
+        <launch>
+          <group if="$(env PREFLIGHT_NOT_SET)">
+                     ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH012] is not set
+            <machine name="robot" address="10.0.0.1" user="robot"/>
+          </group>
+          <group unless="$(env PREFLIGHT_NOT_SET)">
+                         ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH012] is not set
+            <machine name="robot" address="10.0.0.1"/>
+          </group>
+        </launch>
+        """,
+        branches=True,
+    )
+
+
 def test_what_may_be_another_value_where_a_tag_is_taken_is_left_alone() -> None:
     check(
         """

@@ -82,7 +82,8 @@ class _Search:
     def branches(self) -> Branches:
         """All that is found."""
         for key, left_out in self._by_arguments().items():
-            self._assume(dict(key), left_out)
+            for together in _compatible(left_out):
+                self._assume(dict(key), together)
         return Branches(
             tuple(self._findings.values()), self._documents, len(self._untried), tuple(dict.fromkeys(self._pending))
         )
@@ -159,6 +160,18 @@ class _Search:
                 self._findings[key] = _under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
+
+
+def _compatible(left_out: Iterable[NotTaken]) -> Iterator[list[NotTaken]]:
+    """The tags, so that no two have opposite conditions: first those that come before their opposite."""
+    first: list[NotTaken] = []
+    opposite: list[NotTaken] = []
+    conditions: set[tuple[str, bool]] = set()
+    for each in left_out:
+        written, wanted = each.written.text.strip(), each.condition == "if"
+        conditions.add((written, wanted))
+        (opposite if (written, not wanted) in conditions else first).append(each)
+    yield from filter(None, (first, opposite))
 
 
 def takes(tree: LaunchTree, left_out: NotTaken) -> bool:
