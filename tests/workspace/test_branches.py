@@ -272,6 +272,20 @@ def test_an_argument_of_an_included_file_is_set_from_outside_in_ros_2(tmp_path: 
     assert (finding.condition, text) == ("gui:=true", "/none.launch.xml")
 
 
+def test_a_truth_value_is_written_as_expressions_of_python_need_it(tmp_path: Path) -> None:
+    (tmp_path / "a.launch.xml").write_text(f'<launch><include file="{tmp_path}/b.launch.xml"/></launch>')
+    (tmp_path / "b.launch.xml").write_text(
+        """<launch>
+          <arg name="slam" default="False"/>
+          <include if="$(var slam)" file="/none.launch.xml"/>
+          <include if="$(eval 'not $(var slam)')" file="$(dirname)/c.launch.xml"/>
+        </launch>"""
+    )
+    (tmp_path / "c.launch.xml").write_text("<launch/>")
+    ((finding, _),) = _found(_workspace(2), tmp_path / "a.launch.xml")
+    assert (finding.rule, finding.condition) == ("LCH013", "slam:=True")
+
+
 def _ros1(text: str) -> list[Finding]:
     return findings_of(text, branches=True)
 

@@ -46,7 +46,7 @@ def assignments(
 ) -> list[Assignment]:
     """The arguments that would take a tag, the likeliest first, each with all of those that are `given`, which is what
     `tree` was evaluated with."""
-    reader = _Reader(tree, launch_files)
+    reader = _Reader(tree, launch_files, left_out.value)
     *chain, tag = left_out.origin
     found = reader.truth(left_out.written.parts, left_out.condition == "if", tag.file, tuple(chain))
     unique: dict[tuple[tuple[str, str], ...], Assignment] = {}
@@ -58,8 +58,10 @@ def assignments(
 
 
 class _Reader:
-    def __init__(self, tree: LaunchTree, launch_files: Mapping[str, LaunchFile]) -> None:
+    def __init__(self, tree: LaunchTree, launch_files: Mapping[str, LaunchFile], value: str | None) -> None:
         self._tree, self._files = tree, launch_files
+        # Python's words are true for conditions and in expressions; others are not known there.
+        self._style = value if value is not None or tree.generation == ROS1.number else str(False)
         self._steps = 0
 
     def truth(
@@ -126,7 +128,7 @@ class _Reader:
         # What is not empty counts as true in an expression: that says nothing of which text it has to be. And nobody
         # empties an argument to see what its file does without.
         if text and (text not in ("true", "false") or now is None or now.lower() in _WORDS):
-            yield {name: _in_style(text, now)}
+            yield {name: _in_style(text, now if now is not None else self._style)}
 
     def _parts(
         self, parts: Sequence[Literal | Substitution], text: str, file: str, chain: Origin

@@ -29,7 +29,8 @@ _MAX_ASSUMED = 3
 """Of these, how often the tags are taken that stand in tags which no arguments take."""
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _Key = tuple[tuple[str, str], ...]
-_OF_ARGUMENTS = "ARG"
+_OF_ARGUMENTS = ("ARG001", "ARG002", "ARG004", "ARG006", "ARG007")
+"""Rules that ask whether arguments are there, and not what they are."""
 _ARGUMENT = re.compile(r"\$\((?:arg|var|eval)\b")
 _ONE_ARGUMENT = re.compile(r"\s*\$\((?:arg|var)\s[^()]*\)\s*")
 _LONGEST = 60
@@ -222,13 +223,13 @@ def _doubted(finding: Finding) -> Finding:
 
 def _is_given(finding: Finding, documents: Mapping[str, Document]) -> bool:
     """Whether it is about the value of an argument as it is: one that is not given where nobody asks for it."""
-    return not finding.rule.startswith(_OF_ARGUMENTS) and _ONE_ARGUMENT.fullmatch(_text(finding, documents)) is not None
+    return finding.rule not in _OF_ARGUMENTS and _ONE_ARGUMENT.fullmatch(_text(finding, documents)) is not None
 
 
 def _depends(finding: Finding, left_out: NotTaken, documents: Mapping[str, Document]) -> bool:
     """Whether it depends on arguments: where a tag is not taken they may be others than where it is. What is said of
     the arguments themselves does not."""
-    if finding.rule.startswith(_OF_ARGUMENTS):
+    if finding.rule in _OF_ARGUMENTS:
         return False
     if finding.location.file == left_out.origin[-1].file and not finding.location.file.endswith(PYTHON_SUFFIX):
         return _ARGUMENT.search(_text(finding, documents)) is not None
