@@ -50,11 +50,12 @@ class PythonHarness:
         prefixes: Sequence[Path] = (),
     ) -> Analysis:
         """The analysis after all that it asks for was run; `why_not` is why nothing is, `variables` are set
-        beside those of ROS, `prefixes` are those of an underlay."""
+        beside those of ROS (an empty one is none at all), `prefixes` are those of an underlay."""
         (self.package / "package.xml").write_text(MANIFEST.format(self.name))
         ros = {"PATH": "/usr/bin:/bin", "ROS_DISTRO": "jazzy", "ROS_VERSION": "2", "LANG": "C.UTF-8"}
         underlay = tuple(map(str, prefixes))
-        environment = detect_environment(None, {**ros, **(variables or {})}, (str(self.folder / "src"),), underlay)
+        given = {name: value for name, value in {**ros, **(variables or {})}.items() if value}
+        environment = detect_environment(None, given, (str(self.folder / "src"),), underlay)
         results = CommandResults(lambda: why_not)
         workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
         if why_not is not None:

@@ -45,7 +45,7 @@ def main() -> int:
     parser.add_argument("--out", type=Path, default=Path("out/python-launch"))
     parser.add_argument("--show", type=int, default=25, help="how many reasons")
     options = parser.parse_args()
-    named = options.projects or sorted(path.name for path in options.sources.iterdir() if not path.name.startswith("."))
+    named = options.projects or sorted(path.parent.name for path in options.sources.glob("*/repo"))
     sums: Counter[str] = Counter()
     reasons: Counter[str] = Counter()
     unknown: Counter[str] = Counter()

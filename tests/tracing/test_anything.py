@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from preflight_analysis.tracing.agents.anything import MAX_TRUE, Anything, is_unknown, unknown_text
+from preflight_analysis.tracing.agents.anything import MAX_ASKED, Anything, is_unknown, unknown_text
 from preflight_analysis.tracing.agents.missing_modules import MissingModules
 
 
@@ -65,7 +65,7 @@ def test_a_loop_over_a_condition_that_is_unknown_ends() -> None:
     unknown = Anything("camera").is_open()
     while unknown:
         count += 1
-    assert MAX_TRUE <= count <= 2 * MAX_TRUE  # the condition may be compiled twice
+    assert MAX_ASKED <= count <= 2 * MAX_ASKED  # the condition may be compiled twice
 
 
 def test_a_stand_in_is_a_base_a_decorator_a_context_and_an_exception() -> None:

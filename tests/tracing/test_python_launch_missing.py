@@ -385,3 +385,43 @@ def generate_launch_description():
     )
     assert [(p.kind, p.fatal) for p in tree.problems] == [(UndeclaredArgument("robot_nam", ("robot_name",)), True)]
     assert names(tree) == ["/one"]
+
+
+def test_a_module_that_building_makes_is_unknown(harness: PythonHarness) -> None:
+    harness.write("p/__init__.py", "")
+    harness.write("p/options.py", "from p._compiled import LEVEL\nNAME = 'known'\n")
+    tree = tree_of(
+        harness,
+        """
+from p.options import LEVEL, NAME
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="p", executable="x", name=NAME, arguments=[str(LEVEL)])])
+""",
+    )
+    assert names(tree) == ["/known"]
+
+
+def test_what_a_program_that_is_not_here_prints_is_unknown(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+import json
+import subprocess
+import no_such_module
+
+def generate_launch_description():
+    printed = subprocess.check_output(["no_such_program", "a"], text=True)
+    done = subprocess.run(["no_such_program"], capture_output=True)
+    try:
+        subprocess.run(["no_such_program"])
+        found = "there"
+    except FileNotFoundError:
+        found = "missing"
+    return LaunchDescription([
+        Node(package="p", executable="x", name="one", arguments=[printed.strip(), json.dumps({"a": no_such_module.B})]),
+        Node(package="p", executable="x", name=found),
+    ])
+""",
+    )
+    assert names(tree) == ["/one", "/missing"]

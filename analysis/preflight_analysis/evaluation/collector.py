@@ -183,9 +183,12 @@ class Collector:
         """Whether a tag is taken, whatever its condition says."""
         return tag in self._assumed
 
-    def note_unknown(self, what: str, reason: str, location: Location, param: str | None = None) -> None:
-        """Note a value that cannot be known, of the parameter `param` if it is one's."""
-        self.unknowns.append(Unknown(what, reason, location, param))
+    def note_unknown(
+        self, what: str, reason: str, location: Location, param: str | None = None, *, decides: bool = False
+    ) -> None:
+        """Note a value that cannot be known, of the parameter `param` if it is one's; `decides`: of which a program
+        makes depend what it does."""
+        self.unknowns.append(Unknown(what, reason, location, param, decides))
 
     def anonymous_name(self, identifier: str) -> str:
         """A fresh name for `$(anon identifier)`, numbered in the order of evaluation."""

@@ -57,6 +57,8 @@ class Unknown:
     param: str | None = None
     """Of a parameter its full name, which is not set therefore, nor is anything below it; `~name` of a private one of
     the nodes to come."""
+    decides: bool = False
+    """Whether a program asks for it in a condition: what it did then is one of two things that it may do."""
 
 
 @exact("value", "by_launch")

@@ -63,6 +63,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     of_documents = context.kept.each(_suppressions, context.documents.values())
     suppressions = {path: found for path, found in zip(context.documents, of_documents, strict=True) if found}
     chains = _first_chains(context)
+    guessed = {unknown.location.file for unknown in context.tree.unknowns if unknown.decides}
     sorted_findings: list[Finding] = []
     for path in sorted({*by_file, *suppressions}):
         silenced = suppressions.get(path, ())
@@ -77,6 +78,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             context.root,
             chosen,
             tuple(ran) if silenced else (),
+            path in guessed,
         )
     context.kept.end()
     return sorted_findings
@@ -153,8 +155,12 @@ def _of_file(
     root: str,
     rules: tuple[Rule, ...],
     ran: tuple[str, ...],
+    is_guessed: bool,
 ) -> tuple[Finding, ...]:
-    """What is said of one file, of what the rules found there. `document` is that of a file with `suppressions`."""
+    """What is said of one file, of what the rules found there. `document` is that of a file with `suppressions`;
+    `is_guessed`: it is a program, and which branches it takes is not all known."""
+    if is_guessed:
+        findings = tuple(replace(f, confidence="likely") if f.confidence == "certain" else f for f in findings)
     filtered = apply_suppressions(unique(findings), suppressions, document)
     kept = [_in_context(finding, chain, root) for finding in filtered.kept]
     judge = next((rule for rule in rules if rule.unused_suppression is not None), None)

@@ -50,6 +50,7 @@ _READS_ENVIRONMENT = re.compile(r"\b(?:environ|getenv)\b")
 _NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
 """What no run is told, whatever its file asks for."""
 _PACKAGE_ERROR = "PackageNotFoundError"
+_GUESSED = "a condition depends on it, and only one of its branches is known"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
 
 
@@ -342,6 +343,7 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
         if state.files.exists(path):
             continue  # a file of the host's is what it is, whatever the run says
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
+    _guessed(state, place, run, reply.get("guessed"), origin)
     _missed(state, context, place, run, reply.get("missed"), origin)
     error = reply.get("error")
     if isinstance(error, dict):
@@ -386,6 +388,15 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 state.problem(undeclared, _line(place, run, at, origin), fatal=undeclared.not_followed is None)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
+
+
+def _guessed(state: Collector, place: Place, run: PythonRun, guessed: object, origin: Origin) -> None:
+    """The conditions of the file that are not known, one branch of which it took."""
+    for each in guessed if isinstance(guessed, list) else ():
+        match each:
+            case [str(name), at]:
+                there = _line(place, run, at, origin)[-1]
+                state.note_unknown(readable(name), _GUESSED, there, decides=True)
 
 
 def _line(place: Place, run: PythonRun, at: object, origin: Origin) -> Origin:

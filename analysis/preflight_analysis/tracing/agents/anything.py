@@ -16,20 +16,126 @@ from typing import Any, Callable, Iterator
 BEGIN, END = "\ufdd0", "\ufdd1"
 """Around what a text that is not known stands for: noncharacters, which no file has, and YAML and XML allow."""
 MAX_NAME = 100
-MAX_TRUE = 1000
-"""How often one place of a program finds an unknown condition true: `while camera.is_open()` has an end."""
+MAX_ASKED = 1000
+"""How often one place of a program has one answer to what is not known: `while camera.is_open()` has an end."""
 _EXCEPTIONS = ("Error", "Exception", "Warning", "Interrupt", "Failure", "Timeout")
 _FUNCTIONS = (types.FunctionType, types.MethodType, type)
 
 
+on_condition: list[Callable[[str, Any], None]] = []
+"""Called where a program asks whether something holds that is not known, and goes on in one way of several: with the
+name of what that is, and the frame that asks."""
+
+
+def asked(name: str, frame: Any) -> None:
+    """A program asks whether something of that name holds."""
+    for each in on_condition:
+        each(name, frame)
+
+
+_asked: dict[Any, int] = {}
+
+
+def _too_often(frame: Any) -> bool:
+    """Whether a place of a program asks again and again."""
+    place = (frame.f_code, frame.f_lasti)
+    _asked[place] = _asked.get(place, 0) + 1
+    return _asked[place] > MAX_ASKED
+
+
 def unknown_text(name: str) -> str:
     """A text that is not known; `name` says of what."""
-    return f"{BEGIN}{name[:MAX_NAME].replace(BEGIN, '').replace(END, '')}{END}"
+    text: str = marked(f"{BEGIN}{name[:MAX_NAME].replace(BEGIN, '').replace(END, '')}{END}")
+    return text
 
 
 def is_unknown(text: Any) -> bool:
     """Whether some of a text is not known."""
     return isinstance(text, str) and BEGIN in text
+
+
+def readable(text: str) -> str:
+    """The same for people."""
+    return text.replace(BEGIN, "").replace(END, "")
+
+
+def marked(text: Any) -> Any:
+    """A text; where some of it is not known, and somebody wants to be told of conditions, one that tells."""
+    return UnknownText(text) if on_condition and type(text) is str and BEGIN in text else text
+
+
+class UnknownText(str):
+    """A text of which some is not known: what is made of it stays so, and who compares it with another is told of."""
+
+    __hash__ = str.__hash__
+
+    def __radd__(self, other: Any) -> Any:
+        return marked(str.__add__(other, self)) if isinstance(other, str) else NotImplemented
+
+    def __bool__(self) -> bool:
+        frame = sys._getframe(1)
+        asked(self, frame)
+        return not _too_often(frame)
+
+
+_TEXTS = (
+    *(
+        "__add__",
+        "__getitem__",
+        "__mod__",
+        "__mul__",
+        "capitalize",
+        "casefold",
+        "format",
+        "format_map",
+        "join",
+        "lower",
+    ),
+    *(
+        "lstrip",
+        "removeprefix",
+        "removesuffix",
+        "replace",
+        "rstrip",
+        "strip",
+        "swapcase",
+        "title",
+        "translate",
+        "upper",
+    ),
+)
+_LISTS = ("partition", "rpartition", "rsplit", "split", "splitlines")
+_TRUTHS = (
+    *("__contains__", "__eq__", "__ge__", "__gt__", "__le__", "__lt__", "__ne__", "endswith", "startswith"),
+    *("isalnum", "isalpha", "isdecimal", "isdigit", "isidentifier", "islower", "isnumeric", "isspace", "isupper"),
+)
+
+
+def _of_text(method: Any, result: Callable[[Any], Any]) -> Any:
+    def called(self: Any, *args: Any, **kwargs: Any) -> Any:
+        return result(method(self, *args, **kwargs))
+
+    return called
+
+
+def _truth_of_text(method: Any) -> Any:
+    def called(self: Any, *args: Any) -> Any:
+        frame = sys._getframe(1)
+        asked(self, frame)
+        result = method(self, *args)
+        # Who waits for an answer that pleases gets one.
+        return not result if isinstance(result, bool) and _too_often(frame) else result
+
+    return called
+
+
+for _each in _TEXTS:
+    if hasattr(str, _each):  # an older Python has fewer
+        setattr(UnknownText, _each, _of_text(getattr(str, _each), marked))
+for _each in _LISTS:
+    setattr(UnknownText, _each, _of_text(getattr(str, _each), lambda found: type(found)(map(marked, found))))
+for _each in _TRUTHS:
+    setattr(UnknownText, _each, _truth_of_text(getattr(str, _each)))
 
 
 on_use: list[Callable[[], None]] = []
@@ -114,9 +220,8 @@ class Anything:
     def __bool__(self) -> bool:
         used()
         frame = sys._getframe(1)
-        place = (frame.f_code, frame.f_lasti)
-        _asked[place] = _asked.get(place, 0) + 1
-        return _asked[place] <= MAX_TRUE
+        asked(self._preflight_name, frame)
+        return not _too_often(frame)
 
     def __int__(self) -> int:
         used()
@@ -136,9 +241,16 @@ class Anything:
 
     def __lt__(self, other: Any) -> bool:
         used()
+        asked(self._preflight_name, sys._getframe(1))
         return False
 
     __le__ = __gt__ = __ge__ = __lt__
+
+    def __eq__(self, other: Any) -> bool:
+        asked(self._preflight_name, sys._getframe(1))
+        return self is other
+
+    __hash__ = object.__hash__
 
     # As a collection
 
@@ -148,6 +260,7 @@ class Anything:
         if operation == "UNPACK_EX":
             count = (count & 0xFF) + (count >> 8)
         elif operation != "UNPACK_SEQUENCE":
+            asked(self._preflight_name, sys._getframe(1))
             count = 1
         return iter([self[0] for _ in range(count)])
 
@@ -165,6 +278,7 @@ class Anything:
 
     def __contains__(self, item: Any) -> bool:
         used()
+        asked(self._preflight_name, sys._getframe(1))
         return False
 
     def keys(self) -> list[str]:
@@ -214,9 +328,6 @@ class Anything:
         if isinstance(other, str):
             return other + str(self)
         return type(other)([*other, self]) if isinstance(other, (list, tuple)) else Anything(self._preflight_name)
-
-
-_asked: dict[Any, int] = {}
 
 
 def _same_kind(self: Any, *args: Any) -> Any:

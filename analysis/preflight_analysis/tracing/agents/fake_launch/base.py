@@ -8,9 +8,11 @@ import os
 import sys
 from typing import Any, Iterable, Optional
 
-from ..anything import Anything
+from ..anything import Anything, marked
 
 OURS = os.path.dirname(os.path.abspath(__file__))
+_AGENTS = os.path.dirname(OURS) + os.sep
+_STANDARD_LIBRARY = os.path.dirname(os.path.abspath(os.__file__)) + os.sep
 _STEPS = 200
 """How far up the stack to look for the launch file."""
 _PARTS = 10_000
@@ -31,6 +33,8 @@ class Recorder:
         self.packages: dict[str, str] = {}
         self.positions: dict[Any, list[tuple[Any, ...]]] = {}
         self.missed: dict[tuple[str, str], Any] = {}
+        self.guessed: dict[tuple[str, int], Any] = {}
+        """Where the file asks whether something holds that is not known, by what that is and the line."""
         self.own_xacro = ""
         """The folder of the module that is used where ROS has none."""
         self.unknown = False
@@ -39,14 +43,29 @@ class Recorder:
         """What notes what is read (`reads.Reads`), while something does."""
         self.last_reads: Any = None
 
+    def begin(self) -> None:
+        """A further call begins: the answers to those before tell what was missed in them."""
+        self.missed.clear()
+        self.guessed.clear()
+
     def miss(self, what: str, name: str) -> None:
         """Note a module or package that is not here, where it is asked for first."""
         self.missed.setdefault((what, name), self.place())
         self.unknown = True
 
+    def guess(self, name: str, frame: Any) -> None:
+        """Note that a program goes on in one way of several, as it asks for something that is not known."""
+        file = frame.f_code.co_filename
+        if not file.startswith((_AGENTS, _STANDARD_LIBRARY, "<frozen")) and "-packages" + os.sep not in file:
+            place = self.place_of(frame)
+            self.guessed.setdefault((str(name), place[0] if place is not None else 0), place)
+
     def place(self) -> Optional[list[int]]:
         """Line and column (-1: not known) in the launch file of the call that is going on."""
-        frame = sys._getframe(2)
+        return self.place_of(sys._getframe(2))
+
+    def place_of(self, frame: Any) -> Optional[list[int]]:
+        """That of the call that leads to a frame."""
         for _ in range(_STEPS):
             if frame.f_code.co_filename == self.file:
                 return self._position(frame)
@@ -337,7 +356,8 @@ def normalize_to_list_of_entities(entities: Any) -> list[Any]:
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    return "".join([context.perform_substitution(sub) for sub in subs])
+    text: str = marked("".join([context.perform_substitution(sub) for sub in subs]))
+    return text
 
 
 def is_a(obj: Any, entity_type: type) -> bool:

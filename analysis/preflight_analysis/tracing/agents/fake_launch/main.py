@@ -18,7 +18,7 @@ import types
 import zlib
 from typing import Any, Callable, Optional
 
-from ..anything import BEGIN, AnyBase, Anything
+from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from . import installed, reads, unknown_files
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
@@ -28,6 +28,8 @@ MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log")
+_SOURCED = {"ROS_DISTRO": unknown_text("the variable ROS_DISTRO"), "ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}
+"""Variables that are set wherever ROS 2 launches something; here none may be installed."""
 _fork = os.fork
 _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 
@@ -40,6 +42,8 @@ def main() -> None:
     RECORDER.file, RECORDER.packages, RECORDER.own_xacro = job["file"], job["packages"], job["own_xacro"]
     for name, value in job.get("given", {}).items():
         os.environ.setdefault(name, value)  # what the sandbox sets itself, such as HOME, is so in it
+    for name, value in _SOURCED.items():
+        os.environ.setdefault(name, value)
     os.environ.update(job["env"])
     sys.argv = ["ros2", "launch", job["file"]]
     sys.path[:0] = job["paths"]
@@ -62,6 +66,7 @@ def _answer(work: Callable[[], dict[str, Any]]) -> str:
         result = {"error": _error_record(error)}
     if RECORDER.last_reads is not None:
         result["read"] = RECORDER.last_reads.record()
+    result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
     result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
     result["files"] = _files()
     return json.dumps(result)
@@ -98,7 +103,7 @@ def _branch(branch: dict[str, Any]) -> Optional[str]:
 
 
 def _in_branch(branch: dict[str, Any]) -> dict[str, Any]:
-    RECORDER.missed.clear()
+    RECORDER.begin()
     return _call(branch)
 
 
@@ -109,6 +114,7 @@ def _write(files: dict[str, str]) -> None:
 
 
 def _run(job: dict[str, Any]) -> dict[str, Any]:
+    on_condition.append(RECORDER.guess)
     install()
     installed.install(job["installed"])
     reads.install()
@@ -119,7 +125,7 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     changed = {k: v for k, v in os.environ.items() if environment.get(k) != v}
     result: dict[str, Any] = {"actions": actions, "env": changed}
     for call in job["calls"]:
-        RECORDER.missed.clear()  # they are told by the answers to what came before
+        RECORDER.begin()
         result = _call(call)
     return result
 
@@ -156,7 +162,7 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
     """Execute an action, or perform a substitution or condition."""
     thing = RECORDER.made[call["id"]]
     context = LaunchContext()
-    before = call["configurations"]
+    before = {name: marked(value) for name, value in call["configurations"].items()}
     context.launch_configurations = given = reads.Configurations(before)
     context.extend_globals(
         {"current_launch_file_path": call["file"], "current_launch_file_directory": os.path.dirname(call["file"])}
@@ -166,9 +172,11 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
     environment = dict(os.environ)
     with reads.noted():
         if call["what"] == "perform":
-            if isinstance(thing, Condition):
-                return {"text": str(thing.evaluate(context)).lower()}
-            return {"text": str(thing.perform(context))}
+            is_condition = isinstance(thing, Condition)
+            text = str(thing.evaluate(context)).lower() if is_condition else str(thing.perform(context))
+            # The file that it wrote is known but for what it wrote of that.
+            is_guess = RECORDER.guessed and not is_unknown(text) and not os.path.isfile(text)
+            return {"text": unknown_text(next(iter(RECORDER.guessed))[0]) if is_guess else text}
         actions = _executed(thing, context)
         if context.launch_configurations is not given:
             given.preflight_read_all()

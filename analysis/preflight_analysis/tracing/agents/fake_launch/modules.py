@@ -77,9 +77,12 @@ def _more(module: str) -> Any:
 
 
 def _stands_in(name: str) -> bool:
-    """Whether a module is of a package that is not here, and of which we have some modules."""
+    """Whether a module is of a package that is not here, and of which we have some modules; or one that is compiled
+    when its package, of which there is the source alone, is built."""
     top = name.partition(".")[0]
     spec = getattr(sys.modules.get(top), "__spec__", None)
+    if name.rpartition(".")[2].startswith("_") and getattr(spec, "origin", None):
+        return "-packages" + os.sep not in spec.origin  # type: ignore[union-attr]
     return top in _FALLBACK_TOP and isinstance(getattr(spec, "loader", None), _Loader)
 
 

@@ -11,7 +11,7 @@ import shutil
 import subprocess
 from typing import Any, Optional
 
-from ..anything import unknown_text
+from ..anything import marked, unknown_text
 from ..missing_modules import provided_for
 from .base import (
     RECORDER,
@@ -53,7 +53,8 @@ class LaunchConfiguration(Worded):
     def perform(self, context: LaunchContext) -> str:
         name = self._text(context, 0)
         if name in context.launch_configurations:
-            return str(context.launch_configurations[name])
+            text: str = marked(str(context.launch_configurations[name]))
+            return text
         if len(self.words) == 2:
             return self._text(context, 1)
         if provided_for(caller(), _FAILURE):

@@ -13,11 +13,12 @@ import importlib.util
 import io
 import os
 import pathlib
+import shutil
 import sys
 import xml.dom.minidom
 from typing import Any, Callable
 
-from ..anything import BEGIN, Anything, is_unknown, unknown_text
+from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, unknown_text
 from ..missing_modules import provided_for
 from .base import OURS, RECORDER
 
@@ -88,6 +89,11 @@ class _Guards(importlib.abc.MetaPathFinder):
 
 
 def _guard(module: Any, names: Any) -> None:
+    if module.__name__ == "yaml":
+        for representer in (module.representer.SafeRepresenter, module.representer.Representer):
+            representer.add_representer(UnknownText, module.representer.SafeRepresenter.represent_str)
+    elif module.__name__ == "json":
+        module.JSONEncoder.default = _as_json(module.JSONEncoder.default)
     for name in names:
         function = getattr(module, name, None)
         if callable(function):
@@ -106,12 +112,33 @@ def _guarded(function: Any, name: str) -> Any:
             return unknown()
         try:
             return function(*args, **kwargs)
+        except FileNotFoundError:
+            line = args[0] if args else kwargs.get("args")
+            if not name.startswith("subprocess.") or not _is_missing_program(line, sys._getframe(1)):
+                raise
+            RECORDER.unknown = True
+            return unknown()
         except Exception as error:
             if BEGIN not in str(error) and not name.startswith("xacro."):
                 raise
             if not RECORDER.unknown:
                 raise
             return unknown()  # it reads other files, which may be in a folder that is not known
+
+    return called
+
+
+def _is_missing_program(line: Any, frame: Any) -> bool:
+    """Whether a command line names a program that is not installed here, and nobody provides for that."""
+    words = line if isinstance(line, (list, tuple)) else [line]
+    program = str(words[0]) if words else ""
+    missing = bool(program) and os.sep not in program and shutil.which(program) is None
+    return missing and not provided_for(frame, ("FileNotFoundError", "OSError", "CalledProcessError"))
+
+
+def _as_json(default: Any) -> Any:
+    def called(self: Any, value: Any) -> Any:
+        return str(value) if isinstance(value, Anything) else default(self, value)
 
     return called
 
@@ -154,7 +181,10 @@ def _empty(function: Any) -> Any:
 def _instead(function: Any, value: Callable[[], Any]) -> Any:
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
-        return value() if args and _is_of_unknown(args[0]) else function(*args, **kwargs)
+        if not args or not _is_of_unknown(args[0]):
+            return function(*args, **kwargs)
+        asked(f"{function.__name__}({args[0]})", sys._getframe(1))
+        return value()
 
     return called
 
@@ -168,7 +198,9 @@ def _asked(prompt: Any = "") -> str:
 def _variable(getitem: Any) -> Any:
     def called(self: Any, key: Any) -> Any:
         try:
-            return getitem(self, key)
+            found = getitem(self, key)
+            RECORDER.unknown = RECORDER.unknown or is_unknown(found)
+            return marked(found)
         except KeyError:
             frame: Any = sys._getframe(1)
             asks = frame.f_globals.get("__name__") in _MAPPINGS or frame.f_code.co_filename.startswith(OURS)
