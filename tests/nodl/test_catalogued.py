@@ -51,13 +51,16 @@ def graph_of(tmp_path: Path, text: str, name: str = "a.launch", **files: str) ->
     return graph
 
 
-def analysed(tmp_path: Path, text: str, name: str = "a.launch", **files: str) -> Analysis:
+def analysed(
+    tmp_path: Path, text: str, name: str = "a.launch", distro: str | None = "noetic", **files: str
+) -> Analysis:
     folder = tmp_path / "ws" / "src" / "robot"
     folder.mkdir(parents=True)
     for path, content in {"package.xml": "<package><name>robot</name></package>", name: text, **files}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(content)
-    environment = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path / "nowhere"))
+    variables = {"ROS_DISTRO": distro} if distro else {}
+    environment = detect_environment(str(tmp_path / "ws"), variables, root=str(tmp_path / "nowhere"))
     workspace = Workspace(environment, Sources(), str(tmp_path / "ws"))
     analysis = workspace.static(str(folder / name))
     return workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), None)
@@ -114,6 +117,29 @@ def test_types_that_differ_within_one_node_are_its_own_affair(tmp_path: Path, li
     text = "".join(f'<node pkg="scanner" type="{name}" name="{name}"/>' for name in nodes)
     analysis = analysed(tmp_path, f"<launch>{text}</launch>")
     assert [finding.rule for finding in analysis.findings if finding.rule == "TOP003"] == said
+
+
+@pytest.mark.parametrize(
+    ("distro", "sure"),
+    [("noetic", ("error", "likely")), ("melodic", ("info", "possible")), (None, ("info", "possible"))],
+)
+def test_it_is_likely_of_the_same_distribution(tmp_path: Path, distro: str | None, sure: tuple[str, str]) -> None:
+    nodes = {"scan_node": SCANNER, "hear_node": {"subscriptions": [{"name": "scan", "type": "sensor_msgs/Image"}]}}
+    (packages.INTERFACES / "noetic" / "scanner.json").write_text(json.dumps({**DATA, "executables": nodes}))
+    text = "".join(f'<node pkg="scanner" type="{name}" name="{name}"/>' for name in nodes)
+    analysis = analysed(tmp_path, f"<launch>{text}</launch>", distro=distro)
+    assert [(f.severity, f.confidence) for f in analysis.findings if f.rule == "TOP003"] == [sure]
+
+
+def test_what_a_condition_decides_is_possible(tmp_path: Path) -> None:
+    other = {"subscriptions": [{"name": "scan", "type": "sensor_msgs/Image", "conditional": True}]}
+    nodes = {"scan_node": SCANNER, "hear_node": {**other, "parameters": {"~debug": {"conditional": True}}}}
+    (packages.INTERFACES / "noetic" / "scanner.json").write_text(json.dumps({**DATA, "executables": nodes}))
+    text = "".join(f'<node pkg="scanner" type="{name}" name="{name}"/>' for name in nodes)
+    analysis = analysed(tmp_path, f"<launch>{text}</launch>")
+    assert [(f.severity, f.confidence) for f in analysis.findings if f.rule == "TOP003"] == [("info", "possible")]
+    assert analysis.graph is not None
+    assert [use.assumed for use in analysis.graph.interfaces[1].params] == [True]
 
 
 def test_what_it_does_not_know_stays_unknown(tmp_path: Path) -> None:

@@ -35,6 +35,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.launch import evaluate_launch
@@ -177,7 +178,8 @@ def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assu
     tree = evaluate_launch(fixture.root, args, sources, executables, environment, "/", results, assumed=assumed)
     documents: dict[str, Document] = {}
     launch_files = {}
-    for path in (*tree.files, *tree.inputs):
+    manifests = (package.manifest for path in tree.files if (package := package_around(environment, path)) is not None)
+    for path in (*tree.files, *tree.inputs, *manifests):
         if path in documents or path not in fixture.files:
             continue
         launch_file = sources.launch_file(path, tree.generation) if path in tree.files else None

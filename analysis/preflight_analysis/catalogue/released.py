@@ -1,4 +1,4 @@
-"""The names of all packages that distributions of ROS have released."""
+"""The names of all packages that distributions of ROS have released, and of what rosdep knows beside them."""
 
 from __future__ import annotations
 
@@ -26,6 +26,15 @@ DISTRIBUTIONS: Mapping[int, Mapping[str, str]] = {
 DATA = Path(__file__).with_name("data")
 RELEASED = DATA / "released.txt"
 """A line a package: its name and the letters of the distributions that have it. Lines with `#` say where it is from."""
+
+ROSDEP = DATA / "rosdep.txt"
+"""A line a key: what rosdep knows of packages of operating systems. Lines with `#` say where it is from."""
+
+
+@lru_cache(maxsize=1)
+def system_keys() -> frozenset[str]:
+    """The names of packages of operating systems by which `package.xml` may ask for them."""
+    return frozenset(line for line in ROSDEP.read_text().splitlines() if not line.startswith("#"))
 
 
 def distributions_with(name: str, generation: int) -> tuple[str, ...]:

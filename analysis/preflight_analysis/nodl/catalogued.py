@@ -50,7 +50,7 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     here, workspace = environment.packages.get(package), environment.workspace
     if here is not None and workspace is not None and here.share.startswith(f"{workspace.rstrip('/')}/"):
         return interface
-    found = catalogued(package, kind, name, distro)
+    found = catalogued(package, kind, name, distro, is_used=environment.distro == distro)
     if found is None:
         return interface
     whole = interface.with_more("catalogue", found.endpoints, found.params, found.nodes)
@@ -72,8 +72,8 @@ def _place(node: LaunchNode) -> tuple[str, str, str]:
 
 
 @lru_cache(maxsize=_KEPT)
-def catalogued(package: str, kind: str, name: str, distro: str) -> Catalogued | None:
-    """What is known of a node; None where nothing is."""
+def catalogued(package: str, kind: str, name: str, distro: str, *, is_used: bool = True) -> Catalogued | None:
+    """What is known of a node; None where nothing is. `is_used`: whether that distribution is the one that is used."""
     of_package = interfaces_of(package, distro)
     found = of_package.get(kind, {}).get(name)
     if found is None:
@@ -83,18 +83,26 @@ def catalogued(package: str, kind: str, name: str, distro: str) -> Catalogued | 
     return Catalogued(
         tuple(
             Endpoint(
-                role, each["name"], each.get("type"), None, each.get("qos", {}), inferred=True, catalogued=evidence
+                role,
+                each["name"],
+                each.get("type"),
+                None,
+                each.get("qos", {}),
+                inferred=True,
+                conditional="conditional" in each,
+                catalogued=evidence,
+                of_other_distribution=not is_used,
             )
             for role, group in GROUPS.items()
             for each in found.get(group, ())
         ),
-        tuple(_param(name, about, evidence) for name, about in found.get("parameters", {}).items()),
+        tuple(_param(name, about, evidence, is_used=is_used) for name, about in found.get("parameters", {}).items()),
         tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
         evidence,
     )
 
 
-def _param(name: str, about: Mapping[str, Any], evidence: str) -> ParamUse:
+def _param(name: str, about: Mapping[str, Any], evidence: str, *, is_used: bool) -> ParamUse:
     return ParamUse(
         name,
         about.get("access", "get"),
@@ -106,5 +114,7 @@ def _param(name: str, about: Mapping[str, Any], evidence: str) -> ParamUse:
         dynamic="dynamic" in about,
         read_only="read_only" in about,
         range=Range(*about["range"]) if "range" in about else None,
+        conditional="conditional" in about,
         catalogued=evidence,
+        of_other_distribution=not is_used,
     )

@@ -65,11 +65,13 @@ class Endpoint:
     the launch file."""
     catalogued: str = ""
     """Of what the catalogue says: which one, with the commit that it was read at."""
+    of_other_distribution: bool = False
+    """Of what the catalogue says: whether it knows that of another distribution than is used."""
 
     @property
     def assumed(self) -> bool:
         """Whether no run of this node, no word of the user and no plain line of its source says that it makes it."""
-        return self.similar or (self.inferred and self.conditional)
+        return self.similar or (self.inferred and self.conditional) or self.of_other_distribution
 
     @property
     def uncertain(self) -> bool:
@@ -124,11 +126,13 @@ class ParamUse:
     """ROS 2: what the node said of the value, or of there being none, when it ended for that."""
     catalogued: str = ""
     """As of an endpoint."""
+    of_other_distribution: bool = False
+    """Of what the catalogue says: whether it knows that of another distribution than is used."""
 
     @property
     def assumed(self) -> bool:
         """Whether no run of this node, no word of the user and no plain line of its source says that it asks for it."""
-        return self.similar or (self.inferred and self.conditional)
+        return self.similar or (self.inferred and self.conditional) or self.of_other_distribution
 
 
 @dataclass(frozen=True, slots=True, order=True)

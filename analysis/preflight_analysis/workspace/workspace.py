@@ -15,6 +15,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Place
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
@@ -343,12 +344,18 @@ class Workspace:
                 documents[path] = found.document
                 if catalogued_file(path) is None:
                     launch_files[path] = found
-        for path in tree.inputs:
+        manifests = {manifest for path in launch_files if (manifest := self._manifest_around(path)) is not None}
+        for path in (*tree.inputs, *sorted(manifests)):
             if path not in documents:
                 text = self.sources.text(path)
                 if not isinstance(text, Unreadable):
                     documents[path] = text
         return documents, launch_files
+
+    def _manifest_around(self, path: str) -> str | None:
+        """The manifest of the package that a launch file is in."""
+        package = package_around(self.environment, path)
+        return package.manifest if package is not None else None
 
 
 @query

@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import tempfile
+import threading
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
@@ -21,10 +22,12 @@ from preflight_analysis.environment.model import Environment, Package, Packages
 from preflight_analysis.nodl.groups import GROUPS
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, SourceKey
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Endpoint
+from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, OF_TESTS, SOURCES
+from tools.catalogue.sources import GENERATIONS, OF_TESTS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
@@ -112,6 +115,9 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
             continue
         key = SourceKey(path, found.entry_point, package.name, name, None, "/node", "", ())
         said = _read(analysis, [key, *(key._replace(args=" ".join(_ARGUMENTS[:count])) for count in (1, 2))])
+        arguments = RUN.get(environment.distro or "", {}).get(package.name, {}).get(name)
+        if said is None and arguments is not None:
+            said = _run(environment, key._replace(args=arguments))
         if said is not None:
             executables[name] = said
     for cls in index.components(package.name):
@@ -153,13 +159,32 @@ def _read(analysis: SourceAnalysis, keys: Sequence[SourceKey]) -> dict[str, Any]
     return None
 
 
-def _facts(said: SourceInterface) -> dict[str, Any]:
+def _run(environment: Environment, key: SourceKey) -> dict[str, Any] | None:
+    """The facts of a run in the sandbox, with stand-ins for what is not installed."""
+    request = TraceRequest(
+        key.name,
+        key.package,
+        key.path or "",
+        tuple(key.args.split()),
+        generation=GENERATIONS[environment.distro or ""],
+        entry_point=key.entry_point,
+        named=False,
+    )
+    return _facts(Tracer(environment, None).trace(request, threading.Event())) or None
+
+
+def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
     """The facts of an interface, in the groups of NoDL."""
     facts: dict[str, Any] = {}
     for role, group in GROUPS.items():
         ends = [e for e in said.endpoints if e.role == role and not _is_common(e)]
         rows = [
-            {"name": e.name, **({"type": e.type} if e.type else {}), **({"qos": dict(e.qos)} if e.qos else {})}
+            {
+                "name": e.name,
+                **({"type": e.type} if e.type else {}),
+                **({"qos": dict(e.qos)} if e.qos else {}),
+                **({"conditional": True} if e.conditional else {}),
+            }
             for e in ends
         ]
         if rows:
@@ -173,20 +198,25 @@ def _facts(said: SourceInterface) -> dict[str, Any]:
             **({"type": use.type} if use.type else {}),
             **({"default_value": use.default} if use.has_default and _is_fact(use.default) else {}),
             **({"has_default": True} if use.has_default and not _is_fact(use.default) else {}),
-            **{flag: True for flag in ("mandatory", "dynamic", "read_only") if getattr(use, flag)},
+            **{flag: True for flag in ("mandatory", "dynamic", "read_only", "conditional") if getattr(use, flag)},
             **({"range": [use.range.low, use.range.high, use.range.step]} if use.range is not None else {}),
         }
         params.setdefault(use.name, about)
     if params:
         facts["parameters"] = params
-    if said.nodes:
-        facts["nodes"] = [[made.given, made.space, made.renamed] for made in said.nodes]
+    made_nodes = [made for made in said.nodes if not _of_arguments(made.given)]
+    if made_nodes:
+        facts["nodes"] = [[made.given, made.space, made.renamed] for made in made_nodes]
     return facts
 
 
 def _is_common(end: Endpoint) -> bool:
     """Whether each node has it, or it is named by an argument."""
-    return end.builtin or end.name in _OF_ALL or any(argument in end.name for argument in _ARGUMENTS)
+    return end.builtin or end.name in _OF_ALL or _of_arguments(end.name)
+
+
+def _of_arguments(name: str) -> bool:
+    return any(argument in name for argument in _ARGUMENTS)
 
 
 def _is_fact(value: Any) -> bool:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import yaml
-from preflight_analysis.catalogue.released import DISTRIBUTIONS, RELEASED
+from preflight_analysis.catalogue.released import DISTRIBUTIONS, RELEASED, ROSDEP
 
 from tools.catalogue.repositories import Snapshot
 
 REPOSITORY = "ros/rosdistro"
+_KEYS = ("rosdep/base.yaml", "rosdep/python.yaml", "rosdep/ruby.yaml")
 
 
 def write_released(sources: Path) -> None:
@@ -28,4 +29,6 @@ def write_released(sources: Path) -> None:
     lines += [f"{name} {''.join(of)}" for name, of in sorted(letters.items())]
     RELEASED.parent.mkdir(parents=True, exist_ok=True)
     RELEASED.write_text("\n".join(lines) + "\n")
-    print(f"{RELEASED.name}: {len(letters)} packages of {snapshot.commit[:12]}")
+    keys = sorted({key for file in _KEYS for key in yaml.load(snapshot.text(file), yaml.CSafeLoader)})
+    ROSDEP.write_text("\n".join([lines[0], *keys]) + "\n")
+    print(f"{RELEASED.name}: {len(letters)} packages of {snapshot.commit[:12]}; {ROSDEP.name}: {len(keys)} keys")

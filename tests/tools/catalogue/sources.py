@@ -78,6 +78,34 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "ros-simulation/gazebo_ros_pkgs": {"noetic": "noetic-devel", "jazzy": "ros2"},
     "gazebosim/ros_gz": {"jazzy": "jazzy"},
     "ros-planning/moveit": {"noetic": "master"},
+    "ros-perception/image_common": {"noetic": "noetic-devel", "jazzy": "jazzy"},
+    "ros2/cartographer_ros": {"jazzy": "ros2"},
+    "christianrauch/apriltag_ros": {"jazzy": "master"},
+    "ros-visualization/rviz": {"noetic": "noetic-devel"},
+    "ros-simulation/stage_ros": {"noetic": "lunar-devel"},
+    "micro-ROS/micro-ROS-Agent": {"jazzy": "jazzy"},
+    "ROBOTIS-GIT/hls_lfcd_lds_driver": {"noetic": "noetic", "jazzy": "jazzy"},
+    "ros-drivers/nmea_navsat_driver": {"noetic": "melodic-devel", "jazzy": "ros2"},
+    "ros2/rclcpp": {"jazzy": "jazzy"},
+    "ouster-lidar/ouster-ros": {"noetic": "master", "jazzy": "ros2"},
+    "RobotWebTools/web_video_server": {"noetic": "ros1", "jazzy": "ros2"},
+    "RobotWebTools/tf2_web_republisher": {"noetic": "master"},
+    "joshnewans/twist_stamper": {"jazzy": "main"},
+    "KumarRobotics/ublox": {"noetic": "master", "jazzy": "ros2"},
+    "luxonis/depthai-ros": {"noetic": "noetic", "jazzy": "jazzy"},
+    "YDLIDAR/ydlidar_ros2_driver": {"jazzy": "humble"},
+    "orbbec/OrbbecSDK_ROS2": {"jazzy": "v2-main"},
+    "ros-drivers/openni2_camera": {"noetic": "ros1", "jazzy": "ros2"},
+    "SICKAG/sick_scan_xd": {"noetic": "master", "jazzy": "master"},
+    "ros-planning/robot_pose_ekf": {"noetic": "master"},
+    "ros-drivers/flir_camera_driver": {"noetic": "noetic-devel", "jazzy": "humble-release"},
+    "ros-drivers/axis_camera": {"noetic": "noetic-devel", "jazzy": "jazzy-devel"},
+    "ros-drivers/phidgets_drivers": {"noetic": "noetic", "jazzy": "rolling"},
+    "UniversalRobots/Universal_Robots_ROS2_Driver": {"jazzy": "jazzy"},
+    "stereolabs/zed-ros2-wrapper": {"jazzy": "master"},
+    "AutonomyLab/create_robot": {"noetic": "noetic", "jazzy": "humble"},
+    "frankarobotics/franka_ros2": {"jazzy": "jazzy"},
+    "cyberbotics/webots_ros2": {"jazzy": "master"},
     "moveit/moveit2": {"jazzy": "jazzy"},
     "hrnr/m-explore": {"noetic": "noetic-devel"},
     "ROBOTIS-GIT/turtlebot3": {"noetic": "noetic", "jazzy": "jazzy"},
@@ -85,6 +113,18 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "turtlebot/turtlebot4": {"jazzy": "humble"},
 }
 """A branch of another distribution's name is the one that the packages of this are released from, or the nearest."""
+RUN: Mapping[str, Mapping[str, Mapping[str, str]]] = {
+    "jazzy": {
+        "gazebo_ros": {"spawn_entity.py": "-entity preflight_first -database preflight_second"},
+        "controller_manager": {
+            "spawner": "preflight_first",
+            "unspawner": "preflight_first",
+            "hardware_spawner": "preflight_first --activate",
+        },
+    },
+}
+"""Nodes in Python that do what their arguments say, and the source alone tells nothing of: by distribution, package and
+executable the arguments with which they are run."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
 OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
 """Names of packages that nobody launches."""

@@ -71,7 +71,12 @@ class Definitions:
         except OSError:
             listed = []
         prefix = f"{package}/{kind}/"
-        common = [name[len(prefix) :] for name in self._catalogue() if name.startswith(prefix)]
+        generation = str(self._generation)
+        common = [
+            name[len(prefix) :]
+            for name, text in self._catalogue().items()
+            if name.startswith(prefix) and (isinstance(text, str) or generation in text)
+        ]
         return sorted({*(name[: -len(kind) - 1] for name in listed if name.endswith("." + kind)), *common})
 
     def _catalogue(self) -> dict[str, Any]:

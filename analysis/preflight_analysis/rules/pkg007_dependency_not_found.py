@@ -1,0 +1,81 @@
+"""PKG007: a package.xml names a package that there is nowhere."""
+
+import re
+from collections.abc import Iterator
+
+from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with, system_keys
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.xml import without_comments
+from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.rules.installed import near_package
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.rules.rule import Context, Rule
+
+_DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for package in _packages(context):
+        manifest = context.documents.get(package.manifest)
+        if manifest is None or not package.manifest.endswith(f"/{MANIFEST}"):
+            continue
+        for span, name in _unknown(context, manifest):
+            near = near_package(context, name) or _near_key(name)
+            if near is None:
+                continue  # a private package, as most that nobody has released
+            location = manifest.location(span)
+            yield rule.finding(
+                f"neither the workspace nor any distribution has a package '{name}'{did_you_mean(near)}",
+                location,
+                confidence="likely",
+                fixes=(Fix(f"Replace '{name}' by '{near}'", (Edit(location, near),), True),),
+            )
+
+
+def _packages(context: Context) -> Iterator[Package]:
+    """Those of the workspace that the launch files are in."""
+    environment = context.environment
+    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
+    found = {path: package_around(environment, path) for path in context.launch_files}
+    for package in dict.fromkeys(found.values()):
+        if package is not None and not package.share.startswith(installed):
+            yield package
+
+
+def _unknown(context: Context, manifest: Document) -> Iterator[tuple[Span, str]]:
+    """The names, each where it first stands, that neither ROS nor rosdep knows."""
+    said: set[str] = set()
+    for found in _DEPENDENCY.finditer(without_comments(manifest.text)):
+        name = found[2]
+        known = name in context.environment.packages or name in system_keys() or name in said
+        if not known and not any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
+            said.add(name)
+            yield Span(*found.span(2)), name
+
+
+def _near_key(name: str) -> str | None:
+    """The package of the operating system of whose name this is a slip."""
+    near = nearest(name, system_keys()) if name not in system_keys() else None
+    return near if near is not None and len(name) >= _LONG and is_slip(name, near) else None
+
+
+_LONG = 8
+"""Letters: of thousands of names one is always near a short one."""
+
+
+RULE = Rule(
+    id="PKG007",
+    name="dependency-not-found",
+    severity="warning",
+    what="Reports a package that the `package.xml` of a launch file's package names, that is neither in the workspace, "
+    "nor installed, nor released for any distribution of ROS, nor known to rosdep, and whose name is a slip of one "
+    "that is.",
+    why="`rosdep install` stops at it, and what was meant is not installed on the robot.",
+    example="<exec_depend>robot_state_publiser</exec_depend>",
+    instead="<exec_depend>robot_state_publisher</exec_depend>",
+    check=_check,
+)
