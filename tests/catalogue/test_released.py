@@ -33,7 +33,7 @@ def test_the_names_are_read_in_little_time(ask: object) -> None:
     for _ in range(5):
         released._letters.cache_clear()
         released._names.cache_clear()
-        begin = time.perf_counter()
+        begin = time.process_time()
         ask()
-        took.append(time.perf_counter() - begin)
+        took.append(time.process_time() - begin)
     assert min(took) < 0.02

@@ -181,9 +181,9 @@ def test_the_real_data_is_read_in_little_time(monkeypatch: pytest.MonkeyPatch) -
     largest = files[-1]
     for _ in range(5):
         packages.interfaces_of.cache_clear()
-        begin = time.perf_counter()
+        begin = time.process_time()
         packages.interfaces_of(largest.stem, largest.parent.name)
-        took.append(time.perf_counter() - begin)
+        took.append(time.process_time() - begin)
     assert min(took) < 0.02
 
 

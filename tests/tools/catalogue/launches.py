@@ -117,7 +117,7 @@ class _Maker:
             if any((each / "package.xml").exists() for each in path.parents if share in each.parents):
                 continue
             if path.suffix == PYTHON_SUFFIX:
-                if LAUNCH_FUNCTION.search(path.read_text(encoding="utf-8", errors="replace")):
+                if self._generation == 2 and LAUNCH_FUNCTION.search(path.read_text(encoding="utf-8", errors="replace")):
                     yield str(path)
             elif path.name.endswith(LAUNCH_SUFFIXES) or (path.suffix == ".xml" and path.parent.name == LAUNCH_FOLDER):
                 yield str(path)
@@ -185,7 +185,8 @@ class _Maker:
             where = f"$(find {package})" + ("" if folder == "." else f"/{folder}")
             return _WHERE.sub(where, value.text)
         if value.typed is not None:
-            return {"v": value.typed.value}
+            plain = value.typed.value
+            return list(self._text(plain)) if isinstance(plain, str) else self._plain(plain)
         parts = list(self._parts(value.parts, package, folder))
         return parts[0] if len(parts) == 1 and isinstance(parts[0], str) else parts or ""
 
@@ -202,6 +203,12 @@ class _Maker:
                 yield [_MEANT[found[1]], [found[2]]]
             else:
                 yield [part.command, *(list(self._parts(word, package, folder)) for word in part.words)]
+
+    def _plain(self, value: Any) -> Any:
+        """What is no text, where all of it is a fact."""
+        written = json.dumps(value)
+        is_fact = len(written) <= 10 * _LONGEST and str(self._laid.folder) not in written
+        return {"v": value} if is_fact else [["unknown", ["a value"]]]
 
     def _text(self, text: str) -> Iterator[Any]:
         """A text, with the folders of packages as substitutions; one that is too long is not known."""

@@ -86,7 +86,6 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "micro-ROS/micro-ROS-Agent": {"jazzy": "jazzy"},
     "ROBOTIS-GIT/hls_lfcd_lds_driver": {"noetic": "noetic", "jazzy": "jazzy"},
     "ros-drivers/nmea_navsat_driver": {"noetic": "melodic-devel", "jazzy": "ros2"},
-    "ros2/rclcpp": {"jazzy": "jazzy"},
     "ouster-lidar/ouster-ros": {"noetic": "master", "jazzy": "ros2"},
     "RobotWebTools/web_video_server": {"noetic": "ros1", "jazzy": "ros2"},
     "RobotWebTools/tf2_web_republisher": {"noetic": "master"},
