@@ -64,3 +64,49 @@ def test_one_name_in_two_namespaces_or_under_two_conditions() -> None:
           <node pkg="p" type="real" name="base" unless="$(arg sim)"/>
         </launch>
     """)
+
+
+_SETUP = """
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            name = "planner"
+            grip = False
+"""
+
+
+def test_a_branch_of_a_python_launch_file_that_is_not_taken() -> None:
+    check(f"""{_SETUP}
+            planner = Node(package="p", executable="planner", name=name)
+            nodes = [planner]
+            if grip:
+                gripper = Node(package="p", executable="gripper", name=name)
+                                                                       ^^^^ info[LCH016] with this name where `grip`
+                nodes.append(gripper)
+            return LaunchDescription(nodes)
+    """)
+
+
+@pytest.mark.silent
+def test_branches_of_a_python_launch_file_of_which_one_is_taken() -> None:
+    check(f"""{_SETUP}
+            if grip:
+                return LaunchDescription([Node(package="p", executable="a", name=name)])
+            one = Node(package="p", executable="a", name=name)
+            if name:
+                one = Node(package="p", executable="b", name=name)
+            if grip:
+                two = Node(package="p", executable="a", name="two")
+            else:
+                two = Node(package="p", executable="b", name="two")
+            nodes = [Node(package="p", executable="c", name="three")]
+            if grip:
+                nodes.append(Node(package="p", executable="c", name="three", namespace="left"))
+                nodes.append(Node(package="p", executable="c", name="three", condition=grip))
+                nodes.append(Node(package="p", executable="c", name=grip))
+            for side in "ab":
+                nodes.append(Node(package="p", executable="c", name="three"))
+            return LaunchDescription([one, two, *nodes])
+    """)

@@ -8,7 +8,8 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode, Problem
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shortened
+from preflight_analysis.rules.python_branches import made_twice
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -31,6 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             fixes=() if twice else _fixes(context, problem, taken),
         )
     yield from _of_own_names(rule, context)
+    yield from _in_branches(rule, context)
 
 
 def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -51,6 +53,22 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
                 confidence="possible" if node.name_inferred or other.name_inferred else "likely",
                 related=(Related("the first one", other.location), *include_chain(node.origin)),
             )
+
+
+def _in_branches(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Nodes of Python launch files that have one name in a branch which this launch need not take."""
+    said = {problem.location for problem in problems_of(context, DuplicateNode)}
+    for path, launch_file in context.launch_files.items():
+        for twice in made_twice(launch_file) if path.endswith(".py") else ():
+            first, second = context.location(path, twice.first), context.location(path, twice.second)
+            if said.isdisjoint((first, second)):
+                yield rule.finding(
+                    f"there is another node with this name where `{shortened(twice.test)}`",
+                    second,
+                    severity="info",
+                    confidence="possible",
+                    related=(Related("the other one", first),),
+                )
 
 
 def _why(node: LaunchNode) -> str:
@@ -74,7 +92,8 @@ RULE = Rule(
     id="LCH016",
     name="duplicate-node",
     severity="error",
-    what="Reports a second node with the same full name, in this file or in one that is included.",
+    what="Reports a second node with the same full name, in this file or in one that is included. In a Python launch "
+    "file also one that is only made in a branch of an `if`, whichever way this launch goes, for information.",
     why="`roslaunch` stops: names are unique in the graph, a second node would shut the first one down. "
     "`ros2 launch` only warns: both run, and what asks for one of them by its name may get the other. Of nodes without "
     "a `name` it does not even know.",
