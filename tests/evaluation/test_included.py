@@ -8,10 +8,14 @@ import pytest
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.evaluation.commands import NoResults
+from preflight_analysis.evaluation.ros1 import evaluate as evaluate_module
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.launch.model import Action
 from preflight_analysis.workspace.sources import Sources
 
 FIXTURES = Path(__file__).parents[2] / "fixtures" / "ros1"
@@ -204,3 +208,27 @@ def test_an_anonymous_name_that_another_node_made(tmp_path: Path) -> None:
         for above in ("", before, ""):
             twice.sources.open(str(root), f'<launch>{above}\n<node pkg="p" type="t" {first}/>\n{others}</launch>')
             twice.tree(root)
+
+
+def test_an_edit_evaluates_the_include_that_it_touches(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    inner, root = tmp_path / "inner.launch", tmp_path / "root.launch"
+    inner.write_text(INCLUDED)
+    twice = Twice(tmp_path)
+    tags = '<include file="{0}" ns="a"/>\n<node pkg="p" type="t" name="{1}"/>\n<include file="{0}" ns="{2}"/>\n'
+    sources, surroundings = twice.sources, twice._surroundings
+    sources.open(str(root), f"<launch>\n\n{tags.format(inner, 'n', 'b')}</launch>")
+    remembering(sources.db, surroundings, str(root))
+    evaluated: list[str | None] = []
+    include = evaluate_module._EVALUATED_APART["include"]
+
+    def noted(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
+        ns = action.value("ns")
+        evaluated.append(ns.text if ns is not None else None)
+        return include(state, scope, action, default_machine)
+
+    monkeypatch.setitem(evaluate_module._EVALUATED_APART, "include", noted)  # type: ignore[arg-type]
+    for node, ns, again in (("n", "c", ["c"]), ("m", "c", []), ("m", "a", ["a", "a"])):
+        evaluated.clear()
+        sources.open(str(root), f"<launch>\n\n{tags.format(inner, node, ns)}</launch>")
+        tree = remembering(sources.db, surroundings, str(root))
+        assert (evaluated, f"/{ns}/inner/node" in {node.name for node in tree.nodes}) == (again, True)

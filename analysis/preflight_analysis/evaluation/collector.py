@@ -92,7 +92,8 @@ class Collector:
         self.problems: list[Problem[ProblemKind]] = []
         self.unknowns: list[Unknown] = []
         self.not_taken: list[NotTaken] = []
-        self.visited: list[str] = []
+        self.visited: dict[str, None] = {}
+        """The launch files, in the order in which they were reached."""
         self.inputs: dict[str, str] = {}
         self.made: dict[str, Document] = {}
         """Texts that a run of a launch file wrote, by path: they are gone from the disk."""
@@ -126,7 +127,8 @@ class Collector:
         self.not_taken += collected.not_taken
         for problem in collected.problems:
             self._add(problem)
-        self.visited += [path for path in collected.visited if path not in self.visited]
+        for path in collected.visited:
+            self.visited.setdefault(path)
         self.inputs.update(collected.inputs)
 
     def digest(self, path: str) -> str:

@@ -7,6 +7,7 @@ from itertools import chain
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.installed_paths import package_around
@@ -26,22 +27,37 @@ _TEST_FOLDERS = ("test", "tests")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    files = context.launch_files.values()
-    for path, owner, missing in filter(None, context.kept.each(_missing, files, context.environment)):
-        for name, span in missing:
-            location = context.location(path, span)
-            manifest = os.path.basename(owner.manifest)
-            yield rule.finding(
-                f"package '{name}' is not among the dependencies that the {manifest} of '{owner.name}' names",
-                location,
-                fixes=_fixes(context, owner, name, path),
-            )
+    files = tuple(context.launch_files.values())
+    manifests: dict[str, Document | Unreadable] = {}
+    for launch_file, found in zip(files, context.kept.each(_missing, files, context.environment), strict=True):
+        if found is not None:
+            owner, missing = found
+            if owner.manifest not in manifests:
+                manifests[owner.manifest] = context.disk.text(owner.manifest)
+            manifest = manifests[owner.manifest]
+            yield from context.kept.get(_findings, launch_file.path, rule, launch_file, owner, missing, manifest)
 
 
-def _missing(
-    launch_file: LaunchFile, environment: Environment
-) -> tuple[str, Package, tuple[tuple[str, Span], ...]] | None:
-    """The path of the file, its package, and those that it uses and the package does not name."""
+def _findings(
+    rule: Rule,
+    launch_file: LaunchFile,
+    owner: Package,
+    missing: tuple[tuple[str, Span], ...],
+    manifest: Document | Unreadable,
+) -> tuple[Finding, ...]:
+    return tuple(
+        rule.finding(
+            f"package '{name}' is not among the dependencies that the {os.path.basename(owner.manifest)} of "
+            f"'{owner.name}' names",
+            launch_file.document.location(span),
+            fixes=_fixes(manifest, owner, name, launch_file.path),
+        )
+        for name, span in missing
+    )
+
+
+def _missing(launch_file: LaunchFile, environment: Environment) -> tuple[Package, tuple[tuple[str, Span], ...]] | None:
+    """The package of the file, and those that it uses and the package does not name."""
     owner = package_around(environment, launch_file.path)
     # What is installed is not for the user to mend; of ROS 2's installed packages no manifest was read.
     installed = (*environment.system_prefixes, *environment.ament_prefixes)
@@ -55,7 +71,7 @@ def _missing(
         and name != owner.name
         and (name in environment.packages or distributions_with(name, launch_file.generation))
     )
-    return (launch_file.path, owner, missing) if missing else None
+    return (owner, missing) if missing else None
 
 
 @memoize_by_file
@@ -89,8 +105,7 @@ def _found_by(part: Substitution) -> Iterator[tuple[str, Span]]:
         yield name[0].strip("'\""), Span(start, start + len(name[0]))
 
 
-def _fixes(context: Context, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
-    manifest = context.disk.text(owner.manifest)
+def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
     if not isinstance(manifest, Document) or os.path.basename(owner.manifest) != MANIFEST:
         return ()
     text = without_comments(manifest.text)

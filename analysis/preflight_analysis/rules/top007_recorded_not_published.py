@@ -28,11 +28,13 @@ _PATTERNS = ("-e", "--regex")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    graph = context.graph
-    for node in context.tree.nodes if graph is not None else ():
-        for written, topic in _recorded(node, context.tree.generation):
-            near = _near(graph, topic) if graph is not None else None
-            if graph is None or near is None:
+    graph, nodes = context.graph, context.tree.nodes
+    if graph is None:
+        return
+    for node, recorded in zip(nodes, context.kept.each(_recorded, nodes, context.tree.generation), strict=True):
+        for written, topic in recorded:
+            near = _near(graph, topic)
+            if near is None:
                 continue
             place = argument_location(context, node, written)
             provider = graph.topics[near].providers[0]
@@ -59,7 +61,11 @@ def _near(graph: Graph, topic: str) -> str | None:
     return min(found)[1] if found else None
 
 
-def _recorded(node: LaunchNode, generation: int) -> Iterator[tuple[str, str]]:
+def _recorded(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:
+    return tuple(_recorded_by(node, generation))
+
+
+def _recorded_by(node: LaunchNode, generation: int) -> Iterator[tuple[str, str]]:
     """The topics that a recorder is given, as written and in full: `rosbag record`, or a process `ros2 bag record`."""
     words = split_args(node.args)
     if node.unknowns or "record" not in (node.executable, *words[1:2]):

@@ -1,11 +1,13 @@
 """TRC005: what else was noticed when a node was run."""
 
 from collections.abc import Iterator
+from itertools import compress
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.installed import lack_of_module
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Interface
 
 _WHAT = {"module": "module", "package": "package", "build": "what is built of package"}
 
@@ -13,12 +15,18 @@ _WHAT = {"module": "module", "package": "package", "build": "what is built of pa
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
+    processes = context.graph.processes
+    noted = context.kept.each(_is_noted, processes)
+    for node, interface in compress(zip(context.tree.nodes, processes, strict=True), noted):
         for note in interface.notes:
             yield rule.finding(f"{node.name}: {note}", node.location, related=include_chain(node.origin))
         for lack in dict.fromkeys(filter(None, (lack_of_module(context, each) for each in interface.stand_ins))):
             message = f"{node.name} needs {_WHAT[lack.kind]} '{lack.name}', which is not here: a stand-in was used"
             yield rule.finding(message, node.location, related=include_chain(node.origin), lack=lack)
+
+
+def _is_noted(interface: Interface) -> bool:
+    return bool(interface.notes or interface.stand_ins)
 
 
 RULE = Rule(

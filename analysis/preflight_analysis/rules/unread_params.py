@@ -36,7 +36,7 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     Ask through `context.once`.
     """
     graph = context.graph
-    if graph is None or not any(reports_params(interface) for interface in graph.interfaces):
+    if graph is None or not any(context.kept.each(reports_params, graph.interfaces)):
         return ()
     tree = graph.tree
     return context.kept.get(

@@ -29,6 +29,9 @@ class RunResults:
 
 def node_keys(tree: LaunchTree) -> list[NodeKey]:
     """The keys of the nodes of a tree, in order."""
+    names = [node.name for node in tree.nodes]
+    if len({*names}) == len(names):
+        return [(name, 0) for name in names]
     seen: Counter[str] = Counter()
     keys = []
     for node in tree.nodes:

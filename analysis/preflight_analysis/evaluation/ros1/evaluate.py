@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from functools import partial
 
@@ -131,8 +131,7 @@ def _file(state: State, scope: Scope, launch_file: LaunchFile, default_machine: 
     _check_root(state, scope, launch_file)
     if root is not None:
         _conditions_of_launch(state, scope, root)
-    if scope.file not in state.visited:
-        state.visited.append(scope.file)
+    state.visited.setdefault(scope.file)
     return _actions(state, scope, root.children, default_machine) if root is not None else default_machine
 
 
@@ -171,11 +170,14 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
     within: Hashed | None = None
     made = 0
     for action in actions:
-        if action.kind in ("node", "test"):
+        evaluate = _EVALUATED_APART.get(action.kind)
+        if evaluate is not None:
             # Those that follow each other have the same scope, but for the anonymous names that one of them makes.
             if within is None or len(scope.anonymous) != made:
                 within, made = _within(state, scope, default_machine), len(scope.anonymous)
-            _node(state, scope, action, default_machine, within)
+            after = _remembered(state, scope, action, default_machine, within, evaluate)
+            if after != default_machine:
+                default_machine, within = after, None
             continue
         within = None
         match action.kind:
@@ -195,46 +197,56 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
                 evaluate_env(state, scope, action)
             case "machine":
                 default_machine = evaluate_machine(state, scope, action) or default_machine
-            case "include":
-                default_machine = _include(state, scope, action, default_machine)
     return default_machine
 
 
 def _within(state: State, scope: Scope, default_machine: str | None) -> Hashed | None:
-    """All of a scope that the tags of nodes in it depend on, the same object while that is equal; None where nothing
+    """All of a scope that nodes and includes in it depend on, the same object while that is equal; None where nothing
     of them can be remembered."""
     db, key = state.files.db, tags_key_of(scope, default_machine)
-    if key is None or not db.is_making:
+    if key is None or not db.is_making or len(scope.chain) > MAX_REMEMBERED_DEPTH:
         return None
     hashed = Hashed(key)
     return db.part(hashed, lambda: hashed)
 
 
-def _node(state: State, scope: Scope, action: Action, default_machine: str | None, within: Hashed | None) -> None:
-    """As `evaluate_node`: what the tag added in the same scope is added again, where it says and stands the same.
-    `within` is all of the scope that it depends on; None where nothing can be remembered."""
-    db = state.files.db
+def _remembered(
+    state: State,
+    scope: Scope,
+    action: Action,
+    default_machine: str | None,
+    within: Hashed | None,
+    evaluate: _Evaluate,
+) -> str | None:
+    """As `evaluate`: what the tag added in the same scope is added again, where it says and stands the same. `within`
+    is all of the scope that it depends on; None where nothing can be remembered."""
     if within is None:
-        evaluate_node(state, scope, action, default_machine)
-        return
+        return evaluate(state, scope, action, default_machine)
     lines, source = scope.lines.lines_of(action.span), scope.lines.text[slice(*action.span)]
     key = within, source, action.span.start - lines[0].start, lines
     anonymous = dict(scope.anonymous)
-    record = db.part(key, partial(_node_alone, state, scope, action, default_machine))
+    record = state.files.db.part(key, partial(_tag_alone, state, scope, action, default_machine, evaluate))
     if record is not None and state.absorb(record, MAX_INCLUDES):
-        return
+        return record.default_machine
     # A node's name is taken, say: then order matters, and it is evaluated in its place.
     scope.anonymous = anonymous
-    evaluate_node(state, scope, action, default_machine)
+    return evaluate(state, scope, action, default_machine)
 
 
-def _node_alone(state: State, scope: Scope, action: Action, default_machine: str | None) -> Record | None:
-    """What the tag of a node adds, whatever is around it; None where that depends on more than its scope, and where it
-    has places of this text."""
+def _tag_alone(
+    state: State, scope: Scope, action: Action, default_machine: str | None, evaluate: _Evaluate
+) -> Record | None:
+    """What a tag adds, whatever is around it; None where that depends on more than its scope, and where something is
+    wrong with the tag itself."""
     inner = state.inner()
-    evaluate_node(inner, scope, action, default_machine)
-    lasting = not (inner.problems or inner.depends_on_outside)
-    return inner.record(scope) if lasting else None
+    after = evaluate(inner, scope, action, default_machine)
+    wrong = any(problem.location.file == scope.file for problem in inner.problems)
+    return None if wrong or inner.depends_on_outside or inner.exhausted else inner.record(scope, after)
+
+
+def _node(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
+    evaluate_node(state, scope, action, default_machine)
+    return default_machine
 
 
 def _group(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
@@ -305,6 +317,12 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
             if name not in inside.declared:
                 state.problem(UnknownIncludeArgument(name, declared, path), scope.origin(tag.span))
     return default_machine
+
+
+_Evaluate = Callable[[State, Scope, Action, str | None], str | None]
+"""Evaluates a tag in a scope, where that is the default machine, and returns which one is after it."""
+_EVALUATED_APART: Mapping[str, _Evaluate] = {"node": _node, "test": _node, "include": _include}
+"""Tags that change nothing of the scope that they are in, but for anonymous names."""
 
 
 def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default_machine: str | None) -> str | None:

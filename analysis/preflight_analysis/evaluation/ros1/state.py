@@ -56,7 +56,14 @@ class State(Collector):
         """A state for one tag alone, to be taken over with `absorb`."""
         within = self.surroundings
         inner = State(
-            self.files, self.executables, self.environment, self.cwd, self.results, within, assumed=self._assumed
+            self.files,
+            self.executables,
+            self.environment,
+            self.cwd,
+            self.results,
+            within,
+            is_included=self.is_included,
+            assumed=self._assumed,
         )
         inner._digests, inner._room = self._digests, self._room
         return inner

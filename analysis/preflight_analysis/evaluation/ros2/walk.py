@@ -118,8 +118,7 @@ class Walk:
     def file(self, place: Place, launch_file: LaunchFile) -> None:
         """Execute one launch file."""
         state, document = self.state, launch_file.document
-        if place.file not in state.visited:
-            state.visited.append(place.file)
+        state.visited.setdefault(place.file)
         self._note_names(launch_file)
         for problem in document.problems:
             kind = _MALFORMED.get(os.path.splitext(place.file)[1], MalformedXml)
