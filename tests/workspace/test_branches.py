@@ -150,6 +150,14 @@ def test_tags_of_opposite_conditions_are_never_taken_together() -> None:
                          ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH012] is not set
             <machine name="robot" address="10.0.0.1"/>
           </group>
+          <group if="$(optenv ROBOT_REAL false)"><include file="/machines.launch"/></group>
+        </launch>
+        //- /machines.launch
+        <launch>
+          <group if="$(env PREFLIGHT_NOT_SET)"><machine name="arm" address="10.0.0.2"/></group>
+                     ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH012] is not set
+          <group unless="$(env PREFLIGHT_NOT_SET)"><machine name="arm" address="10.0.0.3"/></group>
+                         ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH012] is not set
         </launch>
         """,
         branches=True,

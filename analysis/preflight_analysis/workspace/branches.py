@@ -152,7 +152,8 @@ class _Search:
             inside = (
                 each for each in _open(what_if.tree) if any(_holds(outer, each.origin) for outer in todo.values())
             )
-            todo = {each.origin[-1]: each for each in inside}
+            todo, *others = ({each.origin[-1]: each for each in group} for group in _compatible(inside, taken.values()))
+            self._untried.update(*others)
 
     def _note(self, found: Iterable[Finding], condition: str, documents: Mapping[str, Document]) -> None:
         for finding in found:
@@ -163,16 +164,21 @@ class _Search:
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
 
 
-def _compatible(left_out: Iterable[NotTaken]) -> Iterator[list[NotTaken]]:
-    """The tags, so that no two have opposite conditions: first those that come before their opposite."""
+def _compatible(left_out: Iterable[NotTaken], taken: Iterable[NotTaken] = ()) -> tuple[list[NotTaken], list[NotTaken]]:
+    """The tags in two groups in which no two have opposite conditions: those that can be taken together with what is
+    `taken`, and those whose opposite is or comes before them."""
     first: list[NotTaken] = []
     opposite: list[NotTaken] = []
-    conditions: set[tuple[str, bool]] = set()
+    conditions = {_outcome(each) for each in taken}
     for each in left_out:
-        written, wanted = each.written.text.strip(), each.condition == "if"
+        written, wanted = _outcome(each)
         conditions.add((written, wanted))
         (opposite if (written, not wanted) in conditions else first).append(each)
-    yield from filter(None, (first, opposite))
+    return first, opposite
+
+
+def _outcome(left_out: NotTaken) -> tuple[str, bool]:
+    return left_out.written.text.strip(), left_out.condition == "if"
 
 
 def takes(tree: LaunchTree, left_out: NotTaken) -> bool:
