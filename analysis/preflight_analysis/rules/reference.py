@@ -22,6 +22,7 @@ _FAMILIES = {
     "TOP": "Topics",
     "TRC": "Tracing",
 }
+_IN_BRANCHES = "It looks into tags that a condition leaves out, too, and says with which arguments it holds.\n"
 _GENERATED = f"<!-- Written by `{COMMAND}`. Do not edit: the text is in the rule's file. -->\n"
 
 
@@ -39,6 +40,7 @@ def page(rule: Rule) -> str:
             f"# {rule.id} {rule.name}\n",
             f"Severity: {rule.severity}{_needs(rule)}\n",
             f"## What it does\n\n{rule.what}\n",
+            *([_IN_BRANCHES] if rule.in_branches else []),
             f"## Why is this bad\n\n{rule.why}\n",
             f"## Example\n\n```{_language(rule.example)}\n{rule.example}\n```\n",
             f"## Use instead\n\n```{_language(rule.instead)}\n{rule.instead}\n```\n",
