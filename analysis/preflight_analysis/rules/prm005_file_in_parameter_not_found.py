@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -23,6 +22,7 @@ from preflight_analysis.rules.files import correct_path, nearest_file, package_f
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.request import split_args
 
 _LONGEST = 4096
 """A path has fewer characters, a robot description has more."""
@@ -112,7 +112,7 @@ def _texts_of_param(param: Param) -> tuple[str, ...]:
     """The texts in the value of a parameter that may name files, there or not: nearly none has any."""
     value = param.value
     if isinstance(value, CommandValue):
-        return tuple(_words(value.command)[1:])
+        return split_args(value.command)[1:]
     if isinstance(value, str):
         texts = [value] if "/" in value else ()
     elif isinstance(value, list):
@@ -142,7 +142,7 @@ def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
         return ()
     if _made_when_run(node.executable) or _made_when_run(names.leaf(node.name)):
         return ()
-    words = _words(node.args)
+    words = split_args(node.args)
     if node.kind == "process" and any(map(_made_when_run, words[:_VERBS])):
         return ()
     found: list[str] = []
@@ -160,13 +160,6 @@ def _elsewhere(tree: LaunchTree, node: LaunchNode) -> bool:
     """Whether the node runs on another machine, which has its own files."""
     machine = tree.machines.get(node.machine or "")
     return machine is not None and machine.address not in ("localhost", "127.0.0.1")
-
-
-def _words(text: str) -> list[str]:
-    try:
-        return shlex.split(text)
-    except ValueError:
-        return text.split()
 
 
 def _made_when_run(name: str) -> bool:
