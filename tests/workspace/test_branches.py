@@ -53,6 +53,21 @@ def test_a_condition_is_read_backwards(argument: str, condition: str, asked: str
     assert asked in [found.condition for found in _ros1(text)]
 
 
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "not " * 3_000 + "a",
+        "(" * 90 + "a" + ")" * 90,
+        " and ".join(f"a in ['{n}', '{n}x', '{n}y', '{n}z']" for n in range(14)),
+        "a = 1",
+        "\0",
+    ],
+)
+def test_any_expression_comes_to_an_end(expression: str) -> None:
+    text = f'<launch><arg name="a" default="b"/><include file="/n.launch" if="$(eval {expression})"/></launch>'
+    assert all("a:=" not in found.condition for found in _ros1(text))
+
+
 def test_over_an_include_and_a_default() -> None:
     check(
         """

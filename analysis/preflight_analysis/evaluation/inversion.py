@@ -26,6 +26,10 @@ MOST = 4
 """Assignments that are looked at of one condition: those that it names first are mostly right."""
 _MAX_STEPS = 40
 """From an argument to the one that it is made of."""
+_MAX_COMBINATIONS = 64
+"""Of what several parts of a condition ask for: most of them contradict each other where there are many."""
+_LONGEST = 500
+"""Characters of an expression that is read: parentheses and words nest, and Python's stack has an end."""
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
 _SAME_TEXT = frozenset({"lower", "upper", "strip", "casefold"})
 """Methods that a comparison is not about."""
@@ -156,7 +160,7 @@ class _Reader:
 
     def _expression(self, part: Substitution, wanted: bool, file: str, chain: Origin) -> Iterator[Assignment]:
         text, names = _with_marks(part)
-        if text is None:
+        if text is None or len(text) > _LONGEST:
             return
         try:
             node = ast.parse(text.strip(), mode="eval").body
@@ -190,7 +194,8 @@ def _any_of(each: Iterable[_Found]) -> Iterator[Assignment]:
 
 def _all_of(each: Iterable[_Found]) -> Iterator[Assignment]:
     """Each combination in which no argument has two values. What cannot be read backwards may be right as it is."""
-    for combination in product(*(list(islice(found(), MOST)) or [{}] for found in each)):
+    combinations = product(*(list(islice(found(), MOST)) or [{}] for found in each))
+    for combination in islice(combinations, _MAX_COMBINATIONS):
         merged: dict[str, str] = {}
         if all(merged.setdefault(name, text) == text for one in combination for name, text in one.items()):
             yield merged
