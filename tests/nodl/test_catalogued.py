@@ -142,6 +142,19 @@ def test_what_a_condition_decides_is_possible(tmp_path: Path) -> None:
     assert [use.assumed for use in analysis.graph.interfaces[1].params] == [True]
 
 
+@pytest.mark.parametrize(("offered", "said"), [("set_rate", []), ("~reset", ["SRV001"])])
+def test_a_service_that_nobody_offers_to_a_common_node_is_no_news(
+    tmp_path: Path, offered: str, said: list[str]
+) -> None:
+    caller = {"service_clients": [{"name": "scan_node/resett", "type": "std_srvs/Empty"}]}
+    server = {"service_servers": [{"name": offered, "type": "std_srvs/Empty"}]}
+    nodes = {"scan_node": server, "call_node": caller}
+    (packages.INTERFACES / "noetic" / "scanner.json").write_text(json.dumps({**DATA, "executables": nodes}))
+    text = "".join(f'<node pkg="scanner" type="{name}" name="{name}"/>' for name in nodes)
+    analysis = analysed(tmp_path, f"<launch>{text}</launch>")
+    assert [finding.rule for finding in analysis.findings if finding.rule == "SRV001"] == said
+
+
 def test_what_it_does_not_know_stays_unknown(tmp_path: Path) -> None:
     graph = graph_of(
         tmp_path,

@@ -46,8 +46,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for connection in dangling_consumers(context, "services"):
         if id(connection) not in explained and not _loads(connection):
             meant = _meant(connection, answers.get(id(connection.node), ()), unused)
-            if graph.blind and meant is None:
-                continue
+            if meant is None and (graph.blind or connection.endpoint.catalogued):
+                continue  # of a common node it is no news, as gazebo offers what its spawners call
             hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
             service, client = with_type(connection), connection.node.name
             yield lone_finding(

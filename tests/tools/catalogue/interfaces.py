@@ -7,7 +7,7 @@ import re
 import shutil
 import tempfile
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -27,11 +27,12 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, OF_TESTS, RUN, SOURCES
+from tools.catalogue.sources import GENERATIONS, NAMED, OF_TESTS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
 _OF_ALL = ("/rosout", "/clock", "~get_loggers", "~set_logger_level")
+_SPACE = "/preflight_space/"
 _IN_TESTS = re.compile(r"/(?:tests?|examples?/tests?)/")
 _NO_NODES = re.compile(r"\.(?:h|hh|hpp|c|cc|cpp|cxx|txt|md|rst|xml|yaml|sh|bash|rviz|launch)\Z|\Atest_|_test\Z")
 
@@ -118,8 +119,9 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
         arguments = RUN.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is None and arguments is not None:
             said = _run(environment, key._replace(args=arguments))
+        called = NAMED.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is not None:
-            executables[name] = said
+            executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
     for cls in index.components(package.name):
         said = _read(analysis, [SourceKey(None, None, package.name, "", cls, "/node", "", ())])
         if said is not None:
@@ -162,7 +164,7 @@ def _read(analysis: SourceAnalysis, keys: Sequence[SourceKey]) -> dict[str, Any]
 def _run(environment: Environment, key: SourceKey) -> dict[str, Any] | None:
     """The facts of a run in the sandbox, with stand-ins for what is not installed."""
     request = TraceRequest(
-        key.name,
+        f"{_SPACE}{key.name.lstrip('/')}",
         key.package,
         key.path or "",
         tuple(key.args.split()),
@@ -170,14 +172,17 @@ def _run(environment: Environment, key: SourceKey) -> dict[str, Any] | None:
         entry_point=key.entry_point,
         named=False,
     )
-    return _facts(Tracer(environment, None).trace(request, threading.Event())) or None
+    ran = Tracer(environment, None).trace(request, threading.Event())
+    # What is resolved within the namespace was given as a relative name.
+    ends = tuple(replace(end, name=end.name.removeprefix(_SPACE)) for end in ran.endpoints)
+    return _facts(replace(ran, endpoints=ends)) or None
 
 
 def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
     """The facts of an interface, in the groups of NoDL."""
     facts: dict[str, Any] = {}
     for role, group in GROUPS.items():
-        ends = [e for e in said.endpoints if e.role == role and not _is_common(e)]
+        ends = _with_one_type(e for e in said.endpoints if e.role == role and not _is_common(e))
         rows = [
             {
                 "name": e.name,
@@ -208,6 +213,18 @@ def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
     if made_nodes:
         facts["nodes"] = [[made.given, made.space, made.renamed] for made in made_nodes]
     return facts
+
+
+def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:
+    """Of those that a condition gives one type or another, one whose type is not known."""
+    of_name: dict[str, list[Endpoint]] = {}
+    for end in ends:
+        of_name.setdefault(end.name, []).append(end)
+    found: list[Endpoint] = []
+    for alike in of_name.values():
+        one_of = len({end.type for end in alike}) > 1 and all(end.conditional for end in alike)
+        found += [replace(alike[0], type=None)] if one_of else alike
+    return found
 
 
 def _is_common(end: Endpoint) -> bool:

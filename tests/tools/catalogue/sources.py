@@ -124,6 +124,10 @@ RUN: Mapping[str, Mapping[str, Mapping[str, str]]] = {
 }
 """Nodes in Python that do what their arguments say, and the source alone tells nothing of: by distribution, package and
 executable the arguments with which they are run."""
+NAMED: Mapping[str, Mapping[str, Mapping[str, str]]] = {
+    "jazzy": {"controller_manager": {"ros2_control_node": "controller_manager"}},
+}
+"""Executables whose library names their node: by distribution, package and executable the name."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
 OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
 """Names of packages that nobody launches."""
