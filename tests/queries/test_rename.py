@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from preflight_analysis.catalogue import launches
 from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
 from preflight_analysis.workspace.index import Root
 from support.workspace_harness import create_workspace
@@ -301,3 +302,17 @@ def test_in_a_file_that_does_not_parse(tmp_path: Path) -> None:
           <node pkg="p" type="t" name="$(arg rate)"
         """
     assert renamed(tmp_path, text, "speed")["main.launch"].count("speed") == 3
+
+
+def test_the_catalogue_s_files_are_not_edited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    data = tmp_path / "catalogue"
+    file = data / "noetic" / "scanner" / "launch" / "scan.launch.json"
+    file.parent.mkdir(parents=True)
+    file.write_text('[\n["makers/scanner", "0123456", "2024-01-01", 1],\n[0, "arg", {"name": "frame"}]\n]\n')
+    monkeypatch.setattr(launches, "LAUNCHES", data)
+    launches.launch_files_of.cache_clear()
+    text = (
+        '<launch><include file="$(find scanner)/launch/scan.launch"><arg name="$0frame" value="x"/></include></launch>'
+    )
+    assert "cannot be" in refused(tmp_path / "ws", text)
+    launches.launch_files_of.cache_clear()
