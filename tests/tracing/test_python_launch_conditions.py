@@ -183,5 +183,6 @@ def generate_launch_description():
     known = harness.launch(path)
     assert [node.name for node in known.tree.nodes] == ["/new"]
     assert _guessed(path, known) == []
-    unknown = harness.launch(path, variables={"ROS_DISTRO": ""})
-    assert [node.name for node in unknown.tree.nodes] == ["/new"]
+    none = harness.launch(path, variables={"ROS_DISTRO": ""})
+    assert [node.name for node in none.tree.nodes] == ["/new"]
+    assert _guessed(path, none) == []

@@ -170,6 +170,67 @@ def test_python_files_that_make_a_launch_description_are_launch_files(harness: H
     assert paths(tuple(index.entries)) == ["bringup_all.py", "installed.py", "whole.launch.xml"]
 
 
+INCLUDING = """\
+import os
+from ament_index_python import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    launch = os.path.join(get_package_share_directory("p"), "launch")
+    robot = PathJoinSubstitution([FindPackageShare("p"), "launch", "robot.launch.py"])
+    return LaunchDescription([
+        IncludeLaunchDescription(PythonLaunchDescriptionSource(robot), launch_arguments={"robot": "r1"}.items()),
+        IncludeLaunchDescription(
+            PythonLaunchDescriptionSource(os.path.join(launch, "view.launch.py")),
+            condition=IfCondition(LaunchConfiguration("view")),
+        ),
+        IncludeLaunchDescription(PythonLaunchDescriptionSource(os.path.join(launch, LaunchConfiguration("more")))),
+    ])
+"""
+INCLUDED = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.descriptions import ParameterFile
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    config = PathJoinSubstitution([FindPackageShare("p"), "config", [LaunchConfiguration("robot"), ".yaml"]])
+    return LaunchDescription([
+        DeclareLaunchArgument("robot"),
+        Node(package="p", executable="x", name="n", parameters=[ParameterFile(config), {"rate": 5}]),
+    ])
+"""
+
+
+def test_what_a_python_file_that_was_not_run_includes_and_reads_is_known(harness: Harness) -> None:
+    """A server that has run it, and one that has just begun, know the same roots of a file."""
+    written = {
+        "p/launch/robots.launch.py": INCLUDING,
+        "p/launch/robot.launch.py": INCLUDED,
+        "p/launch/view.launch.py": PYTHON,
+        "p/config/r1.yaml": "n: {ros__parameters: {rate: 5}}",
+        "p/package.xml": "<package><name>p</name><export><build_type>ament_python</build_type></export></package>",
+    }
+    for name, text in written.items():
+        (harness.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        harness.write(name, text)
+    harness.workspace = Workspace(detect(str(harness.folder), package_path=(str(harness.folder),)), Sources())
+    index = harness.build()
+    launch = harness.folder / "p/launch"
+    assert [Path(i.includer).name for i in index.includers(str(launch / "robot.launch.py"))] == ["robots.launch.py"]
+    assert [Path(i.includer).name for i in index.includers(str(launch / "view.launch.py"))] == ["robots.launch.py"]
+    assert paths(index.roots_reading(str(harness.folder / "p/config/r1.yaml"))) == ["robots.launch.py"]
+
+
 def test_a_large_circle_is_evaluated_in_parts(harness: Harness, monkeypatch: pytest.MonkeyPatch) -> None:
     count = 400
     for number in range(count):

@@ -33,6 +33,7 @@ _SUBSTITUTIONS = {
     "FindExecutable": "find-exec",
     "get_package_share_directory": "find-pkg-share",
 }
+_NODES = ("node", "lifecycle_node", "node_container")
 _TAKES_NAME = {
     "LaunchConfiguration": ("var", ("variable_name",)),
     "LaunchConfigurationEquals": ("var", ("launch_configuration_name",)),
@@ -146,6 +147,8 @@ class _Reader:
             children = [self._action(inner, depth + 1) for inner in self._inside(call)]
         if kind == "include" and "launch_arguments" in given:
             children = self._passed(given["launch_arguments"])
+        if "parameters" in given and kind in _NODES:
+            children = self._parameter_files(given["parameters"])
         place = [call.lineno, call.col_offset]
         return {"k": kind, "n": last_name(call.func), "p": place, "a": attributes, "c": children}
 
@@ -164,6 +167,19 @@ class _Reader:
             for key, value in pairs
             if isinstance(key, ast.Constant) and isinstance(key.value, str)
         ]
+
+    def _parameter_files(self, node: ast.expr) -> list[dict[str, Any]]:
+        """The files among what a node has in `parameters`, whose paths are written out."""
+        node = self._source.resolved(node)
+        found: list[dict[str, Any]] = []
+        for each in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
+            item = self._source.resolved(each)
+            if isinstance(item, ast.Call) and last_name(item.func) == "ParameterFile" and item.args:
+                item = item.args[0]
+            path = self._value(item)
+            if path and _unknown() not in path:
+                found.append({"k": "param", "a": {"from": path}, "c": []})
+        return found
 
     def _texts(self, node: ast.expr) -> list[str]:
         node = self._source.resolved(node)

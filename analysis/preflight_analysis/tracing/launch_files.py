@@ -51,9 +51,11 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     words = [data[start : start + _WORD] for start in range(0, len(data), _WORD)]
     recipe = ros2_recipe.make_command(environment, python, ("-c", _START, *words), cwd)
     fixed = {"PYTHONHASHSEED": "0"}
-    if "AMENT_PREFIX_PATH" not in recipe.env:
-        # `ros2 launch` runs where a distribution is sourced, whatever is installed here.
-        fixed["AMENT_PREFIX_PATH"] = f"/opt/ros/{environment.distro or DISTRIBUTIONS[-1]}"
+    # `ros2 launch` runs where a distribution is sourced, whatever is installed here.
+    distro = environment.distro or DISTRIBUTIONS[-1]
+    sourced = {"AMENT_PREFIX_PATH": f"/opt/ros/{distro}", "ROS_DISTRO": distro, "ROS_VERSION": "2"}
+    sourced["ROS_PYTHON_VERSION"] = "3"
+    fixed |= {name: value for name, value in sourced.items() if name not in recipe.env}
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "fake_launch": _edition()}
     return replace(recipe, env={**recipe.env, **fixed}, stable=stable)

@@ -15,7 +15,7 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ros
-from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
@@ -229,7 +229,8 @@ class _Maker:
 
 
 def written_includes(launch_file: LaunchFile, packages: Mapping[str, Package]) -> Iterator[Inclusion]:
-    """The includes of a file whose target its text tells: literal paths, `$(find package)/...` and `$(dirname)/...`."""
+    """The includes of a file whose target its text tells: literal paths, `$(find package)/...`, `$(dirname)/...`, and
+    what a Python program joins of these."""
     if launch_file.root is None:
         return
     for action in launch_file.root.walk():
@@ -245,17 +246,27 @@ def _no_args(action: Action) -> dict[str, str | None]:
 
 
 def _written_path(value: Value, path: str, packages: Mapping[str, Package]) -> str | None:
+    text = _written_text(value.parts, path, packages)
+    return os.path.normpath(text) if text is not None and os.path.isabs(text) else None
+
+
+def _written_text(parts: Iterable[Literal | Substitution], path: str, packages: Mapping[str, Package]) -> str | None:
     text = ""
-    for part in value.parts:
+    for part in parts:
         if isinstance(part, Literal):
             text += part.text
         elif part.command in ("find", "find-pkg-share") and part.arguments in packages:
             text += packages[part.arguments].share
         elif part.command == "dirname":
             text += os.path.dirname(path)
+        elif part.command == "path-join":
+            words = [_written_text(word, path, packages) for word in part.words]
+            if not words or None in words:
+                return None
+            text += os.path.join(*(word for word in words if word is not None))
         else:
             return None
-    return os.path.normpath(text) if os.path.isabs(text) else None
+    return text
 
 
 def launch_files(folder: str, workspace: Workspace) -> list[str]:

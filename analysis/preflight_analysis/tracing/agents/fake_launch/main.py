@@ -28,8 +28,6 @@ MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log")
-_SOURCED = {"ROS_DISTRO": unknown_text("the variable ROS_DISTRO"), "ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}
-"""Variables that are set wherever ROS 2 launches something; here none may be installed."""
 _fork = os.fork
 _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 
@@ -42,8 +40,6 @@ def main() -> None:
     RECORDER.file, RECORDER.packages, RECORDER.own_xacro = job["file"], job["packages"], job["own_xacro"]
     for name, value in job.get("given", {}).items():
         os.environ.setdefault(name, value)  # what the sandbox sets itself, such as HOME, is so in it
-    for name, value in _SOURCED.items():
-        os.environ.setdefault(name, value)
     os.environ.update(job["env"])
     sys.argv = ["ros2", "launch", job["file"]]
     sys.path[:0] = job["paths"]
