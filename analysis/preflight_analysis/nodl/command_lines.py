@@ -1,7 +1,7 @@
 """Topics that the nodes of topic_tools are given by their command lines.
 
-http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools. A run does not show all of them: such a
-node takes any type, and makes its output when the first message is there.
+http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools. Such a node takes any type, and its source
+does not say which topics: the command line does, where the node was not run.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ def with_command_lines(tree: LaunchTree, interfaces: Sequence[Interface], kept: 
         return interfaces
     whole = list(interfaces)
     for at, endpoints in compress(enumerate(found), found):
-        # An annotation is the user's word for all of it.
-        if not whole[at].declared and read_annotation(tree.nodes[at].action)[0] is None:
+        # A run tells what is made on demand, and an annotation is the user's word for all of it.
+        if not whole[at].complete and read_annotation(tree.nodes[at].action)[0] is None:
             source = whole[at].source if whole[at].known else "source"
             whole[at] = replace(whole[at].with_more(source, endpoints, ()), whole=True)
     return whole
