@@ -1,5 +1,7 @@
 """What `.gitignore` leaves out."""
 
+from pathlib import Path
+
 import pytest
 from preflight_analysis.environment.git_ignored import is_ignored
 from support.open_buffers import disk_with
@@ -37,8 +39,11 @@ def test_a_file_that_is_kept(patterns: str, path: str) -> None:
     assert not is_ignored(disk_with({"/w/.gitignore": patterns}), path)
 
 
-def test_the_nearest_file_that_speaks_of_it_counts_and_nothing_above_the_repository() -> None:
+def test_the_nearest_file_that_speaks_of_it_counts_and_nothing_above_the_repository(tmp_path: Path) -> None:
     kept = {"/w/.gitignore": "*.urdf", "/w/p/.gitignore": "!robot.urdf"}
     assert not is_ignored(disk_with(kept), "/w/p/robot.urdf")
     assert is_ignored(disk_with(kept), "/w/p/arm.urdf")
-    assert not is_ignored(disk_with({"/w/.gitignore": "*.urdf", "/w/p/.git": ""}), "/w/p/arm.urdf")
+    (tmp_path / "p" / ".git").mkdir(parents=True)
+    disk = disk_with({tmp_path / ".gitignore": "*.urdf"})
+    assert not is_ignored(disk, str(tmp_path / "p" / "arm.urdf"))
+    assert is_ignored(disk, str(tmp_path / "arm.urdf"))
