@@ -120,6 +120,19 @@ def _part(
     return _program(db, name, chain, memory), memory.answers
 
 
+@query
+def discussed(db: Database, asker: str, name: str) -> tuple[object, ...]:
+    """What a file asks of another one, by how often that has it; the other's first word decides whether at all."""
+    if words(db, asker)[:1] == ("5",):
+        return ()
+    return asked.answered(db, Counts(FILE(db, asker)), name)
+
+
+@query
+def discussions(db: Database) -> tuple[object, ...]:
+    return tuple(discussed(db, asker, name) for name in "abc" for asker in "cdef")
+
+
 class Counts:
     """Answers how often something is in a text."""
 
@@ -134,7 +147,7 @@ class Counts:
 TEXTS = st.lists(st.sampled_from([*NAMES, "1", "5", "20", "!", "?"]), max_size=5).map(" ".join)
 STEPS = st.lists(
     st.tuples(
-        st.sampled_from(["open", "open", "close", "disk", "read", "read one", "ask", "program"]),
+        st.sampled_from(["open", "open", "close", "disk", "read", "read one", "ask", "program", "discuss"]),
         st.sampled_from(NAMES),
         TEXTS,
     ),
@@ -189,6 +202,8 @@ def test_after_any_steps(steps: list[tuple[str, str, str]]) -> None:
             assert asked.answered(db, Counts(text), name) == asked.answered(fresh(db), Counts(text), name)
         if what == "program":
             assert program(db, name) == program(fresh(db), name)
+        if what == "discuss":
+            assert discussions(db) == discussions(fresh(db))
         if what.startswith("read"):
             again = fresh(db)
             assert report(db) == report(again)
@@ -207,9 +222,9 @@ def test_after_many_steps_in_threads() -> None:
         while not ended.is_set():
             try:
                 with db.reading():
-                    first = report(db)
+                    first, before = report(db), discussions(db)
                     assert [value_or_error(db, name) for name in NAMES] == [value_or_error(db, n) for n in NAMES]
-                    assert report(db) == first
+                    assert (report(db), discussions(db)) == (first, before)
                     rounds += 1
             except Cancelled:
                 pass
@@ -221,8 +236,8 @@ def test_after_many_steps_in_threads() -> None:
             text = " ".join(random.choices([*NAMES, "1", "5", "20", "!"], k=random.randrange(5)))
             step(db, random.choice(["open", "close", "disk"]), random.choice(NAMES), text)
             if random.random() < 0.1:
-                assert report(db) == report(fresh(db))
+                assert (report(db), discussions(db)) == (report(again := fresh(db)), discussions(again))
         ended.set()
         rounds = [each.result(30) for each in readers]
     assert all(rounds)
-    assert report(db) == report(fresh(db))
+    assert (report(db), discussions(db)) == (report(again := fresh(db)), discussions(again))

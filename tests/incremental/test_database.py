@@ -426,17 +426,62 @@ def test_who_does_not_answer_is_not_asked() -> None:
     def asks(db: Database) -> str:
         return translated(db, "a")
 
-    @query
-    def answers(db: Database) -> str:
-        return translated.answered(db, Answering(str, []), "a")
-
     db = Database()
     with pytest.raises(RuntimeError, match="nobody"):
         translated(db, "a")
     with pytest.raises(RuntimeError, match="nobody"):
         asks.answered(db, Answering(str, []))
-    with pytest.raises(RuntimeError, match="cannot answer"):
-        answers(db)
+
+
+@query
+def dialogue(db: Database, name: str) -> str:
+    """The words of a file in its language, which a file says, too."""
+    language = numbers(db, TEXT(db, f"{name}'s language"))
+    return translated.answered(db, Answering(lambda word: language[int(word)], []), name)
+
+
+@query
+def loud_dialogue(db: Database, name: str) -> str:
+    return dialogue(db, name) + "!"
+
+
+def test_a_query_may_answer() -> None:
+    OUTSIDE.update({"a's language": "german", "german": "0 11 22 33", "b's language": "german"})
+    it = Made()
+    assert loud_dialogue(it.db, "a") == "11 22!"
+    assert it.names() == ["loud_dialogue", "dialogue", "numbers", "translated"]
+    change(it.db, "german", "0 11 22 44")
+    assert loud_dialogue(it.db, "a") == "11 22!"
+    assert it.names() == ["numbers", "dialogue"], "the answers are what they were"
+    change(it.db, "german", "0 1 2 3")
+    assert loud_dialogue(it.db, "a") == "1 2!"
+    change(it.db, "a", "2  1")
+    assert loud_dialogue(it.db, "a") == "2 1!"
+    change(it.db, "a", "1 3")
+    assert loud_dialogue(it.db, "a") == "1 3!", "it asks what it did not ask before"
+    it.names()
+    change(it.db, "a", "1   3")
+    assert loud_dialogue(it.db, "a") == "1 3!"
+    assert it.names() == ["translated"], "it comes to the same"
+
+
+def test_what_another_one_answered_is_no_answer_of_mine() -> None:
+    OUTSIDE.update(mine="1 7", yours="1 1", a="0")
+
+    @query
+    def highest(db: Database) -> int:
+        return max(db.ask(place) for place in numbers(db, "a"))
+
+    @query
+    def highest_of(db: Database, name: str) -> int:
+        return highest.answered(db, Answering(numbers(db, name).__getitem__, []))
+
+    db = Database()
+    assert highest_of(db, "mine") == highest_of(db, "yours") == 1
+    change(db, "a", "0 1")
+    change(db, "yours", "1 1 1")
+    assert highest_of(db, "yours") == 1, "no other value than before, but it was asked more"
+    assert highest_of(db, "mine") == 7
 
 
 def test_all_of_a_handle_is_forgotten_at_once() -> None:

@@ -101,7 +101,8 @@ class Query(Generic[P, V]):
 
     def answered(self, db: Database, answers: Answers, /, *key: P.args, **none: P.kwargs) -> V:
         """The value for one who answers what the function asks (`Database.ask`). It is remembered with the questions
-        and their answers, for all who would answer them alike. No query may do so: nobody would know of the answers."""
+        and their answers, for all who would answer them alike. Where a query answers, what it answers follows from
+        what it has read so far."""
         _refuse(none)
         return cast(V, db.read_answered(self, (key,), answers)[0])
 
@@ -141,12 +142,30 @@ def _would_answer(answers: Answers, cell: _Cell) -> bool:
     return True
 
 
+class _AsLastTime:
+    """Answers what a cell asked when it was made. It does not know what else its asker would have answered."""
+
+    def __init__(self, number: int, answers: Mapping[Hashable, object]) -> None:
+        self.number = number
+        self._answers = answers
+
+    def look(self, question: Hashable) -> object:
+        return self._answers[question]
+
+    def alike(self, number: int, questions: Iterable[object]) -> bool:
+        return number == self.number
+
+
 def _no_answer(question: Hashable) -> object:
     raise RuntimeError("there is nobody to answer")
 
 
 def _same(one: object, other: object) -> bool:
     return type(one) is type(other) and one == other
+
+
+def _are_same(some: Mapping[Hashable, object], others: Mapping[Hashable, object]) -> bool:
+    return some.keys() == others.keys() and all(_same(others[key], each) for key, each in some.items())
 
 
 def _refuse(keywords: Mapping[str, object]) -> None:
@@ -430,10 +449,7 @@ class Database:
 
     def read_answered(self, kind: Query[Any, Any], keys: Sequence[Key], answers: Answers) -> list[object]:
         """As `Query.answered_each`."""
-        thread = self._thread
-        if thread.reads:
-            raise RuntimeError("a query cannot answer another one")
-        if not thread.readings:
+        if not self._thread.readings:
             return self.in_one_revision(lambda: self.read_answered(kind, keys, answers))
         return [self._answered_value(kind, key, answers) for key in keys]
 
@@ -441,17 +457,12 @@ class Database:
         if self._writers:
             raise Cancelled
         cells = self._answered.setdefault((kind, key), [])
-        cell = cells[-1] if cells else _Cell(kind, key)
-        if cells and not _would_answer(answers, cell):
-            others = (each for each in cells[-2::-1] if _would_answer(answers, each))
-            cell = next(others, None) or _Cell(kind, key)
-        cell.used_at = self.revision
-        if not (cell.durable and cell.verified_at >= self._durable_changed_at):
-            self._thread.asked = _Asked(cell, answers, {})
-            try:
-                self._bring_up_to_date(cell)
-            finally:
-                self._thread.asked = None
+        cell = next((each for each in cells[::-1] if _would_answer(answers, each)), None) or _Cell(kind, key)
+        self._make_for(answers, cell)
+        if not _would_answer(answers, cell):
+            # Somebody asked for it at the same time, and answered otherwise what the function asks now.
+            cell = _Cell(kind, key)
+            self._make_for(answers, cell)
         if not cells or cells[-1] is not cell:
             with self._condition:
                 if cell in cells:
@@ -463,6 +474,13 @@ class Database:
         if kind.limit is not None:
             self._used(cell, kind.limit)
         return cell.value
+
+    def _make_for(self, answers: Answers, cell: _Cell) -> None:
+        if self._thread.reads:
+            self._thread.reads[-1][cell] = None
+        cell.used_at = self.revision
+        if not (cell.durable and cell.verified_at >= self._durable_changed_at):
+            self._bring_up_to_date_for(answers, cell)
 
     def ask(self, question: Hashable) -> Any:
         """For the function of a query that is asked for by `answered`: what its asker answers."""
@@ -534,7 +552,10 @@ class Database:
         """Whether a cell has the value of this revision, and had it then."""
         if cell.verified_at < self.revision:
             try:
-                self._bring_up_to_date(cell)
+                if cell.answered_by is None:
+                    self._bring_up_to_date(cell)
+                else:
+                    self._bring_up_to_date_for(_AsLastTime(cell.answered_by, cell.answers), cell)
             except Exception:
                 return False  # who asks for it in earnest shall see that
         return cell.changed_at <= since
@@ -569,6 +590,15 @@ class Database:
                         del self._answered[name]
 
     # How a value comes up to date
+
+    def _bring_up_to_date_for(self, answers: Answers, cell: _Cell) -> None:
+        """The same for a cell whose function asks."""
+        thread = self._thread
+        before, thread.asked = thread.asked, _Asked(cell, answers, {})
+        try:
+            self._bring_up_to_date(cell)
+        finally:
+            thread.asked = before
 
     def _bring_up_to_date(self, cell: _Cell) -> None:
         """Make the cell's value that of this revision."""
@@ -630,16 +660,23 @@ class Database:
         try:
             value = kind.function(self, *cell.key)
         except Exception:
-            cell.depends_on, cell.value, cell.verified_at = tuple(reads), _NONE, 0
-            cell.durable = all(each.durable for each in reads)
+            with self._condition:
+                if cell.verified_at < self.revision:
+                    cell.depends_on, cell.value, cell.verified_at = tuple(reads), _NONE, 0
+                    cell.durable = all(each.durable for each in reads)
             raise
         finally:
             thread.reads.pop()
             thread.making.pop()
-        if thread.asked is not None and thread.asked.cell is cell:
-            cell.answers, cell.answered_by = thread.asked.answers, thread.asked.by.number
+        asked = thread.asked if thread.asked is not None and thread.asked.cell is cell else None
         same = cell.value is not _NONE and cell.value == value
+        # Whoever else has read it may answer otherwise what the function asks now.
+        same = same and (asked is None or _are_same(cell.answers, asked.answers))
         with self._condition:
+            if cell.verified_at >= self.revision:
+                return  # another thread was faster
+            if asked is not None:
+                cell.answers, cell.answered_by = asked.answers, asked.by.number
             if not same:
                 cell.value, cell.changed_at = value, self.revision
             cell.depends_on, cell.verified_at, cell.parts = tuple(reads), self.revision, parts
