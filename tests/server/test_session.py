@@ -24,7 +24,7 @@ async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypat
         tried.append(path)
         raise RuntimeError("on purpose")
 
-    monkeypatch.setattr(Workspace, "static", breaks)
+    monkeypatch.setattr(Workspace, "analysed", breaks)
     monkeypatch.setattr(PreflightServer, "client_capabilities", types.ClientCapabilities())
     server = PreflightServer()
     session = Session(server, str(tmp_path), Settings(), trusted=False)
@@ -85,7 +85,7 @@ async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
 async def test_no_edit_waits_for_who_reads(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     reads, may_go_on = threading.Event(), threading.Event()
     let_go: list[bool] = []
-    whole = Workspace.static
+    whole = Workspace.analysed
 
     def waits(self: Workspace, *args: Any) -> Analysis:
         if not reads.is_set():
@@ -94,7 +94,7 @@ async def test_no_edit_waits_for_who_reads(tmp_path: Path, monkeypatch: pytest.M
                 let_go.append(may_go_on.wait(10))
         return whole(self, *args)
 
-    monkeypatch.setattr(Workspace, "static", waits)
+    monkeypatch.setattr(Workspace, "analysed", waits)
     monkeypatch.setattr(PreflightServer, "client_capabilities", types.ClientCapabilities())
     server = PreflightServer()
     session = Session(server, str(tmp_path), Settings(), trusted=False)

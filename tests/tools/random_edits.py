@@ -33,6 +33,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import find_packages
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
+from preflight_analysis.workspace.run_results import RunResults, node_keys
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.text_store import TextStore, to_uri
@@ -215,8 +216,6 @@ class Harness:
     open: dict[str, str] = field(default_factory=dict)
     undo: dict[str, list[str]] = field(default_factory=dict)
     typing: Typing | None = None
-    known: dict[int, Analysis] = field(default_factory=dict)
-    """What each root came to when it was last compared."""
     log: list[str] = field(default_factory=list)
     changes: int = 0
 
@@ -356,25 +355,25 @@ class Harness:
 
     def compare(self) -> None:
         """Raises `Broken` if a fresh look at the same texts tells something else."""
-        number = self.chance.randrange(len(self.roots))
-        root, args = self.roots[number]
+        root, args = self.chance.choice(self.roots)
         remembered = self.workspace.static(root, args)
-        whole = self.known[number] = _with_graph(self.workspace, remembered, self.known.get(number))
+        whole = _with_graph(self.workspace, remembered)
         sources = Sources()
         for path, text in self.open.items():
             sources.open(path, text)
         workspace = Workspace(self.environment, sources, self.folder)
         fresh = workspace.static(root, args)
-        now, then = _state(remembered, whole), _state(fresh, _with_graph(workspace, fresh, None))
+        now, then = _state(remembered, whole), _state(fresh, _with_graph(workspace, fresh))
         for what, one in now.items():
             if one != then[what]:
                 raise Broken(f"{what} of {root} with {args}:\n{_difference(one, then[what])}")
 
 
-def _with_graph(workspace: Workspace, analysis: Analysis, previous: Analysis | None) -> Analysis:
+def _with_graph(workspace: Workspace, analysis: Analysis) -> Analysis:
     """The analysis as if its nodes had been run: what they do is made up from how they are started."""
-    interfaces = [_interface(node) for node in analysis.tree.nodes]
-    return workspace.with_interfaces(analysis, interfaces, None, previous)
+    told = dict(zip(node_keys(analysis.tree), map(_interface, analysis.tree.nodes), strict=True))
+    workspace.tell(analysis.launch, RunResults(told))
+    return workspace.analysed(analysis.root, dict(analysis.args))
 
 
 def _interface(node: LaunchNode) -> Interface:

@@ -272,9 +272,11 @@ def test_what_is_remembered_of_runs_is_as_the_cache_has_it(harness: Harness) -> 
     assert first is not None
     assert similar.each([asked(node, 1)], {})[0] is first
     shutil.rmtree(harness.cache.folder)
+    similar.look()
     assert similar.each([asked(node, 1)], {})[0] is None
     harness.tracer = Tracer(harness.environment, harness.cache)
     harness.analyse("works.launch", WORKS)
+    similar.look()
     again = similar.each([asked(node, 1)], {})[0]
     assert again is not None
     assert told(again) == told(first)

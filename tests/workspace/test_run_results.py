@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.interface import Interface, Outcome
-from preflight_analysis.workspace.run_results import NOT_ASKED_FOR, RunResults, node_keys, with_results
+from preflight_analysis.workspace.run_results import NOT_ASKED_FOR, RunResults, node_keys
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from support.demo_package import create_demo_package
@@ -26,7 +26,8 @@ class Launch:
         self.static = self.workspace.static(str(path))
 
     def analysis(self, results: RunResults) -> Analysis:
-        return with_results(self.workspace, self.static, results)
+        self.workspace.tell(self.static.launch, results)
+        return self.workspace.analysed(self.static.root)
 
     def reasons(self, results: RunResults) -> list[str | None]:
         graph = self.analysis(results).graph
@@ -40,7 +41,8 @@ def launch(tmp_path: Path) -> Launch:
 
 
 def test_while_the_first_runs_are_under_way_there_is_no_graph(launch: Launch) -> None:
-    assert launch.analysis(RunResults(pending=True)) is launch.static
+    analysis = launch.analysis(RunResults(pending=True))
+    assert (analysis.graph, analysis.findings) == (None, launch.static.findings)
 
 
 def test_what_was_not_asked_for_says_so(launch: Launch) -> None:

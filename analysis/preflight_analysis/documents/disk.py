@@ -49,10 +49,6 @@ def _real_path(path: str) -> str:
         return path
 
 
-def _no_changes() -> int:
-    return 0
-
-
 def _buffer(path: str) -> Text | Unreadable | None:
     return None
 
@@ -81,8 +77,6 @@ BUFFER = Input(_buffer)
 LINES = Input(_lines)
 """By which locations stay right, and equal to what they were, where other lines of their file come or go."""
 _OF_DISK: tuple[Input[[str], Any], ...] = (STATUS, REAL_PATH)
-CHANGES = Input(_no_changes)
-"""How often a look at the disk showed something new: for what looks at the disk without being a query."""
 
 
 @query
@@ -201,8 +195,6 @@ class Disk:
                     before = write.get(kind, *key)
                     write.reload(kind, *key)
                     changed |= _seen(before) != _seen(write.get(kind, *key))
-                if changed:
-                    write.set(CHANGES, write.get(CHANGES) + 1, durable=True)
         return changed
 
     def exists(self, path: str) -> bool:

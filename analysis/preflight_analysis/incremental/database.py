@@ -393,6 +393,11 @@ class Database:
                 self._writers -= 1
                 self._condition.notify_all()
 
+    def leave_if_cancelled(self) -> None:
+        """For what takes long between two questions: raises `Cancelled` within `reading`, where somebody writes."""
+        if self._thread.readings and self._writers:
+            raise Cancelled
+
     @property
     def is_reading(self) -> bool:
         """Whether this thread is within `reading`, or a query."""

@@ -100,6 +100,7 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Find
     for rule in rules:
         if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
             continue
+        context.disk.db.leave_if_cancelled()
         try:
             found = list(rule.check(rule, context))
         except Exception:

@@ -76,10 +76,9 @@ class SimilarTraces:
         """What the executable of each node did in the most similar run; None where none is known. `params` is the
         parameter server of the launch. The names are as the node would give them, everything is marked `similar`.
 
-        The disk is asked once for each executable.
+        The disk is asked once for each executable, and again by `look`.
         """
         db = self._disk.db
-        self._look(nodes)
 
         def work() -> list[Interface | None]:
             known = {traces for traces in {node.traces for node in nodes} if _traces(db, self.cache, traces)}
@@ -98,14 +97,10 @@ class SimilarTraces:
             said.append(frozenset(map(bare, texts(params))))
         return _similar(db, self, node, best.given - said[0] if best.given else best.given)
 
-    def _look(self, nodes: Iterable[Asked]) -> None:
-        """Notice other builds, and what runs have told since."""
+    def look(self) -> None:
+        """Notice what runs have told since."""
         db = self._disk.db
-        if db.is_reading:
-            return
-        nodes = [*nodes]
-        self._disk.look({node.path for node in nodes})
-        outdated = db.outdated(_STATE, [(self.cache, traces) for traces in {node.traces for node in nodes}])
+        outdated = db.outdated(_STATE)
         if outdated:
             with db.writing() as write:
                 for key in outdated:

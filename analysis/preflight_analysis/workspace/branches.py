@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -19,9 +19,11 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.inversion import Assignment, assignments, named_arguments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.incremental.database import Input
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.rules.problems import INCLUDED_HERE
+from preflight_analysis.workspace.index import Root
 
 MAX_WHAT_IFS = 24
 """Further evaluations of one launch."""
@@ -60,6 +62,12 @@ class Branches:
     pending: tuple[str, ...] = ()
 
 
+def _none_yet(workspace: Hashable, root: Root) -> Branches:
+    return Branches()
+
+
+BRANCHES = Input(_none_yet, durable=False)
+"""What was found last in the tags that a root leaves out."""
 Ask = Callable[[Assignment, frozenset[Location]], WhatIf]
 """Evaluates the launch with these arguments, and with the tags at these places taken whatever their conditions say."""
 

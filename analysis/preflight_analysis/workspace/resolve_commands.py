@@ -33,7 +33,7 @@ def resolve_commands(
     """The analysis once nothing is left to run. `results` are those that the workspace's trees are made with."""
     root = Root.of(path, args)
     resolve_together(workspace, [root], results, runner, cancel, only_launch_files=only_launch_files)
-    return workspace.static(path, args)
+    return workspace.evaluated(path, args)
 
 
 def resolve_together(
@@ -56,7 +56,7 @@ def resolve_together(
         for root in waiting:
             if cancel.is_set():
                 return
-            commands = workspace.static(root.path, dict(root.args)).tree.commands
+            commands = workspace.evaluated(root.path, dict(root.args)).tree.commands
             lines = [c.line for c in commands if c.launch_file or not only_launch_files]
             asked[root] = {line for line in lines if line not in tried}
             wanted.update(dict.fromkeys(line for line in lines if line in asked[root]))

@@ -1,15 +1,16 @@
-"""What is known of the runs of the nodes of a launch, and the analysis that it makes: for server and command line."""
+"""What is known of the runs of the nodes of a launch: for server and command line."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.incremental.database import Input
 from preflight_analysis.tracing.interface import PENDING, Interface
+from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 NOT_ASKED_FOR = "it was not asked for"
 
@@ -26,6 +27,27 @@ class RunResults:
     why_not_run: str | None = None
     pending: bool = False
 
+    @property
+    def awaited(self) -> bool:
+        """Whether the first runs are under way, and nothing is known yet."""
+        return self.pending and self.why_not_run is None and not self.interfaces
+
+    def of(self, tree: LaunchTree) -> tuple[list[Interface], str | None]:
+        """The interfaces of the nodes of a tree, in order, and why none of them was run, None where one was."""
+        known, why, keys = self.interfaces, self.why_not_run, node_keys(tree)
+        reason = why or (PENDING if self.pending else NOT_ASKED_FOR)
+        interfaces = [known.get(key) or not_run(node, reason) for key, node in zip(keys, tree.nodes, strict=True)]
+        # Where earlier runs tell of some, those that were not run say so themselves.
+        return interfaces, None if any(key in known for key in keys) else why
+
+
+def _none_yet(workspace: Hashable, root: Root) -> RunResults:
+    return RunResults()
+
+
+RESULTS = Input(_none_yet, durable=False)
+"""What runs have told so far of the nodes of a root."""
+
 
 def node_keys(tree: LaunchTree) -> list[NodeKey]:
     """The keys of the nodes of a tree, in order."""
@@ -38,19 +60,3 @@ def node_keys(tree: LaunchTree) -> list[NodeKey]:
         keys.append((node.name, seen[node.name]))
         seen[node.name] += 1
     return keys
-
-
-def with_results(
-    workspace: Workspace, static: Analysis, results: RunResults, previous: Analysis | None = None
-) -> Analysis:
-    """The static analysis with what is known of its nodes. While the first runs are under way it says nothing of the
-    graph. `previous` is what was known of the same root before: what has not changed since is taken over."""
-    known, why = results.interfaces, results.why_not_run
-    if results.pending and why is None and not known and any(r is not None for r in workspace.requests(static)):
-        return static
-    tree = static.tree
-    reason = why or (PENDING if results.pending else NOT_ASKED_FOR)
-    keys = node_keys(tree)
-    interfaces = [known.get(key) or not_run(node, reason) for key, node in zip(keys, tree.nodes, strict=True)]
-    # Where earlier runs tell of some, those that were not run say so themselves.
-    return workspace.with_interfaces(static, interfaces, None if any(key in known for key in keys) else why, previous)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import ast
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from preflight_analysis.catalogue.launches import catalogued_file
-from preflight_analysis.documents.disk import CHANGES
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Place
@@ -32,7 +31,6 @@ from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.database import Cancelled, Database, query
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
@@ -47,7 +45,7 @@ from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
-from preflight_analysis.workspace.branches import Branches, WhatIf, branches_of
+from preflight_analysis.workspace.branches import BRANCHES, Branches, WhatIf, branches_of
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.project_settings import (
@@ -57,16 +55,19 @@ from preflight_analysis.workspace.project_settings import (
     project_settings_of,
 )
 from preflight_analysis.workspace.resolve_node_names import resolve_node_names
+from preflight_analysis.workspace.run_results import RESULTS, RunResults
 from preflight_analysis.workspace.sources import Sources
 
 MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
 MAX_WHAT_IFS_KEPT = 96
 """How many launches with other arguments, for the tags that these take."""
+_MAX_AHEAD = 2
+"""The same of those that were completed without runs, for who types just now."""
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis(Once):
+class Analysis:
     """Everything known of one root. `documents` has each text that a location in it may point into, by path."""
 
     root: str
@@ -92,7 +93,7 @@ class Analysis(Once):
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
-        """What all rules say. They are run when this is first asked for: where the graph follows, only with that."""
+        """What all rules say. They are run when this is first asked for."""
         found = run_rules(self.context)
         if self.tree.edited:
             found = [each for each in found if not self._of_replaced_text(each)]
@@ -182,12 +183,50 @@ class Workspace:
         The files that it was made of the last time are looked at; what else there is on the disk is as it was when it
         was last looked at (`refresh`).
         """
-        db, path, given = self.sources.db, os.path.normpath(path), tuple(sorted((args or {}).items()))
-        known = _static.last(db, self, path, given)
-        looked_at = known.tree.inputs if known is not None else (path,)
-        self.sources.look((*looked_at, *self._settings_files))
+        root = self._looked_at(path, args)
+        return _static(self.sources.db, self, root.path, root.args)
+
+    def analysed(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
+        """All that is known of `path` launched with `args`, by what was told of its runs (`tell`). The disk is looked
+        at as for `static`. While the first runs are under way it says nothing of the graph."""
+        root = self._looked_at(path, args)
+        return _analysed(self.sources.db, self, root.path, root.args)
+
+    def evaluated(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
+        """As `static` for who has no need of findings: they are made when they are asked for."""
+        root = self._looked_at(path, args)
+        return _evaluated(self.sources.db, self, root.path, root.args)
+
+    def tell(self, root: Root, results: RunResults) -> None:
+        """What is known now of the runs of the nodes of a root."""
+        db = self.sources.db
+        if RESULTS(db, self, root) != results:
+            with db.writing() as write:
+                write.set(RESULTS, results, self, root)
+
+    def tell_branches(self, root: Root, branches: Branches) -> bool:
+        """What is known now of the tags that a root leaves out; whether that is something else than before."""
+        db = self.sources.db
+        if BRANCHES(db, self, root) == branches:
+            return False
+        with db.writing() as write:
+            write.set(BRANCHES, branches, self, root)
+        return True
+
+    def look_at(self, roots: Iterable[Root]) -> None:
+        """Look at the files that these were made of the last time, and at what runs gave meanwhile."""
+        files = {*self._settings_files}
+        for root in roots:
+            known = _evaluated.last(self.sources.db, self, root.path, root.args)
+            files.update(known.tree.inputs if known is not None else (root.path,))
+        self.sources.look(files)
         self.look_at_results()
-        return _static(db, self, path, given)
+
+    def _looked_at(self, path: str, args: Mapping[str, str] | None) -> Root:
+        root = Root.of(os.path.normpath(path), args or {})
+        if not self.sources.db.is_reading:
+            self.look_at([root])
+        return root
 
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered. The results of commands are those of the last
@@ -197,8 +236,10 @@ class Workspace:
         return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands)
 
     def look_at_results(self) -> None:
-        """Notice results of commands that came."""
+        """Notice results of commands that came, and what executables did elsewhere meanwhile."""
         db = self.sources.db
+        if self._similar is not None:
+            self._similar.look()
         if db.is_outdated(EDITION, self.commands):
             with db.writing() as write:
                 write.reload(EDITION, self.commands)
@@ -268,6 +309,7 @@ class Workspace:
         root before: what has not changed since is taken over.
         """
         kept = Kept(previous.context.kept if previous is not None else None)
+        db = self.sources.db
         tree = resolve_node_names(analysis.tree, interfaces, analysis.documents)
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
@@ -277,6 +319,7 @@ class Workspace:
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             whole = self._filled_in(of_source, interfaces, project, kept)
+        db.leave_if_cancelled()
         graph = build_graph(
             analysis.tree, whole, project.external_topics, self.environment.distro, analysis.documents, kept
         )
@@ -294,17 +337,7 @@ class Workspace:
     def ahead_of_runs(self, analysis: Analysis) -> Analysis:
         """The analysis with what is known without a run of the nodes whose run has not ended: while a node is being
         written, what its source declares can be proposed before it has run once."""
-        return analysis.once(self._ahead_of_runs)
-
-    def _ahead_of_runs(self, analysis: Analysis) -> Analysis:
-        if analysis.graph is None:
-            interfaces = [not_run(node) for node in analysis.tree.nodes]
-        elif any(interface.pending for interface in analysis.graph.processes):
-            pairs = zip(analysis.tree.nodes, analysis.graph.processes, strict=True)
-            interfaces = [not_run(node) if each.pending else each for node, each in pairs]
-        else:
-            return analysis
-        return self.with_interfaces(analysis, interfaces, analysis.why_not_run)
+        return _ahead_of_runs(self.sources.db, self, analysis)
 
     def _filled_in(
         self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings, kept: Kept
@@ -327,12 +360,6 @@ class Workspace:
         """The settings file of the workspace."""
         folder = self.environment.workspace
         return project_settings_of(self.sources.db, folder) if folder is not None else ProjectSettings()
-
-    def is_current(self, tree: LaunchTree) -> bool:
-        """Whether nothing that it was made of has changed since."""
-        return all(self.sources.digest(path) == known for path, known in tree.inputs.items()) and all(
-            self.commands.result(command.line) == command.result for command in tree.commands
-        )
 
     def texts_of(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
         """All that places in a tree may lead to, and what of it are launch files that somebody here may mend."""
@@ -387,7 +414,6 @@ def _what_if(
     args: tuple[tuple[str, str], ...],
     assumed: frozenset[Location],
 ) -> WhatIf:
-    CHANGES(db)  # rules look at the disk, too
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
     # What is taken against its condition is not remembered for launches in which it is not.
@@ -403,8 +429,7 @@ def _what_if(
 
 
 @query(limit=MAX_ANALYSES)
-def _static(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str, str], ...]) -> Analysis:
-    CHANGES(db)  # rules look at the disk, too
+def _evaluated(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str, str], ...]) -> Analysis:
     known: Analysis | None = db.previous
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
@@ -412,10 +437,49 @@ def _static(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str
     if known is not None:
         tree = taken_over(tree, known.tree)
     documents, launch_files = workspace.texts_of(tree)
-    kept = Kept(known.context.kept if known is not None else None)
     index = _executables(db, workspace, environment)
-    context = Context(path, tree, documents, launch_files, environment, index, workspace.sources, kept=kept)
+    context = Context(path, tree, documents, launch_files, environment, index, workspace.sources)
     return Analysis(path, args, tree, documents, launch_files, environment, context, workspace.settings.severities)
+
+
+@query(limit=MAX_ANALYSES)
+def _static(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str, str], ...]) -> Analysis:
+    before = db.previous
+    return _judged(_going_on(_evaluated(db, workspace, path, args), before))
+
+
+@query(limit=MAX_ANALYSES)
+def _analysed(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str, str], ...]) -> Analysis:
+    before, root = db.previous, Root(path, args)
+    analysis, results = _evaluated(db, workspace, path, args), RESULTS(db, workspace, root)
+    analysis = analysis.with_branches(BRANCHES(db, workspace, root))
+    if results.awaited and any(request is not None for request in workspace.requests(analysis)):
+        return _judged(_going_on(analysis, before))
+    return _judged(workspace.with_interfaces(analysis, *results.of(analysis.tree), before))
+
+
+def _going_on(analysis: Analysis, before: Analysis | None) -> Analysis:
+    """The analysis, for which is taken over what was the same before."""
+    kept = Kept(before.context.kept if before is not None else None)
+    return replace(analysis, context=replace(analysis.context, kept=kept))
+
+
+def _judged(analysis: Analysis) -> Analysis:
+    """The analysis with its findings: what the rules look at is part of what the query was made of."""
+    _ = analysis.findings
+    return analysis
+
+
+@query(limit=_MAX_AHEAD)
+def _ahead_of_runs(db: Database, workspace: Workspace, analysis: Analysis) -> Analysis:
+    if analysis.graph is None:
+        interfaces = [not_run(node) for node in analysis.tree.nodes]
+    elif any(interface.pending for interface in analysis.graph.processes):
+        pairs = zip(analysis.tree.nodes, analysis.graph.processes, strict=True)
+        interfaces = [not_run(node) if each.pending else each for node, each in pairs]
+    else:
+        return analysis
+    return workspace.with_interfaces(analysis, interfaces, analysis.why_not_run)
 
 
 def _under_names(analysis: Analysis, tree: LaunchTree) -> Analysis:

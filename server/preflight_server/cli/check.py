@@ -6,7 +6,7 @@ import argparse
 import os
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -136,7 +136,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                 settings = os.path.join(launch.home, SETTINGS_FILE)
                 if not changed or touched(project.analysis, changed[launch.home], settings):
                     branches = launch.workspace.branches(project.analysis)
-                    project = replace(project, analysis=project.analysis.with_branches(branches))
+                    launch.workspace.workspace.tell_branches(project.analysis.launch, branches)
                     found.append(_Launched.of(root, run_nodes(project, args, report=progress.part), branches.untried))
     finally:
         progress.end()

@@ -22,7 +22,7 @@ from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.commands import CommandResults, run_commands
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS, resolve_together
-from preflight_analysis.workspace.run_results import RunResults, node_keys, with_results
+from preflight_analysis.workspace.run_results import RunResults, node_keys
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -83,7 +83,7 @@ class OpenWorkspace:
     def analysed(self, path: str, values: Mapping[str, str]) -> Project:
         """A launch file with its arguments."""
         self.run_commands([Root.of(path, values)])
-        return Project(self.workspace, self.workspace.static(path, values))
+        return Project(self.workspace, self.workspace.evaluated(path, values))
 
     def branches(self, analysis: Analysis) -> Branches:
         """What is found in the tags that an analysis leaves out, once the Python launch files are run that these
@@ -114,7 +114,7 @@ class OpenWorkspace:
         """Run what has to be run before these are known, side by side."""
         if self.no_run:
             return
-        waiting = [root for root in roots if self.workspace.static(root.path, dict(root.args)).tree.commands]
+        waiting = [root for root in roots if self.workspace.evaluated(root.path, dict(root.args)).tree.commands]
         if not waiting:
             return
         cancel = threading.Event()
@@ -175,7 +175,8 @@ def run_nodes(
         except KeyboardInterrupt:
             cancel.set()
             raise
-    return with_results(workspace, analysis, RunResults(found, why))
+    workspace.tell(analysis.launch, RunResults(found, why))
+    return workspace.analysed(analysis.root, dict(analysis.args))
 
 
 def _why_not(no_run: bool) -> str | None:

@@ -1,4 +1,4 @@
-"""The texts of an editor on their way into the database, by a thread of their own.
+"""The texts of an editor, and looks at the disk, on their way into the database, by a thread of their own.
 
 A write cancels readers and waits until they have left, which takes as long as what they are at between two questions:
 the parse of a large file. Nothing on the event loop waits for that.
@@ -24,6 +24,7 @@ class Buffers:
         self._server = server
         self._sources = sources
         self._pending: dict[str, str | None] = {}
+        self._look = False
         self._writing: asyncio.Task[None] | None = None
         self._closed = False
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="buffers")
@@ -31,6 +32,14 @@ class Buffers:
     def put(self, path: str, text: str | None) -> None:
         """The text counts in place of the file; None: the file on the disk does."""
         self._pending[path] = text
+        self._start()
+
+    def look(self) -> None:
+        """Files changed on the disk."""
+        self._look = True
+        self._start()
+
+    def _start(self) -> None:
         if self._writing is None or self._writing.done():
             self._writing = self._server.spawn(self._write())
 
@@ -45,6 +54,11 @@ class Buffers:
         self._pool.shutdown(wait=True, cancel_futures=True)
 
     async def _write(self) -> None:
-        while self._pending and not self._closed:
+        loop = asyncio.get_running_loop()
+        while (self._pending or self._look) and not self._closed:
             texts, self._pending = self._pending, {}
-            await asyncio.get_running_loop().run_in_executor(self._pool, self._sources.take, texts)
+            look, self._look = self._look, False
+            if texts:
+                await loop.run_in_executor(self._pool, self._sources.take, texts)
+            if look:
+                await loop.run_in_executor(self._pool, self._sources.look)

@@ -19,16 +19,15 @@ async def query_context(view: View) -> QueryContext:
     """The context of an open launch file. What was not analysed since the last edit is left out: its places are
     gone."""
     session, workspace = view.session, await view.session.workspace()
-    others = await session.in_pool(lambda: [a for a in view.analyses[1:] if workspace.is_current(a.tree)])
+    others = filter(session.is_current, view.analyses[1:])
     return QueryContext(view.path, (view.analysis, *others), view.index, workspace)
 
 
 async def workspace_query_context(session: Session, path: str = "") -> QueryContext:
     """The context of any launch file of a folder, open or not, or of none: with the analyses of all that is open."""
     await session.settled()
-    workspace, analyses = await session.workspace(), session.roots()
-    current = await session.in_pool(lambda: tuple(a for a in analyses if workspace.is_current(a.tree)))
-    return QueryContext(path, current, session.indexing.index, workspace)
+    workspace, current = await session.workspace(), filter(session.is_current, session.roots())
+    return QueryContext(path, tuple(current), session.indexing.index, workspace)
 
 
 def converter_for(ls: PreflightServer, context: QueryContext, places: Iterable[Location]) -> Converter:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+import logging
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -15,11 +16,13 @@ from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.merged import counting, merged
-from preflight_analysis.workspace.run_results import RunResults, with_results
+from preflight_analysis.workspace.run_results import RunResults
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.text_store import TextStore
+
+_log = logging.getLogger(__name__)
 
 LARGE = 100
 """From so many nodes on, what can be said of a launch without the graph is shown first."""
@@ -27,9 +30,11 @@ LARGE = 100
 
 @dataclass(frozen=True, slots=True)
 class Round:
-    """What one more analysis led to, over all roots."""
+    """What was asked led to, over all roots."""
 
     analyses: Mapping[Root, Analysis]
+    outdated: frozenset[Root]
+    """Those of them that were not asked for again since a file of theirs changed."""
     findings: Mapping[str, tuple[Finding, ...]]
     missing: tuple[Missing, ...]
     diagnostics: Mapping[str, list[types.Diagnostic]]
@@ -37,64 +42,82 @@ class Round:
     converter: Converter
     """What made them, for the next round."""
     preliminary: bool = False
-    """Whether the graph of the one that was analysed is still missing."""
+    """Whether the graph of one that was asked for is still missing."""
 
 
 def branches_of(workspace: Workspace, root: Root, stops: Callable[[], bool]) -> Branches | None:
     """What is found in the tags that a launch leaves out; None where something was written before that was known, or
     it `stops`. Call it in a thread."""
-    static = workspace.static(root.path, dict(root.args))
+    evaluated = workspace.evaluated(root.path, dict(root.args))
     with suppress(Cancelled), workspace.sources.db.reading():
-        return workspace.branches(static, stops)
+        return workspace.branches(evaluated, stops)
     return None
 
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """A session at one moment. `root` is to be analysed, None where only the findings are to be put together anew."""
+    """A session at one moment, when it asks for some of the `wanted` roots. Of the others is known what was last."""
 
-    root: Root | None
-    results: RunResults
-    """Of its nodes."""
-    branches: Branches
-    """What was found last in the tags that it leaves out."""
-    analyses: Mapping[Root, Analysis]
-    stale: Collection[Root]
-    """Those of them that an edit made out of date."""
     asked: Collection[Root]
+    wanted: Collection[Root]
+    results: Mapping[Root, RunResults]
+    """Of the nodes of those that are asked for."""
+    named: Collection[Root]
     """Roots that count though others include them."""
     selected: Mapping[str, Root]
     """The root that the user chose for a file to be shown in."""
     before: Round | None
-    look: bool
-    """Whether files changed on the disk."""
+    only_news: bool
+    """Whether `before` is all there is to tell where the roots that are asked for are what they were."""
     texts: TextStore
     shows_related: bool
 
-    def analysed(self, workspace: Workspace) -> Round:
-        """What follows from it. Call it in a thread."""
-        if self.look:
-            workspace.refresh()
-        root, analyses, preliminary = self.root, dict(self.analyses), False
-        if root is not None:
-            static = workspace.static(root.path, dict(root.args)).with_branches(self.branches)
-            preliminary = root not in analyses and len(static.tree.nodes) >= LARGE
-            whole = static if preliminary else with_results(workspace, static, self.results, analyses.get(root))
-            analyses[root] = whole
-        return replace(self._published(workspace, analyses), preliminary=preliminary)
+    def round(self, workspace: Workspace) -> Round | None:
+        """What follows from it; None where an edit came first. Call it in a thread."""
+        for root, results in self.results.items():
+            workspace.tell(root, results)
+        workspace.look_at(self.asked)
+        with suppress(Cancelled), workspace.sources.db.reading():
+            return self._asked(workspace)
+        return None
 
-    def _published(self, workspace: Workspace, analyses: Mapping[Root, Analysis]) -> Round:
+    def _asked(self, workspace: Workspace) -> Round:
+        known = self.before.analyses if self.before is not None else {}
+        asked: dict[Root, Analysis] = {}
+        preliminary = False
+        for root in self.asked:
+            args = dict(root.args)
+            try:
+                is_new_and_large = root not in known and len(workspace.evaluated(root.path, args).tree.nodes) >= LARGE
+                ask = workspace.static if is_new_and_large else workspace.analysed
+                asked[root] = ask(root.path, args)
+            except Exception:
+                _log.exception("the analysis of %s broke; its findings are left as they are", root)
+            else:
+                preliminary |= is_new_and_large
+        if self.before is not None and self.only_news and self._is_known(asked, self.before):
+            return self.before
+        others = {root: known[root] for root in self.wanted if root in known and root not in asked}
+        changed = {root: frozenset(_changed_files(workspace, analysis)) for root, analysis in others.items()}
+        analyses = {root: either[root] for root in self.wanted if root in (either := {**others, **asked})}
+        return replace(self._published(analyses, changed), preliminary=preliminary)
+
+    def _is_known(self, asked: Mapping[Root, Analysis], before: Round) -> bool:
+        same = (asked.get(root) is before.analyses.get(root) for root in self.asked)
+        return all(same) and before.outdated.isdisjoint(self.asked)
+
+    def _published(self, analyses: Mapping[Root, Analysis], changed: Mapping[Root, frozenset[str]]) -> Round:
         """The findings of all roots by file, of a file for which the user chose a root those in that one. Files that
-        are not open are read for their lines."""
+        are not open are read for their lines. `changed` has the files that are not what a root was made of."""
         kept = Kept(self.before.kept if self.before is not None else None)
-        count = counting({root: analysis.tree.files for root, analysis in analyses.items()}, self.asked)
+        count = counting({root: analysis.tree.files for root, analysis in analyses.items()}, self.named)
         shown_roots = {root: analysis for root, analysis in analyses.items() if root in count}
-        reports = {root: self._report(workspace, root, analysis) for root, analysis in shown_roots.items()}
+        reports = {root: _report(root, each, changed.get(root, frozenset())) for root, each in shown_roots.items()}
         findings = merged(reports.values(), kept)
         for path, root in self.selected.items():
             if root in reports and path in reports[root].files:
                 findings[path] = merged([reports[root]]).get(path, ())
-        newest_last = sorted(shown_roots, key=lambda root: root not in self.stale)
+        newest_last = sorted(shown_roots, key=lambda root: not changed.get(root))
         documents = {
             path: document for root in newest_last for path, document in shown_roots[root].all_documents.items()
         }
@@ -105,14 +128,18 @@ class Snapshot:
         lacks = missing((f.lack, f.location) for found in findings.values() for f in found if f.lack is not None)
         converter.end()
         kept.end()
-        return Round(analyses, shown, lacks, diagnostics, kept, converter)
+        outdated = frozenset(root for root, files in changed.items() if files)
+        return Round(analyses, outdated, shown, lacks, diagnostics, kept, converter)
 
-    def _report(self, workspace: Workspace, root: Root, analysis: Analysis) -> RootFindings:
-        """The findings of one root. Those of an earlier text say nothing of files that changed since."""
-        inputs = analysis.tree.inputs
-        files = frozenset((*analysis.tree.files, *inputs))
-        findings = analysis.findings
-        if root in self.stale:
-            files -= {path for path, digest in inputs.items() if workspace.sources.digest(path) != digest}
-            findings = tuple(f for f in findings if f.location.file in files)
-        return RootFindings(root.label, files, findings)
+
+def _changed_files(workspace: Workspace, analysis: Analysis) -> Iterator[str]:
+    """The files of an analysis that are not what they were."""
+    sources = workspace.sources
+    return (path for path, digest in analysis.tree.inputs.items() if sources.digest(path) != digest)
+
+
+def _report(root: Root, analysis: Analysis, changed: frozenset[str]) -> RootFindings:
+    """The findings of one root. Those of an earlier text say nothing of files that changed since."""
+    files = frozenset((*analysis.tree.files, *analysis.tree.inputs)) - changed
+    found = tuple(f for f in analysis.findings if f.location.file in files) if changed else analysis.findings
+    return RootFindings(root.label, files, found)

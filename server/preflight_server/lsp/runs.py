@@ -232,8 +232,7 @@ class Runs:
         self._no_sandbox = None if status.works else status.reason or "no sandbox works on this machine"
         self._probed = True
         if self._no_sandbox is not None:
-            for analysis in self._session.roots():
-                self._session.interfaces_changed(analysis.launch)
+            self._session.results_changed()
 
     async def _round(self, analysis: Analysis) -> None:
         """Look up, then run, what is not known of the nodes of one root."""
@@ -259,7 +258,7 @@ class Runs:
         current = edition == self._edition
         known.update({k: Known(missing[k] if current else None, hit) for k, hit in found.items()})
         if changed:
-            self._session.interfaces_changed(analysis.launch)
+            self._session.results_changed()
         remaining = {k: r for k, r in missing.items() if k not in found}
         if remaining and not self._closing:
             await self._run(tracer, analysis.launch, remaining)
@@ -309,7 +308,7 @@ class Runs:
         finally:
             self._batch = None
             progress.end("cancelled" if batch.cancelled.is_set() else counted(len(keys), "node"))
-        self._session.interfaces_changed(root)
+        self._session.results_changed()
 
     async def _reconsider(self, batch: _Batch) -> None:
         """End the runs of a batch that the launch file does not ask for any more, and let the root that the user looks

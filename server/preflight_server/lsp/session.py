@@ -11,7 +11,7 @@ import contextlib
 import logging
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -28,7 +28,6 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
-from preflight_analysis.workspace.run_results import RunResults
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -91,32 +90,19 @@ class Session:
             self.takes(document)
         self._pool = ThreadPoolExecutor(3, thread_name_prefix="analysis")
         self._workspace: Workspace | None = None
-        self._analyses: dict[Root, Analysis] = {}
         self._last: Round | None = None
         """What was published last."""
         self._choice = RootChoice(server, self)
-        self._dirty: dict[Root, int] = {}
-        """Roots whose analysis is out of date, and the edit that made it so."""
-        self._broken: dict[Root, int] = {}
-        """Roots whose analysis raised, and the edit at which it did: it is not tried again before the next."""
-        self._branches: dict[Root, Branches] = {}
-        """What was found last in the tags that each root leaves out."""
-        self._branches_of: dict[Root, int] = {}
-        """The edit at which that was looked for."""
-        self._branching: asyncio.Task[None] | None = None
-        self._touched: set[str] | None = set()
-        """The files that changed since the analysis that is being made began; None: any may have."""
-        self._edits = 0
-        self._look_due = False
-        """Whether files changed on the disk."""
-        self._remerge = False
         self._quiet_at = 0.0
         """When the user will have stopped typing, by `time.monotonic`."""
+        self._branching: asyncio.Task[None] | None = None
         self._detecting: asyncio.Task[None] | None = None
         self._closed = False
         self._edited: str | None = None
+        """The file whose edit leads to what is published next; None where something else does."""
         self._refreshing: asyncio.Task[None] | None = None
         self._news = asyncio.Event()
+        """Whether what was asked for may have another answer by now."""
         self._settled = asyncio.Event()
         self.calm = threading.Event()
         """Whether all that is shown is up to date: what runs in the background waits for that, thread or not."""
@@ -141,7 +127,7 @@ class Session:
         if document.path is None:
             return
         if not own:
-            self._touch([document.path], None, quiet=quiet)
+            self._touch(document.path, None, quiet=quiet)
             return
         if is_launch_file(document) or may_be_parameter_file(document):
             self._choice.to_front(document.path)
@@ -151,12 +137,12 @@ class Session:
                 self.indexing.changed(None)
         else:
             self._choice.leave(document.path)
-        self._touch([document.path], document.path, quiet=quiet)
+        self._touch(document.path, document.path, quiet=quiet)
 
     def closed(self, path: str) -> None:
         """A document that this folder depends on was closed."""
         self._choice.leave(path)
-        self._touch([path], None, quiet=0)
+        self._touch(path, None, quiet=0)
 
     def released(self, path: str) -> None:
         """An open file belongs to another folder now."""
@@ -169,18 +155,14 @@ class Session:
 
     def depends_on(self, path: str) -> bool:
         """Whether some launch of this folder reads the file."""
-        analysed = any(path in analysis.tree.inputs for analysis in self._analyses.values())
+        analysed = any(path in analysis.tree.inputs for analysis in self._known.values())
         return analysed or any(path in entry.inputs for entry in self.indexing.index.entries.values())
 
-    def files_changed(self, paths: Iterable[str], *, came_or_went: bool = False) -> None:
-        """Files changed on disk: launch files, parameter files or sources of nodes. If some came or went, so may have
-        executables of any package."""
+    def files_changed(self, paths: Iterable[str]) -> None:
+        """Files changed on disk: launch files, parameter files or sources of nodes."""
         self.runs.forget_requests()
-        self._look_due = True
-        paths = tuple(paths)
-        inputs = {path for analysis in self._analyses.values() for path in analysis.tree.inputs}
-        # What no launch file is made of may be the source that tells of a node which cannot be run.
-        self._touch(paths if not came_or_went and inputs.issuperset(paths) else None, None, quiet=0)
+        self._buffers.look()
+        self._start()
         self.indexing.changed(paths)
 
     def environment_changed(self) -> None:
@@ -189,7 +171,7 @@ class Session:
             self._workspace.close()
         self._workspace = None
         self.runs.forget_requests()
-        self._touch(None, None, quiet=0)
+        self._start()
         self.indexing.changed(None)
 
     def configure(self, settings: Settings) -> None:
@@ -201,12 +183,12 @@ class Session:
     def set_trusted(self, trusted: bool) -> None:
         """Whether the user trusts the workspace, so that its nodes may be run in the sandbox."""
         self.runs.set_trusted(trusted)
-        self._touch(None, None, quiet=0)
+        self._start()
 
     def traces_cleared(self) -> None:
         """What earlier runs told is to be forgotten."""
         self.runs.clear()
-        self._touch(None, None, quiet=0)
+        self._start()
 
     async def select(self, path: str, root: Root | None) -> str | None:
         """Show a file in the context of this root; None for the one that the index puts first. Returns why not."""
@@ -214,25 +196,19 @@ class Session:
             self._choice.selected.pop(path, None)
         else:
             workspace = await self.workspace()
-            analysis = await self.in_pool(lambda: workspace.static(root.path, dict(root.args)))
+            analysis = await self.in_pool(lambda: workspace.evaluated(root.path, dict(root.args)))
             if path not in analysis.tree.inputs:
                 return f"{root.label} does not include {path}"
             self._choice.selected[path] = root
         self.index_changed()
         return None
 
-    def interfaces_changed(self, root: Root) -> None:
-        """Runs of nodes told something new; no text changed."""
-        if root in self._analyses:
-            self._edits += 1
-            self._dirty[root] = self._edits
-            self._edited = None
-            self._start()
+    def results_changed(self) -> None:
+        """Runs told something new; no text changed."""
+        self._start()
 
     def index_changed(self) -> None:
         """Other roots may reach the open files now."""
-        self._edited = None
-        self._remerge = True
         self._start()
 
     def close(self) -> None:
@@ -305,7 +281,15 @@ class Session:
 
     def roots(self) -> list[Analysis]:
         """The analyses of the roots that reach open files, those that files are shown in first."""
-        return [self._analyses[root] for root in self._wanted() if root in self._analyses]
+        return [self._known[root] for root in self._wanted() if root in self._known]
+
+    def is_current(self, analysis: Analysis) -> bool:
+        """Whether an analysis is of the texts as they were when something was published last."""
+        return self._last is not None and analysis.launch not in self._last.outdated
+
+    @property
+    def _known(self) -> Mapping[Root, Analysis]:
+        return self._last.analyses if self._last is not None else {}
 
     @property
     def findings(self) -> Mapping[str, tuple[Finding, ...]]:
@@ -368,41 +352,33 @@ class Session:
         shown: dict[Root, None] = {}
         for path, root in self._choice.shown():
             shown[root] = None
-            analysis = self._analyses.get(root)
-            if analysis is not None and root not in self._dirty and path not in analysis.tree.inputs:
+            analysis = self._known.get(root)
+            if analysis is not None and self.is_current(analysis) and path not in analysis.tree.inputs:
                 shown[Root(path)] = None
         return list(shown)
 
     def _of(self, path: str) -> Iterator[Analysis]:
         """The analyses that reach a file, the one that it is shown in first."""
-        for root in dict.fromkeys((*self.roots_of(path), Root(path), *self._analyses)):
-            analysis = self._analyses.get(root)
+        for root in dict.fromkeys((*self.roots_of(path), Root(path), *self._known)):
+            analysis = self._known.get(root)
             if analysis is not None and path in analysis.documents:
                 yield analysis
 
     # How an edit becomes findings
 
-    def _touch(self, paths: Iterable[str] | None, edited: str | None, *, quiet: float) -> None:
-        """Analyse again what depends on `paths` (None: all of it). All but what is shown waits `quiet` seconds more."""
-        self._edits += 1
-        self._edited = edited
-        touched = None if paths is None else set(paths)
-        for root, analysis in self._analyses.items():
-            if touched is None or root.path in touched or not touched.isdisjoint(analysis.tree.inputs):
-                self._dirty[root] = self._edits
-        self._touched = None if touched is None or self._touched is None else self._touched | touched
-        self._remerge = True
+    def _touch(self, path: str, edited: str | None, *, quiet: float) -> None:
+        """Another text of a file counts. All but what is shown waits `quiet` seconds more."""
         self._quiet_at = time.monotonic() + quiet
         self.runs.hold(quiet)
-        if touched is not None:
-            self.indexing.changed(touched)
-        self._start()
+        self.indexing.changed([path])
+        self._start(edited)
 
     def _settle(self) -> None:
         self._settled.set()
         self.calm.set()
 
-    def _start(self) -> None:
+    def _start(self, edited: str | None = None) -> None:
+        self._edited = edited
         self._settled.clear()
         self.calm.clear()
         self._news.set()
@@ -410,29 +386,26 @@ class Session:
             self._refreshing = self._server.spawn(self._refresh())
 
     async def _refresh(self) -> None:
-        """Analyse what is out of date: at once what files are shown in, the rest when the user pauses."""
+        """Ask for what files are shown in at once, for the rest when the user pauses."""
         has_looked = False
         try:
             while True:
                 self._news.clear()
                 workspace = await self.workspace()
-                root = next((r for r in self._shown() if self._is_due(r)), None)
-                if root is None and not self._remerge:
-                    self._settle()
-                    root = next((r for r in self._wanted() if self._is_due(r)), None)
-                    if root is None and has_looked:
-                        break
-                    if (pause := self.quiet_for) > 0:
-                        with contextlib.suppress(asyncio.TimeoutError):
-                            await asyncio.wait_for(self._news.wait(), pause)
-                        continue
-                    if root is None:
-                        # Not every client tells of what changes on the disk, and none of all that launches depend on.
-                        has_looked = True
-                        if await self.in_pool(workspace.refresh):
-                            self._touch(None, None, quiet=0)
-                        continue
-                await self._turn(workspace, root)
+                shown = self._shown()
+                if not await self._turn(workspace, shown) or shown != self._shown():
+                    continue
+                self._settle()
+                if not await self._pauses() or not await self._turns(workspace, shown):
+                    continue
+                if has_looked:
+                    break
+                # Not every client tells of what changes on the disk, and none of all that launches depend on.
+                has_looked = True
+                if await self.in_pool(workspace.refresh):
+                    self._start()
+                elif not self._news.is_set():
+                    break
         finally:
             self._settle()
         self.runs.wake()
@@ -442,91 +415,70 @@ class Session:
     async def _look_into_branches(self) -> None:
         """Evaluate what conditions leave out, while all that is shown is up to date: no edit waits for it, and the next
         one ends it."""
-        with contextlib.suppress(asyncio.CancelledError):
-            while self._settled.is_set() and not self._closed:
-                root = next((r for r in self._wanted() if self._branches_of.get(r) != self._edits), None)
-                workspace, edit = self._workspace, self._edits
-                if root is None or workspace is None:
-                    break
-                try:
-                    found = await self.in_pool(partial(branches_of, workspace, root, lambda: self._closed))
-                except Exception:
-                    _log.exception("what %s leaves out could not be looked at", root)
-                    found = Branches()
-                if found is None or edit != self._edits:
-                    continue
-                self._branches_of[root] = edit
-                if found != self._branches.get(root, Branches()):
-                    self._branches[root] = found
-                    self._dirty[root] = self._edits
-                    self._start()
-
-    def _is_due(self, root: Root) -> bool:
-        if self._broken.get(root) == self._edits:
-            return False
-        return root in self._dirty or root not in self._analyses
-
-    async def _turn(self, workspace: Workspace, root: Root | None) -> None:
-        """Analyse one root, and put the findings of all of them together."""
-        asked = self._dirty.get(root, self._edits) if root is not None else None
-        self._remerge = False
-        self._touched = set()
-        round_ = await self._round(workspace, root)
-        if root is not None and round_ is not None and self._missed_an_edit(round_.analyses[root]):
-            self._dirty[root] = self._edits
-        if self._closed:
+        workspace = self._workspace
+        if workspace is None:
             return
-        if self._workspace is not workspace or (root is not None and self._dirty.get(root, asked) != asked):
-            self._remerge = True
-            return  # superseded by a newer text
-        if root is not None:
-            self._dirty.pop(root, None)
-        if round_ is not None:
-            self._commit(round_)
-            if round_.preliminary and root is not None:
-                self._dirty[root] = self._edits
-                self._settled.set()
-        elif root is not None:
-            self._broken[root] = self._edits
+        with contextlib.suppress(asyncio.CancelledError):
+            for root in self._wanted():
+                found = None
+                while found is None:
+                    try:
+                        found = await self.in_pool(partial(branches_of, workspace, root, lambda: self._closed))
+                    except Exception:
+                        _log.exception("what %s leaves out could not be looked at", root)
+                        found = Branches()
+                    if not self._settled.is_set() or workspace is not self._workspace:
+                        return  # they are looked into at the next pause
+                if await self.in_pool(partial(workspace.tell_branches, root, found)):
+                    self._start()
+                    return  # likewise
 
-    def _missed_an_edit(self, analysis: Analysis) -> bool:
-        """Whether a file that it was made from changed meanwhile. Only now it is known which ones those are."""
-        return self._touched is None or not self._touched.isdisjoint(analysis.tree.inputs)
+    async def _pauses(self) -> bool:
+        """Wait until the user pauses; whether nothing came before that."""
+        while not self._news.is_set() and (pause := self.quiet_for) > 0:
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._news.wait(), pause)
+        return not self._news.is_set()
 
-    async def _round(self, workspace: Workspace, root: Root | None) -> Round | None:
-        snapshot = self._snapshot(root)
+    async def _turns(self, workspace: Workspace, shown: Collection[Root]) -> bool:
+        """Ask for the roots that no file is shown in, one after another; whether nothing came before that."""
+        for root in self._wanted():
+            if root not in shown and not await self._turn(workspace, [root], only_news=True):
+                return False
+        return True
+
+    async def _turn(self, workspace: Workspace, asked: Collection[Root], *, only_news: bool = False) -> bool:
+        """Ask for some roots, and put the findings of all of them together; whether that is the last word."""
+        snapshot = self._snapshot(asked, only_news)
         try:
-            return await self.in_pool(lambda: snapshot.analysed(workspace))
+            round_ = await self.in_pool(lambda: snapshot.round(workspace))
         except Exception:
-            _log.exception("the analysis of %s broke; its findings are left as they are", root)
-            return None
+            _log.exception("what was found in %s could not be put together", asked)
+            return not self._news.is_set()
+        if round_ is None or self._news.is_set() or self._closed:
+            return False  # superseded by a newer text
+        if round_ is not self._last:
+            self._commit(round_)
+        if round_.preliminary:
+            self._settled.set()
+        return not round_.preliminary
 
-    def _snapshot(self, root: Root | None) -> Snapshot:
-        wanted = set(self._wanted())
-        look, self._look_due = self._look_due, False
+    def _snapshot(self, asked: Collection[Root], only_news: bool) -> Snapshot:
         return Snapshot(
-            root,
-            self.runs.results(root) if root is not None else RunResults(),
-            self._branches.get(root, Branches()) if root is not None else Branches(),
-            {root: analysis for root, analysis in self._analyses.items() if root in wanted},
-            frozenset(self._dirty) - {root},
+            asked,
+            list(dict.fromkeys((*self._wanted(), *asked))),
+            {root: self.runs.results(root) for root in asked},
             frozenset((*self._choice.selected.values(), *self.indexing.named)),
             dict(self._choice.selected),
             self._last,
-            look,
+            only_news,
             self._server.texts,
             self._shows_related,
         )
 
     def _commit(self, round_: Round) -> None:
-        self._analyses = dict(round_.analyses)
-        wanted = set(self._wanted())
-        self._analyses = {root: a for root, a in self._analyses.items() if root in wanted}
-        self._dirty = {root: edit for root, edit in self._dirty.items() if root in wanted}
-        self._branches = {root: found for root, found in self._branches.items() if root in wanted}
-        self._branches_of = {root: edit for root, edit in self._branches_of.items() if root in wanted}
         self._last = round_
-        current = [a.tree.inputs for root, a in self._analyses.items() if root not in self._dirty]
+        current = [a.tree.inputs for root, a in round_.analyses.items() if root not in round_.outdated]
         clean = {
             path: list[types.Diagnostic]() for path in self._choice.open if any(path in inputs for inputs in current)
         }

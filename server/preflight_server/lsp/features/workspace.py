@@ -64,15 +64,11 @@ def register(server: PreflightServer) -> None:
     def did_change_watched_files(ls: PreflightServer, params: types.DidChangeWatchedFilesParams) -> None:
         if ls.folders is None:
             return
-        changes = [(path, change.type) for change in params.changes if (path := to_path(change.uri)) is not None]
-        came_or_went = (types.FileChangeType.Created, types.FileChangeType.Deleted)
-        if any(os.path.basename(path) in _OF_THE_ENVIRONMENT for path, _ in changes):
+        paths = [path for change in params.changes if (path := to_path(change.uri)) is not None]
+        if any(os.path.basename(path) in _OF_THE_ENVIRONMENT for path in paths):
             ls.folders.each(lambda session: session.environment_changed())
-        elif changes:
-            # An executable that was missing may be there now.
-            new = any(kind in came_or_went for _, kind in changes)
-            paths = [path for path, _ in changes]
-            ls.folders.each(lambda session: session.files_changed(paths, came_or_went=new))
+        elif paths:
+            ls.folders.each(lambda session: session.files_changed(paths))
 
     @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
     async def did_change_configuration(ls: PreflightServer, params: types.DidChangeConfigurationParams) -> None:
