@@ -10,7 +10,7 @@ BIOME = $(wildcard $(LINTERS)/@biomejs/*/biome)
 CPP = $(shell git ls-files '*.c' '*.cpp' '*.hpp' ':!fixtures')
 PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_preload.cpp rcl_preload.cpp)
 LUA = $(shell git ls-files '*.lua')
-BENCHMARKS := start editing completion index growth trace fleet commands launch_files graph
+BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
 .PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth fuzz endurance wheel vsix lock test-editors images docs clean
 help:

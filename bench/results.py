@@ -19,6 +19,7 @@ KEYS: Mapping[str, str] = {
     "index_1000_files_s": "from `initialized` to the end of that index, with nothing kept from before",
     "version_s": "processor time of `ros-preflight --version`",
     "check_of_demo_s": "... of a check of the demo whose nodes were run before",
+    "catalogue_worst_ms": "processor time to read the largest part of the catalogue that is read at once",
     "first_answer_s": "from `initialized` to the first hover, in a tree of 500 nodes",
     "index_1000_files_again_s": "the index of a second start, when nothing has changed",
     "rss_mb_idle": "resident memory of the server that has been initialised",

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -19,13 +20,15 @@ from pathlib import Path
 from options import Options
 from results import record
 
-DEMO = Path(__file__).parent.parent / "fixtures/ros1/demo/launch/talker_listener.launch"
+DEMO = Path(__file__).parent.parent / "fixtures/ros1/demo"
 
 
-def seconds(command: list[str], variables: dict[str, str]) -> float:
-    """Processor time of one process and what it starts."""
+def seconds(command: list[str], variables: dict[str, str], folder: str) -> float:
+    """Processor time of one process, started in a folder, and of what it starts."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    subprocess.run(
+        command, cwd=folder, env=variables, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False
+    )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -34,16 +37,18 @@ def timed(rounds: int, quick: bool) -> None:
     kinds = {
         "python": [sys.executable, "-c", "pass"],
         "--version": [sys.executable, "-m", "preflight_server", "--version"],
-        "check of the demo": [sys.executable, "-m", "preflight_server", "check", str(DEMO)],
+        "check of the demo": [sys.executable, "-m", "preflight_server", "check", "demo/launch/talker_listener.launch"],
     }
-    with tempfile.TemporaryDirectory() as cache:
+    with tempfile.TemporaryDirectory() as cache, tempfile.TemporaryDirectory() as folder:
+        # A copy: around the original packages are looked for in all that the tests of the editors have installed.
+        shutil.copytree(DEMO, Path(folder, "demo"))
         variables = {**os.environ, "ROS_PREFLIGHT_CACHE_DIR": cache}
         variables.pop("PYTHONDONTWRITEBYTECODE", None)
-        seconds(kinds["check of the demo"], variables)  # runs the nodes, and has Python compile our modules
+        seconds(kinds["check of the demo"], variables, folder)  # runs the nodes, and has Python compile our modules
         samples = {name: list[float]() for name in kinds}
         for _ in range(rounds):
             for name, command in kinds.items():
-                samples[name].append(seconds(command, variables))
+                samples[name].append(seconds(command, variables, folder))
     median = {name: statistics.median(found) for name, found in samples.items()}
     print(f"{'median of ' + str(rounds):<24}{'seconds':>9}{'least':>9}{'to python':>11}")
     for name, found in median.items():

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
-import pytest
-from preflight_analysis.catalogue import released
 from preflight_analysis.catalogue.released import debian_package, distributions_with, nearest_released
 
 
@@ -24,16 +20,3 @@ def test_near_names_are_those_of_the_generation() -> None:
     assert list(nearest_released("nav2_bringap", 2, 1)) == ["nav2_bringup"]
     assert "move_base" not in nearest_released("move_bas", 2, 1)
     assert list(nearest_released("move_base", 1, 0)) == []
-
-
-@pytest.mark.parametrize("ask", [lambda: distributions_with("rviz", 1), lambda: list(nearest_released("rviz", 1, 1))])
-def test_the_names_are_read_in_little_time(ask: object) -> None:
-    assert callable(ask)
-    took = []
-    for _ in range(5):
-        released._letters.cache_clear()
-        released._names.cache_clear()
-        begin = time.process_time()
-        ask()
-        took.append(time.process_time() - begin)
-    assert min(took) < 0.02

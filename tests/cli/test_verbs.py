@@ -6,7 +6,6 @@ import json
 import os
 import signal
 import subprocess
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -207,10 +206,8 @@ def test_an_interrupt_ends_the_runs(harness: Harness) -> None:
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as process:
         until(lambda: harness.sandbox_starts() >= 3)
-        started = time.monotonic()
         os.kill(process.pid, signal.SIGINT)
-        out, err = process.communicate(timeout=10)
-    assert time.monotonic() - started < 3
+        out, err = process.communicate(timeout=10)  # the node sleeps for a minute
     assert (process.returncode, out, err) == (2, "", "ros-preflight: interrupted\n")
     assert harness.processes() == []
 
