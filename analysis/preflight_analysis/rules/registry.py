@@ -7,7 +7,7 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from itertools import pairwise
@@ -84,13 +84,19 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     return sorted_findings
 
 
-def found_in_branch(context: Context) -> list[Finding]:
+def found_in_branch(context: Context, pause: Callable[[], object] = lambda: None) -> list[Finding]:
     """What the rules that speak of branches say of a launch with other arguments, suppressed or not, each with the
-    includes that lead there."""
-    chosen = tuple(rule for rule in all_rules() if rule.in_branches)
-    by_file, _ = _found(context, chosen)
+    includes that lead there. `pause` is called before each rule: it may raise to stop here."""
+    by_file, _ = _found(context, _of_branches(pause))
     chains = _first_chains(context)
     return [_with_chain(each, chains.get(path, ())) for path, found in by_file.items() for each in found]
+
+
+def _of_branches(pause: Callable[[], object]) -> Iterator[Rule]:
+    for rule in all_rules():
+        if rule.in_branches:
+            pause()
+            yield rule
 
 
 def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Finding]], list[str]]:

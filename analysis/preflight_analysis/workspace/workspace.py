@@ -6,7 +6,7 @@ import ast
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
@@ -424,7 +424,9 @@ def _what_if(
     documents, launch_files = workspace.texts_of(tree)
     index = _executables(db, workspace, environment)
     context = Context(path, tree, documents, launch_files, environment, index, workspace.sources)
-    found = tuple(each for each in found_in_branch(context) if each.lack is None)
+    # Whoever waits to write does not wait for all rules: reading anything raises then.
+    pause = partial(_executables, db, workspace, environment)
+    found = tuple(each for each in found_in_branch(context, pause) if each.lack is None)
     return WhatIf(tree, documents, launch_files, found)
 
 
