@@ -52,6 +52,10 @@ PAUSE_AFTER_TYPING = 0.5
 word is no argument to run a node with."""
 
 
+PAUSE_BEFORE_BRANCHES = 3.0
+"""Seconds more before it is looked into what conditions leave out: an edit waits until that has noticed it."""
+
+
 @dataclass(frozen=True, slots=True)
 class View:
     """An open launch file as one request sees it: its text, the analysis of the root in whose context it is shown,
@@ -419,6 +423,10 @@ class Session:
         if workspace is None:
             return
         with contextlib.suppress(asyncio.CancelledError):
+            while (pause := self.quiet_for + PAUSE_BEFORE_BRANCHES) > 0:
+                await asyncio.sleep(min(pause, 0.1))
+                if not self._settled.is_set():
+                    return  # they are looked into at the next pause
             for root in self._wanted():
                 found = None
                 while found is None:
@@ -428,7 +436,7 @@ class Session:
                         _log.exception("what %s leaves out could not be looked at", root)
                         found = Branches()
                     if not self._settled.is_set() or workspace is not self._workspace:
-                        return  # they are looked into at the next pause
+                        return  # likewise
                 if await self.in_pool(partial(workspace.tell_branches, root, found)):
                     self._start()
                     return  # likewise
