@@ -12,7 +12,8 @@ from preflight_analysis.evaluation.commands import NoResults
 from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.workspace.sources import Sources
 
 NAMES = ("root.launch.xml", "one.launch.xml", "two.launch.yaml", "three.launch.xml")

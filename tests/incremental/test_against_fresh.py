@@ -10,7 +10,8 @@ from random import Random
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from preflight_analysis.incremental.database import Cancelled, Database, Input, query
+from preflight_analysis.incremental.database import Cancelled, Database
+from preflight_analysis.incremental.query import Input, query
 
 DISK: dict[str, str] = {}
 NAMES = "abcdefgh"

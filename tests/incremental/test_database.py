@@ -9,16 +9,8 @@ from itertools import count
 from typing import Any
 
 import pytest
-from preflight_analysis.incremental.database import (
-    UNUSED_AFTER,
-    Cancelled,
-    CycleError,
-    Database,
-    Input,
-    Key,
-    Query,
-    query,
-)
+from preflight_analysis.incremental.database import UNUSED_AFTER, Cancelled, CycleError, Database
+from preflight_analysis.incremental.query import Input, Key, Query, query
 
 OUTSIDE: dict[str, str] = {}
 PATIENCE = 20.0

@@ -17,7 +17,8 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
-from preflight_analysis.incremental.database import Database, Input, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import Input, query
 
 Status = tuple[int, int, int, int, int]
 """What tells one state of a file from the next: time of the last change, size, inode, mode, and when it was looked at

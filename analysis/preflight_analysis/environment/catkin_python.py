@@ -14,7 +14,8 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.build import LISTS
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 _CALL = re.compile(r"^\s*catkin_python_setup\s*\(", re.MULTILINE | re.IGNORECASE)
 _MADE_OF = {"msg": ".msg", "srv": ".srv", "action": ".action", "cfg": ".cfg"}

@@ -19,7 +19,8 @@ from preflight_analysis.environment.installed_paths import cmake_build, python_b
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.environment.packages import crawl
 from preflight_analysis.environment.walk import walk
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 _COMPONENTS = os.path.join("share", "ament_index", "resource_index", "rclcpp_components")
 _RUNNABLE = stat.S_IRUSR | stat.S_IXUSR

@@ -10,7 +10,8 @@ from fnmatch import fnmatchcase
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 _NAME = ".gitignore"
 _MOST_LINES = 2000

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 if TYPE_CHECKING:
     from preflight_analysis.environment.build import Build

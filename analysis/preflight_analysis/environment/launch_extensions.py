@@ -12,7 +12,8 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 _GROUP = "launch.frontend.launch_extension"
 _SETUP = ("setup.cfg", "setup.py", "pyproject.toml")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 _MOST_ENTRIES = 5000
 """A package has fewer; a path into a home directory must not lead to reading all of it."""

@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 
 
 @query

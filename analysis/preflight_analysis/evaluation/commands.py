@@ -6,7 +6,8 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-from preflight_analysis.incremental.database import Database, Input, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import Input, query
 
 Status = Literal["done", "failed", "missing", "not-run"]
 

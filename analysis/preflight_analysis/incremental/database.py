@@ -22,30 +22,28 @@ import threading
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from itertools import chain
-from typing import Any, Concatenate, Generic, NamedTuple, ParamSpec, Protocol, TypeVar, cast, overload
+from typing import Any, TypeVar, cast
 
-P = ParamSpec("P")
+from preflight_analysis.incremental.cells import (
+    NONE,
+    Asked,
+    AsLastTime,
+    Cell,
+    Making,
+    Part,
+    Parts,
+    ThreadState,
+    are_same,
+    read_down_to,
+    same,
+    would_answer,
+)
+from preflight_analysis.incremental.query import Answers, Input, Key, Query
+
 V = TypeVar("V")
-Key = tuple[Hashable, ...]
-
-
-class Answers(Protocol):
-    """Of one who is asked by queries."""
-
-    @property
-    def number(self) -> int:
-        """Names the answers: who has the same gives the same."""
-
-    def look(self, question: Any, /) -> Any:
-        """What is answered."""
-
-    def alike(self, number: int, questions: Iterable[Any], /) -> bool:
-        """Whether it is known, without asking, that those of that number answer all these questions alike."""
-
 
 UNUSED_AFTER = 64
 """Revisions after which what nobody asked for is forgotten, with all that it was made from."""
-_NONE: Any = object()
 _MORE = 1.25
 MOST_ANSWERS = 8
 """For how many sets of answers the value of one query and key is remembered, the latest."""
@@ -63,207 +61,8 @@ class CycleError(RuntimeError):
     """A query needs its own value."""
 
 
-class Input(Generic[P, V]):
-    """A kind of input. `load` reads the one of a key from outside, when it is first asked for; equal values are one.
-
-    `durable`: it seldom changes. What depends on such inputs alone is not looked through on each change of others.
-    """
-
-    def __init__(self, load: Callable[P, V], *, durable: bool = True) -> None:
-        self.load = load
-        self.limit = None
-        self.durable = durable
-        self.name = load.__name__
-
-    def __call__(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V:
-        """The value as it is in this revision."""
-        _refuse(none)
-        return cast(V, db.read(self, key))
-
-    def __repr__(self) -> str:
-        return f"Input({self.name})"
-
-
-class Query(Generic[P, V]):
-    """A derived value, made by `function`. `limit`: how many are remembered, those that were asked for last; None: all
-    that are asked for now and then."""
-
-    def __init__(self, function: Callable[Concatenate[Database, P], V], limit: int | None = None) -> None:
-        self.function = function
-        self.limit = limit
-        self.name = function.__name__
-        self.__doc__ = function.__doc__
-
-    def __call__(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V:
-        """The value as it is in this revision. Raises what the function raises; that is not remembered."""
-        _refuse(none)
-        return cast(V, db.read(self, key))
-
-    def answered(self, db: Database, answers: Answers, /, *key: P.args, **none: P.kwargs) -> V:
-        """The value for one who answers what the function asks (`Database.ask`). It is remembered with the questions
-        and their answers, for all who would answer them alike. Where a query answers, what it answers follows from
-        what it has read so far."""
-        _refuse(none)
-        return cast(V, db.read_answered(self, (key,), answers)[0])
-
-    def answered_each(self, db: Database, answers: Answers, /, keys: Sequence[Key]) -> list[V]:
-        """As `answered` for each of many keys, all in one revision."""
-        return cast(list[V], db.read_answered(self, keys, answers))
-
-    def last(self, db: Database, /, *key: P.args, **none: P.kwargs) -> V | None:
-        """The value that was last made, whether it is still right or not; None where there is none."""
-        _refuse(none)
-        cell = db.cells.get((self, key))
-        return None if cell is None or cell.value is _NONE else cast(V, cell.value)
-
-    def __repr__(self) -> str:
-        return f"Query({self.name})"
-
-
-@overload
-def query(function: Callable[Concatenate[Database, P], V]) -> Query[P, V]: ...
-
-
-@overload
-def query(*, limit: int) -> Callable[[Callable[Concatenate[Database, P], V]], Query[P, V]]: ...
-
-
-def query(function: Callable[..., Any] | None = None, *, limit: int | None = None) -> Any:
-    """Make a function a query."""
-    return Query(function, limit) if function is not None else lambda function: Query(function, limit)
-
-
-def _would_answer(answers: Answers, cell: _Cell) -> bool:
-    """Whether they would answer what was asked for a cell as it was."""
-    known = cell.answered_by is not None and answers.alike(cell.answered_by, cell.answers)
-    if not known and any(not _same(answers.look(question), answer) for question, answer in cell.answers.items()):
-        return False
-    cell.answered_by = answers.number
-    return True
-
-
-class _AsLastTime:
-    """Answers what a cell asked when it was made. It does not know what else its asker would have answered."""
-
-    def __init__(self, number: int, answers: Mapping[Hashable, object]) -> None:
-        self.number = number
-        self._answers = answers
-
-    def look(self, question: Hashable) -> object:
-        return self._answers[question]
-
-    def alike(self, number: int, questions: Iterable[object]) -> bool:
-        return number == self.number
-
-
 def _no_answer(question: Hashable) -> object:
     raise RuntimeError("there is nobody to answer")
-
-
-def _same(one: object, other: object) -> bool:
-    return type(one) is type(other) and one == other
-
-
-def _are_same(some: Mapping[Hashable, object], others: Mapping[Hashable, object]) -> bool:
-    return some.keys() == others.keys() and all(_same(others[key], each) for key, each in some.items())
-
-
-def _refuse(keywords: Mapping[str, object]) -> None:
-    if keywords:
-        raise TypeError("a key is given by places: names are no part of it")
-
-
-class _Cell:
-    """One value: of an input, or of a query with the cells that it read, in the order in which it did."""
-
-    __slots__ = (
-        "answered_by",
-        "answers",
-        "changed_at",
-        "claimed",
-        "depends_on",
-        "durable",
-        "is_set",
-        "key",
-        "kind",
-        "parts",
-        "used_at",
-        "value",
-        "verified_at",
-    )
-
-    def __init__(self, kind: Input[Any, Any] | Query[Any, Any], key: Key) -> None:
-        self.kind = kind
-        self.key = key
-        self.value: Any = _NONE
-        self.changed_at = 0
-        """The revision in which the value became what it is."""
-        self.verified_at = 0
-        """The last revision in which it was known to be right."""
-        self.depends_on: tuple[_Cell, ...] = ()
-        self.durable = True
-        self.claimed = False
-        """Whether some thread makes it now."""
-        self.is_set = False
-        """An input: whether it has another value than it would be loaded with."""
-        self.used_at = 0
-        """The last revision in which somebody asked for it."""
-        self.parts: _Parts = {}
-        """Of the value, as `Database.part` made them the last time, and parts of those."""
-        self.answers: Mapping[Hashable, object] = {}
-        """To what the function asked when it was made."""
-        self.answered_by: int | None = None
-        """The number of those who gave them, or would."""
-
-
-class _Part:
-    """What a part came to, the cells that it was made of, what it was answered and the parts that it has itself."""
-
-    __slots__ = ("answers", "depends_on", "durable", "parts", "value", "verified_at")
-
-    def __init__(
-        self, value: object, answers: Mapping[Any, object], depends_on: tuple[_Cell, ...], parts: _Parts
-    ) -> None:
-        self.value = value
-        self.answers = answers
-        self.depends_on = depends_on
-        self.parts = parts
-        self.durable = False
-        self.verified_at = 0
-
-
-_Parts = dict[Hashable, tuple[_Part, ...]]
-"""By their keys, for each set of answers one, the one that was asked for last in front."""
-
-
-class _Making(NamedTuple):
-    """A query that is being made: its cell, and the parts so far, of its value and of each part that is being made, the
-    innermost last."""
-
-    cell: _Cell
-    parts: list[_Parts]
-
-
-class _Asked(NamedTuple):
-    """What the function of a cell asks somebody, and was answered."""
-
-    cell: _Cell
-    by: Answers
-    answers: dict[Hashable, object]
-
-
-class _Thread(threading.local):
-    """What one thread is at."""
-
-    def __init__(self) -> None:
-        self.readings = 0
-        self.claims = 0
-        self.running: set[_Cell] = set()
-        self.reads: list[dict[_Cell, None]] = []
-        """Those of the queries that are being made, the innermost last."""
-        self.making: list[_Making] = []
-        """Those queries."""
-        self.asked: _Asked | None = None
 
 
 class Write:
@@ -282,7 +81,7 @@ class Write:
     def get(self, kind: Input[Any, V], *key: Hashable) -> V:
         """The value of an input so far."""
         cell = self._db.cells.get((kind, key))
-        return cast(V, kind.load(*key) if cell is None or cell.value is _NONE else cell.value)
+        return cast(V, kind.load(*key) if cell is None or cell.value is NONE else cell.value)
 
     def reload(self, kind: Input[Any, Any], *key: Hashable) -> None:
         """Take what `load` gives now. Nothing happens where nobody has read it."""
@@ -294,9 +93,9 @@ class Write:
         db = self._db
         cell = db.cells.get((kind, key))
         if cell is None:
-            cell = db.cells[kind, key] = _Cell(kind, key)
+            cell = db.cells[kind, key] = Cell(kind, key)
             cell.durable = durable
-        same = cell.value is not _NONE and cell.value == value
+        same = cell.value is not NONE and cell.value == value
         if same and cell.durable == durable:
             return
         self.changed = True
@@ -306,25 +105,12 @@ class Write:
             cell.value, cell.changed_at = value, db.revision + 1
 
 
-def _read_down_to(cells: Iterable[_Cell], kinds: Container[object]) -> Iterator[tuple[object, Key, object]]:
-    left, seen = list(cells), set[_Cell]()
-    while left:
-        cell = left.pop()
-        if cell in seen:
-            continue
-        seen.add(cell)
-        if cell.kind in kinds:
-            yield cell.kind, cell.key, cell.value
-        else:
-            left.extend(cell.depends_on)
-
-
 class Database:
     """All that is remembered. Thread-safe. `on_execute`, for tests and benchmarks, is called with each query that is
     made."""
 
     def __init__(self, on_execute: Callable[[Query[Any, Any], Key], None] | None = None) -> None:
-        self.cells: dict[tuple[Input[Any, Any] | Query[Any, Any], Key], _Cell] = {}
+        self.cells: dict[tuple[Input[Any, Any] | Query[Any, Any], Key], Cell] = {}
         self.revision = 1
         self._on_execute = on_execute
         self._forgot_at = 1
@@ -332,15 +118,15 @@ class Database:
         """How much there was after something was forgotten."""
         self._durable_changed_at = 1
         self._condition = threading.Condition()
-        self._answered: dict[tuple[object, Key], list[_Cell]] = {}
+        self._answered: dict[tuple[object, Key], list[Cell]] = {}
         """The cells of queries that ask, the one that was asked for last at the end."""
-        self._latest: dict[object, dict[_Cell, None]] = {}
+        self._latest: dict[object, dict[Cell, None]] = {}
         """Of queries with a limit the cells that were asked for last, in that order."""
         self._readers = 0
         self._writers = 0
         """Those that write, or wait until they can."""
         self._writing = False
-        self._thread = _Thread()
+        self._thread = ThreadState()
 
     # Who reads and who writes
 
@@ -408,10 +194,10 @@ class Database:
         """Within `reading`, not within a query: gives a function that tells what was read since, down to the kinds of
         inputs and queries that it is given, with their values. What these were made from is left out, and so are
         inputs of other kinds."""
-        reads: dict[_Cell, None] = {}
+        reads: dict[Cell, None] = {}
         self._thread.reads.append(reads)
         try:
-            yield lambda kinds: _read_down_to(reads, kinds)
+            yield lambda kinds: read_down_to(reads, kinds)
         finally:
             self._thread.reads.pop()
 
@@ -424,7 +210,7 @@ class Database:
     def is_outdated(self, kind: Input[Any, Any], *key: Hashable) -> bool:
         """Whether an input was loaded, and would be another one now."""
         cell = self.cells.get((kind, key))
-        return cell is not None and cell.value is not _NONE and bool(cell.value != kind.load(*key))
+        return cell is not None and cell.value is not NONE and bool(cell.value != kind.load(*key))
 
     def read(self, kind: Input[Any, Any] | Query[Any, Any], key: Key) -> object:
         """The value of an input or query. Raises `CycleError`, and what the query raises; within `reading` also
@@ -442,7 +228,7 @@ class Database:
             raise Cancelled
         cell = self.cells.get((kind, key))
         if cell is None:
-            cell = self.cells.setdefault((kind, key), _Cell(kind, key))
+            cell = self.cells.setdefault((kind, key), Cell(kind, key))
         if thread.reads:
             thread.reads[-1][cell] = None
         cell.used_at = self.revision
@@ -451,6 +237,11 @@ class Database:
         if isinstance(kind, Query) and kind.limit is not None:
             self._used(cell, kind.limit)
         return cell.value
+
+    def last(self, kind: Query[Any, Any], key: Key) -> object:
+        """As `Query.last`."""
+        cell = self.cells.get((kind, key))
+        return None if cell is None or cell.value is NONE else cell.value
 
     def read_answered(self, kind: Query[Any, Any], keys: Sequence[Key], answers: Answers) -> list[object]:
         """As `Query.answered_each`."""
@@ -462,11 +253,11 @@ class Database:
         if self._writers:
             raise Cancelled
         cells = self._answered.setdefault((kind, key), [])
-        cell = next((each for each in cells[::-1] if _would_answer(answers, each)), None) or _Cell(kind, key)
+        cell = next((each for each in cells[::-1] if would_answer(answers, each)), None) or Cell(kind, key)
         self._make_for(answers, cell)
-        if not _would_answer(answers, cell):
+        if not would_answer(answers, cell):
             # Somebody asked for it at the same time, and answered otherwise what the function asks now.
-            cell = _Cell(kind, key)
+            cell = Cell(kind, key)
             self._make_for(answers, cell)
         if not cells or cells[-1] is not cell:
             with self._condition:
@@ -480,7 +271,7 @@ class Database:
             self._used(cell, kind.limit)
         return cell.value
 
-    def _make_for(self, answers: Answers, cell: _Cell) -> None:
+    def _make_for(self, answers: Answers, cell: Cell) -> None:
         if self._thread.reads:
             self._thread.reads[-1][cell] = None
         cell.used_at = self.revision
@@ -501,7 +292,7 @@ class Database:
         """For the function of a query: the value that it gave for this key the last time, None if that is not known.
         Parts of it may be taken over; what comes out must not depend on it."""
         value = self._thread.making[-1].cell.value
-        return None if value is _NONE else value
+        return None if value is NONE else value
 
     @property
     def is_making(self) -> bool:
@@ -528,9 +319,9 @@ class Database:
         self._thread.reads[-1].update(dict.fromkeys(part.depends_on))
         return cast(V, part.value)
 
-    def _made(self, making: _Making, make: Callable[[], tuple[object, Mapping[Any, object]]]) -> _Part:
-        reads: dict[_Cell, None] = {}
-        parts: _Parts = {}
+    def _made(self, making: Making, make: Callable[[], tuple[object, Mapping[Any, object]]]) -> Part:
+        reads: dict[Cell, None] = {}
+        parts: Parts = {}
         self._thread.reads.append(reads)
         making.parts.append(parts)
         try:
@@ -538,13 +329,13 @@ class Database:
         finally:
             self._thread.reads.pop()
             making.parts.pop()
-        part = _Part(value, answers, tuple(reads), parts)
+        part = Part(value, answers, tuple(reads), parts)
         part.durable = all(each.durable for each in reads)
         return part
 
-    def _is_right(self, part: _Part, look: Callable[[Any], object]) -> bool:
+    def _is_right(self, part: Part, look: Callable[[Any], object]) -> bool:
         """Whether a part would come to the same again."""
-        if not all(_same(look(question), answer) for question, answer in part.answers.items()):
+        if not all(same(look(question), answer) for question, answer in part.answers.items()):
             return False
         if part.durable and part.verified_at >= self._durable_changed_at:
             return True
@@ -553,14 +344,14 @@ class Database:
         part.durable = all(each.durable for each in part.depends_on)
         return True
 
-    def _is_unchanged(self, cell: _Cell, since: int) -> bool:
+    def _is_unchanged(self, cell: Cell, since: int) -> bool:
         """Whether a cell has the value of this revision, and had it then."""
         if cell.verified_at < self.revision:
             try:
                 if cell.answered_by is None:
                     self._bring_up_to_date(cell)
                 else:
-                    self._bring_up_to_date_for(_AsLastTime(cell.answered_by, cell.answers), cell)
+                    self._bring_up_to_date_for(AsLastTime(cell.answered_by, cell.answers), cell)
             except Exception:
                 return False  # who asks for it in earnest shall see that
         return cell.changed_at <= since
@@ -576,7 +367,7 @@ class Database:
                 for cell in [cell for cell in latest if handle in cell.key]:
                     del latest[cell]
 
-    def _used(self, cell: _Cell, limit: int) -> None:
+    def _used(self, cell: Cell, limit: int) -> None:
         latest = self._latest.setdefault(cell.kind, {})
         if cell in latest and 2 * len(latest) < limit:
             return  # who is used after that comes to the end in time
@@ -596,16 +387,16 @@ class Database:
 
     # How a value comes up to date
 
-    def _bring_up_to_date_for(self, answers: Answers, cell: _Cell) -> None:
+    def _bring_up_to_date_for(self, answers: Answers, cell: Cell) -> None:
         """The same for a cell whose function asks."""
         thread = self._thread
-        before, thread.asked = thread.asked, _Asked(cell, answers, {})
+        before, thread.asked = thread.asked, Asked(cell, answers, {})
         try:
             self._bring_up_to_date(cell)
         finally:
             thread.asked = before
 
-    def _bring_up_to_date(self, cell: _Cell) -> None:
+    def _bring_up_to_date(self, cell: Cell) -> None:
         """Make the cell's value that of this revision."""
         thread = self._thread
         if cell in thread.running:
@@ -632,14 +423,14 @@ class Database:
                     thread.claims -= 1
                     self._condition.notify_all()
 
-    def _load(self, cell: _Cell, kind: Input[Any, Any]) -> None:
+    def _load(self, cell: Cell, kind: Input[Any, Any]) -> None:
         value = kind.load(*cell.key)
         with self._condition:
-            if cell.value is _NONE:
+            if cell.value is NONE:
                 cell.value, cell.durable = value, kind.durable
                 cell.changed_at, cell.verified_at = self.revision, _ALWAYS
 
-    def _is_valid(self, cell: _Cell) -> bool:
+    def _is_valid(self, cell: Cell) -> bool:
         """Whether nothing that the query read has changed since it was last known to be right."""
         since = cell.verified_at
         if not since:
@@ -654,12 +445,12 @@ class Database:
         cell.verified_at = self.revision
         return True
 
-    def _execute(self, cell: _Cell, kind: Query[Any, Any]) -> None:
-        reads: dict[_Cell, None] = {}
+    def _execute(self, cell: Cell, kind: Query[Any, Any]) -> None:
+        reads: dict[Cell, None] = {}
         thread = self._thread
-        parts: _Parts = {}
+        parts: Parts = {}
         thread.reads.append(reads)
-        thread.making.append(_Making(cell, [parts]))
+        thread.making.append(Making(cell, [parts]))
         if self._on_execute is not None:
             self._on_execute(kind, cell.key)
         try:
@@ -667,16 +458,16 @@ class Database:
         except Exception:
             with self._condition:
                 if cell.verified_at < self.revision:
-                    cell.depends_on, cell.value, cell.verified_at = tuple(reads), _NONE, 0
+                    cell.depends_on, cell.value, cell.verified_at = tuple(reads), NONE, 0
                     cell.durable = all(each.durable for each in reads)
             raise
         finally:
             thread.reads.pop()
             thread.making.pop()
         asked = thread.asked if thread.asked is not None and thread.asked.cell is cell else None
-        same = cell.value is not _NONE and cell.value == value
+        same = cell.value is not NONE and cell.value == value
         # Whoever else has read it may answer otherwise what the function asks now.
-        same = same and (asked is None or _are_same(cell.answers, asked.answers))
+        same = same and (asked is None or are_same(cell.answers, asked.answers))
         with self._condition:
             if cell.verified_at >= self.revision:
                 return  # another thread was faster

@@ -18,8 +18,9 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.incremental.query import query
 from preflight_analysis.nodl.read import Described, read_nodl
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 

@@ -18,7 +18,8 @@ from preflight_analysis.environment.installed_paths import cmake_build
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import ConfigParam, config_params
 from preflight_analysis.source.known_params import KnownParams, LaunchParams

@@ -16,7 +16,8 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.build import LISTS, Build, Target
 from preflight_analysis.environment.installed_paths import cmake_build
 from preflight_analysis.environment.model import Package
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import FileText, parse
 from preflight_analysis.source.parameter_library import ParameterLibrary, read_parameter_library

@@ -17,7 +17,8 @@ from typing import Any
 from preflight_analysis.documents.disk import STATUS, Disk
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.incremental.database import Database, Input, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import Input, query
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.cache import Kept, TraceCache, bare, part, texts
 from preflight_analysis.tracing.interface import Elsewhere, Interface

@@ -19,7 +19,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.inversion import Assignment, assignments, named_arguments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.finding import SEVERITIES, Finding
-from preflight_analysis.incremental.database import Input
+from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.rules.problems import INCLUDED_HERE

@@ -37,7 +37,8 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Severity
 from preflight_analysis.findings.severities import ALL, CHOICES, Severities
 from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.rules.registry import rule_by_id
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.index import Root

@@ -7,7 +7,7 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.incremental.database import Input
+from preflight_analysis.incremental.query import Input
 from preflight_analysis.tracing.interface import PENDING, Interface
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run

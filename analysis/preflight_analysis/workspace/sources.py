@@ -13,7 +13,8 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.evaluation.reading import read_launch
-from preflight_analysis.incremental.database import Cancelled, Database, Input, query
+from preflight_analysis.incremental.database import Cancelled, Database
+from preflight_analysis.incremental.query import Input, query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import generation_of_manifest
 

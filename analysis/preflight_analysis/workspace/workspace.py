@@ -29,8 +29,9 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.incremental.database import Cancelled, Database, query
+from preflight_analysis.incremental.database import Cancelled, Database
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines

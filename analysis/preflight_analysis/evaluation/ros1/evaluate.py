@@ -48,8 +48,9 @@ from preflight_analysis.evaluation.ros1.tags import (
 )
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.hashed import Hashed
+from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
 

@@ -21,7 +21,8 @@ from preflight_analysis.evaluation.tree import (
     Param,
     Remap,
 )
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.check_language import check_language
 from preflight_analysis.launch.problems import LanguageProblem
 

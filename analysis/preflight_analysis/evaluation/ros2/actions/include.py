@@ -23,7 +23,8 @@ from preflight_analysis.evaluation.ros2.required import check_required
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Include, Use
-from preflight_analysis.incremental.database import Database, query
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.launch.python_classes import PythonClass
