@@ -146,6 +146,7 @@ def test_nothing_is_said_of_a_node_that_is_not_known_to_its_end() -> None:
 def test_a_nodelet_may_subscribe_later() -> None:
     check("""
         <launch>
+          <node pkg="nodelet" type="nodelet" name="manager" args="manager"/>
           <node pkg="nodelet" type="nodelet" name="rectify" args="load image_proc/rectify manager">
             <remap from="image_mono" to="camera/image_raw"/>
           </node>
@@ -153,7 +154,7 @@ def test_a_nodelet_may_subscribe_later() -> None:
         //- /nodelet/package.xml
         <package><name>nodelet</name></package>
         //- interfaces
-        {"/rectify": {"publishers": {"~parameter_updates": "dynamic_reconfigure/Config"}}}
+        {"/manager": {}, "/rectify": {"publishers": {"~parameter_updates": "dynamic_reconfigure/Config"}}}
     """)
 
 

@@ -423,10 +423,8 @@ class Session:
         if workspace is None:
             return
         with contextlib.suppress(asyncio.CancelledError):
-            while (pause := self.quiet_for + PAUSE_BEFORE_BRANCHES) > 0:
-                await asyncio.sleep(min(pause, 0.1))
-                if not self._settled.is_set():
-                    return  # they are looked into at the next pause
+            if not await self._pauses(PAUSE_BEFORE_BRANCHES) or not self._settled.is_set():
+                return  # they are looked into at the next pause
             for root in self._wanted():
                 found = None
                 while found is None:
@@ -441,9 +439,9 @@ class Session:
                     self._start()
                     return  # likewise
 
-    async def _pauses(self) -> bool:
-        """Wait until the user pauses; whether nothing came before that."""
-        while not self._news.is_set() and (pause := self.quiet_for) > 0:
+    async def _pauses(self, more: float = 0) -> bool:
+        """Wait until the user has paused for some seconds `more`; whether nothing came before that."""
+        while not self._news.is_set() and (pause := self.quiet_for + more) > 0:
             with contextlib.suppress(asyncio.TimeoutError):
                 await asyncio.wait_for(self._news.wait(), pause)
         return not self._news.is_set()
