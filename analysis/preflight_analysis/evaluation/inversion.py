@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
-from preflight_analysis.generation import ROS1
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value, action_at
 from preflight_analysis.launch.references import NOT_ARGUMENTS, arg_references, first_word
 from preflight_analysis.launch.substitutions_ros2 import nested
@@ -64,8 +63,8 @@ def assignments(
 class _Reader:
     def __init__(self, tree: LaunchTree, launch_files: Mapping[str, LaunchFile], value: str | None) -> None:
         self._tree, self._files = tree, launch_files
-        # Python's words are true for conditions and in expressions; others are not known there.
-        self._style = value if value is not None or tree.generation == ROS1.number else str(False)
+        # Where values are put into the text of an expression, Python's words are what it knows.
+        self._style = value if value is not None or not tree.ros.nested_substitutions else str(False)
         self._steps = 0
 
     def truth(
@@ -107,7 +106,7 @@ class _Reader:
         self._steps += 1
         if self._steps > _MAX_STEPS:
             return
-        of_ros1 = self._tree.generation == ROS1.number
+        shared = self._tree.ros.shared_configurations
         include = self._action(chain[-1]) if chain else None
         if include is not None:
             passed = [child for child in include.children if child.kind == "arg" and _named(child) == name]
@@ -116,12 +115,12 @@ class _Reader:
                 yield from self._parts(value.parts, text, chain[-1].file, chain[:-1])
             if values:
                 return
-        if chain and (not of_ros1 or (include is not None and include.attribute("pass_all_args") is not None)):
+        if chain and (shared or (include is not None and include.attribute("pass_all_args") is not None)):
             yield from self._argument(name, text, chain[-1].file, chain[:-1])
         declared = self._declared(name, file)
-        if not chain and (not of_ros1 or any(each.attribute("value") is None for each in declared)):
+        if not chain and (shared or any(each.attribute("value") is None for each in declared)):
             yield from self._of_root(name, text)
-        for each in declared if of_ros1 else ():
+        for each in () if shared else declared:
             value = each.value("value") or (each.value("default") if chain else None)
             if value is not None:
                 yield from self._parts(value.parts, text, file, chain)

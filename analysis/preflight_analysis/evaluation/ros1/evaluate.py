@@ -172,6 +172,12 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
     made = 0
     for action in actions:
         evaluate = _EVALUATED_APART.get(action.kind)
+        if action.kind == "include" and scope.chain:
+            # Included files are remembered anyhow; to try those within each other apart would double at each level.
+            after = _include(state, scope, action, default_machine)
+            if after != default_machine:
+                default_machine, within = after, None
+            continue
         if evaluate is not None:
             # Those that follow each other have the same scope, but for the anonymous names that one of them makes.
             if within is None or len(scope.anonymous) != made:
@@ -204,8 +210,11 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
 def _within(state: State, scope: Scope, default_machine: str | None) -> Hashed | None:
     """All of a scope that nodes and includes in it depend on, the same object while that is equal; None where nothing
     of them can be remembered."""
-    db, key = state.files.db, tags_key_of(scope, default_machine)
-    if key is None or not db.is_making or len(scope.chain) > MAX_REMEMBERED_DEPTH:
+    db = state.files.db
+    if not db.is_making or len(scope.chain) > MAX_REMEMBERED_DEPTH:
+        return None
+    key = tags_key_of(scope, default_machine)
+    if key is None:
         return None
     hashed = Hashed(key)
     return db.part(hashed, lambda: hashed)

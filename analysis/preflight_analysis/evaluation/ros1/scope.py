@@ -93,20 +93,27 @@ class Scope:
 
     def remaps(self) -> list[Remap]:
         """All that apply here: the outer ones first, less those that an inner one replaces."""
-        if self.parent is None:
-            return list(self.own_remaps)
-        own = {r.source for r in self.own_remaps}
-        outer = self.parent.remaps()
-        hidden = {r.source: r for r in outer if r.source in own}
-        if not hidden:
-            return outer + self.own_remaps
-        inner = (
-            r._replace(replaces=(*old.replaces, old._replace(replaces=()), *r.replaces))
-            if (old := hidden.get(r.source))
-            else r
-            for r in self.own_remaps
-        )
-        return [r for r in outer if r.source not in own] + list(inner)
+        found: list[Remap] = []
+        for scope in self._outermost_first():
+            if not scope.own_remaps:
+                continue
+            own = {r.source for r in scope.own_remaps}
+            hidden = {r.source: r for r in found if r.source in own}
+            found = [r for r in found if r.source not in own]
+            found += (
+                r._replace(replaces=(*old.replaces, old._replace(replaces=()), *r.replaces))
+                if (old := hidden.get(r.source))
+                else r
+                for r in scope.own_remaps
+            )
+        return found
+
+    def _outermost_first(self) -> list[Scope]:
+        scopes, scope = [self], self.parent
+        while scope is not None:
+            scopes.append(scope)
+            scope = scope.parent
+        return scopes[::-1]
 
     def add_private(self, param: Param) -> None:
         """A `~param` for the nodes that come later in this scope."""
