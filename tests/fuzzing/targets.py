@@ -78,6 +78,7 @@ from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.run import RawRun, _take
 from preflight_analysis.tracing.trace_json import trace_json
+from preflight_analysis.workspace.index_data import data_of_index, index_of_data
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.project_settings import located_problems, read_project_settings
 from preflight_analysis.workspace.sources import Sources
@@ -497,6 +498,31 @@ def _node() -> LaunchNode:
     return Workspace(there.environment, Sources(), str(there.folder)).static(path).tree.nodes[0]
 
 
+@cache
+def _indexed() -> Workspace:
+    there = place(1)
+    return Workspace(there.environment, Sources(), str(there.folder))
+
+
+def kept_index(data: bytes) -> None:
+    """What a process, or an earlier start, wrote of the workspace index; lists of entries are texts of their own."""
+    try:
+        said = json.loads(data)
+    except (ValueError, RecursionError):
+        return
+    if isinstance(said, dict):
+        for part in ("files", "roots"):
+            if isinstance(said.get(part), list):
+                said[part] = [json.dumps(each) for each in said[part]]
+        index_of_data(said, _indexed())
+
+
+def _written_index() -> list[bytes]:
+    workspace = _indexed()
+    said = data_of_index(workspace.sources, build_index(workspace, str(place(1).folder)))
+    return [json.dumps({**said, **{part: [*map(json.loads, said[part])] for part in ("files", "roots")}}).encode()]
+
+
 def trace_events(data: bytes) -> None:
     """The lines that come out of the sandbox, and what a node printed."""
     recipe, request = _asked()
@@ -664,6 +690,7 @@ TARGETS = (
     ),
     Target("settings", settings, lambda: [seeds.SETTINGS], seeds.YAML),
     Target("cache-entries", cache_entries, _entries, seeds.JSON),
+    Target("kept-index", kept_index, _written_index, seeds.JSON),
     Target(
         "trace-events",
         trace_events,

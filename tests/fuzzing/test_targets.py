@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+import math
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +35,32 @@ def test_whatever_it_is_given_the_promises_are_kept(target: Target) -> None:
         bounded(target.run, data)
 
     some()
+
+
+NASTY: tuple[Any, ...] = (math.nan, -math.inf, -1, 2**70, 2**2000, 0.5, "", "x", "\ud800", None, True, [], {}, [[]])
+OF_JSON = ("baseline", "cache-entries", "kept-index", "launch-answers", "ros2-graph", "trace-events")
+
+
+def _spoilt(value: Any) -> Iterator[Any]:
+    """The value with one of its parts, or all of it, of another kind or lacking."""
+    yield from NASTY
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield {other: kept for other, kept in value.items() if other != key}
+            yield from ({**value, key: spoilt} for spoilt in _spoilt(part))
+    elif isinstance(value, list):
+        for at, part in enumerate(value):
+            yield from ([*value[:at], spoilt, *value[at + 1 :]] for spoilt in _spoilt(part))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("target", [each for each in TARGETS if each.name in OF_JSON], ids=lambda target: target.name)
+def test_each_part_of_what_is_read_may_be_of_any_kind(target: Target) -> None:
+    whole = [seed for seed in target.seeds() if b"\n" not in seed]
+    assert whole
+    for seed in whole:
+        for spoilt in _spoilt(json.loads(seed)):
+            bounded(target.run, json.dumps(spoilt).encode())
 
 
 def _raises(data: bytes) -> None:

@@ -102,7 +102,7 @@ def _in_setup(found: Document, package: Package, below: str, folder: str) -> Edi
     """One more entry of `data_files`, after the last one."""
     try:
         tree = ast.parse(found.text)
-    except (SyntaxError, ValueError):
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
     for node in ast.walk(tree):
         if isinstance(node, ast.keyword) and node.arg == "data_files" and isinstance(node.value, ast.List):

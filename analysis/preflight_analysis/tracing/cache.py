@@ -17,11 +17,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.documents.typed_json import from_json
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.remaps import overrides_qos
 from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
-from preflight_analysis.tracing.interface import Endpoint, Frame, Interface, MadeNode, Outcome, ParamUse, Range
+from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
@@ -53,6 +54,18 @@ class Kept:
     """When it was last of use, in seconds since the epoch."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Made:
+    """What of a run is kept in its entry: see `Kept`."""
+
+    node: str
+    launch: str | None
+    executable: str
+    args: tuple[str, ...]
+    workspaces: tuple[str, ...]
+    given: tuple[str, ...]
+
+
 class TraceCache(Store):
     """Cached interfaces."""
 
@@ -67,7 +80,7 @@ class TraceCache(Store):
             try:
                 if not _valid(entry["dependencies"], view):
                     continue
-                interface = _decode(entry["interface"])
+                interface = from_json(Interface, entry["interface"])
             except (KeyError, TypeError, ValueError, AttributeError):
                 continue
             self._used(path)
@@ -100,15 +113,19 @@ class TraceCache(Store):
         }
         conditions = [known["params"], known["asked"]]
         # For `similar.py`. Of values no more is kept than the interface tells anyway.
-        made = {
-            "node": request.node,
-            "launch": request.launch,
-            "executable": request.executable,
-            "args": list(request.args),
-            "workspaces": list(recipe.workspaces),
-            "given": sorted(_given(interface, (*request.args, *view.values(dependencies.params)))),
+        made = _Made(
+            request.node,
+            request.launch,
+            request.executable,
+            tuple(request.args),
+            tuple(recipe.workspaces),
+            tuple(sorted(_given(interface, (*request.args, *view.values(dependencies.params))))),
+        )
+        entry = {
+            "dependencies": known,
+            "interface": dataclasses.asdict(interface),
+            "made": dataclasses.asdict(made),
         }
-        entry = {"dependencies": known, "interface": _encode(interface), "made": made}
         return self._keep(self._place(recipe, request), conditions, entry)
 
     def traces_of(
@@ -145,16 +162,16 @@ class TraceCache(Store):
         if entry is None:
             return None
         try:
-            made, known = entry["made"], entry["dependencies"]
+            made = from_json(_Made, entry["made"])
             return Kept(
-                _decode(entry["interface"]),
-                str(made["node"]),
-                made["launch"],
-                made["executable"],
-                known["files"][made["executable"]],
-                tuple(made["args"]),
-                tuple(map(str, made["workspaces"])),
-                frozenset(made["given"]),
+                from_json(Interface, entry["interface"]),
+                made.node,
+                made.launch,
+                made.executable,
+                str(entry["dependencies"]["files"][made.executable]),
+                made.args,
+                made.workspaces,
+                frozenset(made.given),
                 used,
             )
         except (KeyError, TypeError, ValueError, AttributeError):
@@ -265,29 +282,3 @@ def _given(interface: Interface, said: Iterable[str]) -> set[str]:
     """The bare texts of `said` that are whole parts of names in the interface."""
     found = {f"/{e.name.strip('/~')}/" for e in interface.endpoints if not e.builtin}
     return {text for text in map(bare, said) if text and any(f"/{text}/" in name for name in found)}
-
-
-def _encode(interface: Interface) -> dict[str, Any]:
-    return dataclasses.asdict(interface)
-
-
-def _param(data: Mapping[str, Any]) -> ParamUse:
-    use = ParamUse(**data)
-    return use if use.range is None else dataclasses.replace(use, range=Range(**data["range"]))
-
-
-def _decode(data: Mapping[str, Any]) -> Interface:
-    outcome = dict(data["outcome"])
-    outcome["stderr_tail"] = tuple(outcome["stderr_tail"])
-    outcome["answers"] = tuple(outcome["answers"])
-    return Interface(
-        data["source"],
-        Outcome(**outcome),
-        tuple(Endpoint(**endpoint) for endpoint in data["endpoints"]),
-        tuple(_param(use) for use in data["params"]),
-        notes=tuple(data["notes"]),
-        frames=tuple(Frame(**frame) for frame in data["frames"]),
-        nodes=tuple(MadeNode(**node) for node in data["nodes"]),
-        looks=bool(data["looks"]),
-        stand_ins=tuple(map(str, data["stand_ins"])),
-    )

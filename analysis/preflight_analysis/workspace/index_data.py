@@ -21,7 +21,7 @@ from preflight_analysis.workspace.workspace import Workspace
 
 T = TypeVar("T")
 _KINDS: tuple[Kind, ...] = get_args(Kind)
-_NOT_UNDERSTOOD = (KeyError, IndexError, TypeError, ValueError, AttributeError, RecursionError)
+_NOT_UNDERSTOOD = (KeyError, IndexError, TypeError, ValueError, AttributeError, OverflowError, RecursionError)
 _STEP = 32
 """Entries that are read in one revision: an edit waits for so many at most. They are one text, as all threads stand
 still while JSON is read or written."""
