@@ -6,9 +6,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.parameters import namespaces
+from preflight_analysis.rules.parameters import namespaces_around
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface, without_stamp
@@ -43,7 +42,7 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     unset = [r for r in filter(None, context.kept.each(_mandatory, graph.param_reads)) if r.name not in params]
     if not unset:
         return {}
-    known = names.with_namespaces(context.once(namespaces)) | {command.param for command in graph.tree.commands}
+    known = context.once(namespaces_around) | {command.param for command in graph.tree.commands}
     known |= {read.name for read in filter(None, context.kept.each(_finding_elsewhere, graph.param_reads))}
     with_default = set(filter(None, context.kept.each(_defaulted, graph.param_reads)))
     first: dict[tuple[int, str], ParamRead] = {}

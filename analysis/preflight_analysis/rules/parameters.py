@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.places import related_node
@@ -14,10 +15,16 @@ from preflight_analysis.tracing.interface import ParamUse
 
 def namespaces(context: Context) -> frozenset[str]:
     """Those in which parameters are. Ask through `context.once`."""
-    return frozenset(context.once(_each_namespace))
+    return frozenset(context.once(each_namespace))
 
 
-def _each_namespace(context: Context) -> list[str]:
+def namespaces_around(context: Context) -> frozenset[str]:
+    """Those in which parameters are, and all that hold these but the root. Ask through `context.once`."""
+    return frozenset(names.with_namespaces(context.once(namespaces)))
+
+
+def each_namespace(context: Context) -> list[str]:
+    """That of each parameter. Ask through `context.once`."""
     return context.kept.each(namespace_of, context.tree.all_params)
 
 

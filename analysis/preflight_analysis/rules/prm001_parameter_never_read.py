@@ -14,26 +14,32 @@ from preflight_analysis.rules.unread_params import Unread, unread_params
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    if context.graph is not None:
-        for unread in context.once(unread_params):
-            yield _finding(rule, context, context.graph, unread)
+    if context.graph is None:
+        return
+    unread, by_source = context.once(unread_params), context.once(known_by_source)
+    # A launch may set thousands that no source reads.
+    lost = [each for each in unread if each.meant is None]
+    yield from context.kept.each_row(_hint, (lost, [id(each.holder) in by_source for each in lost]), rule)
+    for each in unread:
+        if each.meant is not None:
+            yield _finding(rule, context, context.graph, each, each.meant)
 
 
-def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread) -> Finding:
-    param, holder, read = unread.param, unread.holder, unread.meant
-    if read is None:
-        who = holder.name if holder is not None else "no node"
-        until = "in its source" if id(holder) in context.once(known_by_source) else "before its event loop"
-        return rule.finding(
-            f"{who} does not read parameter '{param.name}' {until}, nor does any other node",
-            param.place,
-            severity="hint",
-            confidence="possible",
-            related=(
-                *((related_node(holder),) if holder is not None else ()),
-                *include_chain(param.origin),
-            ),
-        )
+def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
+    param, holder = unread.param, unread.holder
+    who = holder.name if holder is not None else "no node"
+    until = "in its source" if in_source else "before its event loop"
+    return rule.finding(
+        f"{who} does not read parameter '{param.name}' {until}, nor does any other node",
+        param.place,
+        severity="hint",
+        confidence="possible",
+        related=(*((related_node(holder),) if holder is not None else ()), *include_chain(param.origin)),
+    )
+
+
+def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread, read: ParamRead) -> Finding:
+    param, holder = unread.param, unread.holder
     namespace, name = param.name.rpartition("/")[0], read.name
     if read.use.access == "search":
         name = f"{namespace}/{read.name.rpartition('/')[2]}"

@@ -103,6 +103,7 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Find
     """All that rules say, by file, and the ids of those that did not raise."""
     by_file: dict[str, list[Finding]] = {}
     ran: list[str] = []
+    catalogued = any(catalogued_file(path) is not None for path in context.tree.inputs)
     for rule in rules:
         if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
             continue
@@ -113,9 +114,8 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Find
             _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
             continue
         ran.append(rule.id)
-        for finding in filter(
-            None, map(partial(_outside, rule), _in_order(rule, found, context) if rule.problems else found)
-        ):
+        said = _in_order(rule, found, context) if rule.problems else found
+        for finding in filter(None, map(partial(_outside, rule), said)) if catalogued else said:
             by_file.setdefault(finding.location.file, []).append(finding)
     return by_file, ran
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from itertools import chain
 
 from rapidfuzz.distance import OSA
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import grouped
+from preflight_analysis.rules.parameters import each_namespace, grouped, namespace_of, namespaces_around
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
@@ -35,20 +37,37 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
 
     Ask through `context.once`.
     """
-    graph = context.graph
-    if graph is None or not any(context.kept.each(reports_params, graph.interfaces)):
+    graph, kept = context.graph, context.kept
+    told = kept.each(reports_params, graph.interfaces) if graph is not None else ()
+    if graph is None or not any(told):
         return ()
-    tree = graph.tree
-    return context.kept.get(
-        _unread,
-        None,
-        tree.nodes,
-        graph.interfaces,
-        graph.param_reads,
-        tree.all_params,
-        context.tree.all_params,
-        tree.complete,
-    )
+    reads = _collect(context, graph, told)
+    unasked = [param for param in context.tree.all_params if param.name not in reads.covered]
+    if reads.searched:
+        unasked = [*filter(None, kept.each(_unless_searched, unasked, reads.searched))]
+    groups = kept.grouped(namespace_of, "unasked", unasked)
+    namespaces = [namespace for namespace in dict.fromkeys(context.once(each_namespace)) if namespace in groups]
+    nodes = {node.name: node for node in graph.tree.nodes}
+    orphans: list[Param] = []
+    private: list[tuple[Param, ...]] = []
+    holders: list[LaunchNode] = []
+    for namespace, around in zip(namespaces, kept.each(_around, namespaces), strict=True):
+        holder = next((nodes[name] for name in around if name in nodes), None)
+        if (holder is not None and holder.name in reads.opaque) or reads.covers_all(around):
+            continue
+        if holder is None:
+            orphans += groups[namespace]
+        else:
+            private.append(groups[namespace])
+            holders.append(holder)
+    unset = kept.grouped(_reader, "unset", reads.unset)
+    of_holders = kept.each_row(_of_holder, (private, holders, [unset.get(id(holder), ()) for holder in holders]))
+    of_nobody: tuple[Unread, ...] = ()
+    if orphans and not reads.listed:
+        of_told = tuple(read for read in reads.unset if read.node.name not in reads.opaque)
+        alone = graph.tree.complete and not reads.opaque
+        of_nobody = kept.get(_of_nobody, None, tuple(orphans), of_told, reads.sought, alone)
+    return (*chain.from_iterable(of_holders), *of_nobody)
 
 
 def reports_params(interface: Interface) -> bool:
@@ -70,108 +89,93 @@ def fits(value: object, read: ParamRead) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Reads:
-    """What all nodes read. `unset` are the names that some node reads and nothing sets, with who reads them."""
+    """What all nodes read."""
 
-    names: frozenset[str]
-    prefixes: frozenset[str]
-    """Every name above one that is read: reading `/a/b` reads part of the value of `/a`."""
+    names: AbstractSet[str]
+    covered: AbstractSet[str]
+    """The names, and every name above one: reading `/a/b` reads part of the value of `/a`."""
     searched: frozenset[str]
-    unset: dict[str, ParamRead]
-    opaque: frozenset[str]
+    unset: tuple[ParamRead, ...]
+    """Of each name that some node reads and nothing sets the first who reads it."""
+    opaque: AbstractSet[str]
     """Full names of the nodes of which it is not known what they read."""
-    sought: dict[str, ParamRead]
-    """By last name what nodes search for in their namespaces and nobody sets in any."""
+    sought: tuple[ParamRead, ...]
+    """What nodes search for in their namespaces and nobody sets in any, each last name once."""
     listed: bool
     """Whether a node asks for the names of all parameters: it may read any of them."""
 
-    def covers(self, name: str) -> bool:
-        """Whether somebody asks for the parameter, or for something below it."""
-        return name in self.names or name in self.prefixes or not self.searched.isdisjoint(name.split("/"))
-
-    def covers_all(self, namespaces: Iterable[str]) -> bool:
+    def covers_all(self, namespaces: Collection[str]) -> bool:
         """Whether somebody asks for one of these namespaces as a whole, and so for all in it."""
         return "/" in self.names or not self.names.isdisjoint(namespaces)
 
 
-def _unread(
-    nodes: tuple[LaunchNode, ...],
-    interfaces: tuple[Interface, ...],
-    param_reads: tuple[ParamRead, ...],
-    params: tuple[Param, ...],
-    looked_at: tuple[Param, ...],
-    complete: bool,
-) -> tuple[Unread, ...]:
-    """Those of the parameters that are `looked_at`. `params` are all that are set, `complete` says whether they are."""
-    groups = grouped(looked_at)
-    opaque = {node.name for node, each in zip(nodes, interfaces, strict=True) if not reports_params(each)}
-    reads = _collect(param_reads, {param.name for param in params}, groups, opaque)
-    return tuple(_unread_of(groups, reads, {node.name: node for node in nodes}, complete))
-
-
-def _unread_of(
-    groups: Mapping[str, list[Param]], reads: _Reads, nodes: Mapping[str, LaunchNode], complete: bool
-) -> Iterator[Unread]:
-    orphans: list[Param] = []
-    by_leaf: dict[str, list[ParamRead]] = {}
-    for read in reads.unset.values():
-        if read.node.name not in reads.opaque:
-            by_leaf.setdefault(names.leaf(read.name), []).append(read)
-    for namespace, params in groups.items():
-        around = list(_namespaces(f"{namespace}/"))
-        holder = next((nodes[name] for name in around if name in nodes), None)
-        if (holder is not None and holder.name in reads.opaque) or reads.covers_all(around):
-            continue
-        unread = [p for p in params if not reads.covers(p.name) and not is_for_tools(p.name)]
-        if holder is None:
-            orphans += unread
-        else:
-            yield from (Unread(p, holder, _meant_of_holder(p, holder, reads, by_leaf)) for p in unread)
-    if reads.listed:
-        return
-    reported: set[str] = set()
-    for param, read in _sought(orphans, reads.sought):
-        reported.add(param.name)
-        yield Unread(param, None, read)
-    for param, read in _misplaced([param for param in orphans if param.name not in reported], reads):
-        reported.add(param.name)
-        yield Unread(param, None, read)
-    if complete and not reads.opaque:
-        for param in orphans:
-            found = _shifted_reads(param, by_leaf) if param.name not in reported else ()
-            if found:
-                yield Unread(param, None, found[0], len(found) == 1)
-
-
-def _collect(
-    param_reads: Iterable[ParamRead], params: Collection[str], namespaces: Iterable[str], opaque: set[str]
-) -> _Reads:
-    """`params` are the names of those that are set, `opaque` those of nodes of which it is not known what they read."""
-    read_names: set[str] = set()
-    searched: set[str] = set()
-    asked: dict[str, ParamRead] = {}
+def _collect(context: Context, graph: Graph, told: Iterable[bool]) -> _Reads:
+    """`told` says of each node whether it is known what it reads."""
+    kept, params = context.kept, graph.tree.params
+    reads = kept.grouped(_kind, "param reads", graph.param_reads)
+    lists, searches, asks, makes = (reads.get(kind, ()) for kind in ("list", "search", "ask", "make"))
+    made = {read.name for read in makes}
+    asked = (*asks, *reads.get("builtin", ()))
+    found = made.union(kept.each(_asked_name, asked))
+    above = names.with_namespaces({*kept.each(_namespace_asked, asked), *(name.rpartition("/")[0] for name in made)})
+    taken = params.keys() | context.once(namespaces_around) | made
+    unset: dict[str, ParamRead] = {}
+    for read in asks:
+        if read.name not in taken:
+            unset.setdefault(read.name, read)
     sought: dict[str, ParamRead] = {}
-    filled = names.with_namespaces(namespaces)
-    made: set[str] = set()
-    listed = False
-    for read in param_reads:
-        if read.use.access == "list":
-            opaque.add(read.node.name)
-            listed = True
-        elif read.use.access == "search":
-            searched.add(read.use.name.strip("~/").partition("/")[0])
-            sought.setdefault(names.leaf(read.use.name.lstrip("~")), read)
-        elif read.use.access in ("get", "has"):
-            read_names.add(read.name.rstrip("/") or "/")
-            if not read.use.builtin and read.name not in params and read.name not in filled:
-                asked.setdefault(read.name, read)
-        else:
-            read_names.add(read.name)
-            made.add(read.name)
-    unset = {name: read for name, read in asked.items() if name not in made}
-    for name in {names.leaf(name) for name in params} | {names.leaf(name) for name in made}:
-        sought.pop(name, None)
-    prefixes = frozenset(names.with_namespaces(name.rpartition("/")[0] for name in read_names))
-    return _Reads(frozenset(read_names), prefixes, frozenset(searched), unset, frozenset(opaque), sought, listed)
+    for read in searches:
+        sought.setdefault(_sought_leaf(read), read)
+    if sought:
+        for leaf in {*kept.each(_leaf, graph.tree.all_params), *map(names.leaf, made)}.intersection(sought):
+            del sought[leaf]
+    return _Reads(
+        found,
+        found | above,
+        frozenset(read.use.name.strip("~/").partition("/")[0] for read in searches),
+        tuple(unset.values()),
+        {
+            *(node.name for node, is_told in zip(graph.tree.nodes, told, strict=True) if not is_told),
+            *(read.node.name for read in lists),
+        },
+        tuple(sought.values()),
+        bool(lists),
+    )
+
+
+def _kind(read: ParamRead) -> str:
+    if read.use.access in ("get", "has"):
+        return "builtin" if read.use.builtin else "ask"
+    return read.use.access if read.use.access in ("list", "search") else "make"
+
+
+def _asked_name(read: ParamRead) -> str:
+    return read.name.rstrip("/") or "/"
+
+
+def _namespace_asked(read: ParamRead) -> str:
+    return _asked_name(read).rpartition("/")[0]
+
+
+def _sought_leaf(read: ParamRead) -> str:
+    return names.leaf(read.use.name.lstrip("~"))
+
+
+def _reader(read: ParamRead) -> int:
+    return id(read.node)
+
+
+def _leaf(param: Param) -> str:
+    return names.leaf(param.name)
+
+
+def _unless_searched(param: Param, searched: frozenset[str]) -> Param | None:
+    return param if searched.isdisjoint(param.name.split("/")) else None
+
+
+def _around(namespace: str) -> tuple[str, ...]:
+    """It and those that hold it, the innermost first, without the root: `/a/b` and `/a` of `/a/b`."""
+    return tuple(_namespaces(f"{namespace}/"))
 
 
 def _namespaces(name: str) -> Iterator[str]:
@@ -180,18 +184,51 @@ def _namespaces(name: str) -> Iterator[str]:
         yield name
 
 
-def _meant_of_holder(
-    param: Param, holder: LaunchNode, reads: _Reads, by_leaf: dict[str, list[ParamRead]]
-) -> ParamRead | None:
-    mine = [r for r in reads.unset.values() if r.node is holder and r.name.startswith(holder.name + "/")]
-    near = _nearest_read(param, holder, mine)
+def _of_holder(params: Iterable[Param], holder: LaunchNode, unset: tuple[ParamRead, ...]) -> tuple[Unread, ...]:
+    """Of parameters of one node that nobody reads. `unset` is what it reads and nothing sets."""
+    return tuple(
+        Unread(param, holder, _meant_of_holder(param, holder, unset))
+        for param in params
+        if not is_for_tools(param.name)
+    )
+
+
+def _meant_of_holder(param: Param, holder: LaunchNode, unset: tuple[ParamRead, ...]) -> ParamRead | None:
+    near = _nearest_read(param, holder, [read for read in unset if read.name.startswith(holder.name + "/")])
     if near is not None:
         return near
-    relative = param.name[len(holder.name) :]
     # The node asks for it under this very name, but not as its own: `mode` or `/driver/mode` instead of `~mode`.
-    elsewhere = [r for r in by_leaf.get(names.leaf(param.name), ()) if r.node is holder and r.name.endswith(relative)]
+    leaf, relative = names.leaf(param.name), param.name[len(holder.name) :]
+    elsewhere = [read for read in unset if names.leaf(read.name) == leaf and read.name.endswith(relative)]
     found = [read for read in elsewhere if _would_change(param, read)]
     return found[0] if len(found) == 1 else None
+
+
+def _of_nobody(
+    params: tuple[Param, ...], unset: tuple[ParamRead, ...], sought: tuple[ParamRead, ...], alone: bool
+) -> tuple[Unread, ...]:
+    """Of parameters that nobody reads and that are of no node those that were meant for something. `alone`: there is
+    nothing in the launch that is not known."""
+    orphans = [param for param in params if not is_for_tools(param.name)]
+    found = [
+        Unread(param, None, read) for param, read in _sought(orphans, {_sought_leaf(read): read for read in sought})
+    ]
+    orphans = _others(orphans, found)
+    found += [Unread(param, None, read) for param, read in _misplaced(orphans, unset)]
+    if alone:
+        by_leaf: dict[str, list[ParamRead]] = {}
+        for read in unset:
+            by_leaf.setdefault(names.leaf(read.name), []).append(read)
+        for param in _others(orphans, found):
+            shifted = _shifted_reads(param, by_leaf)
+            if shifted:
+                found.append(Unread(param, None, shifted[0], len(shifted) == 1))
+    return tuple(found)
+
+
+def _others(params: Iterable[Param], found: Iterable[Unread]) -> list[Param]:
+    names_found = {each.param.name for each in found}
+    return [param for param in params if param.name not in names_found]
 
 
 def _would_change(param: Param, read: ParamRead) -> bool:
@@ -242,17 +279,16 @@ def _nearest_read(param: Param, holder: LaunchNode, reads: Iterable[ParamRead]) 
     return min(ranked, key=lambda entry: entry[:3])[3] if ranked else None
 
 
-def _misplaced(params: Iterable[Param], reads: _Reads) -> Iterator[tuple[Param, ParamRead]]:
+def _misplaced(params: Iterable[Param], unset: Iterable[ParamRead]) -> Iterator[tuple[Param, ParamRead]]:
     """Parameters that nobody reads, each with a read of the same leaf name in another namespace that nothing sets.
 
     A leaf name alone (`rate`, `frame_id`) is no evidence: either two or more of a namespace's names agree, and most, or
     the namespaces' own names are alike, or it is a typo of a name in the same namespace.
     """
     by_namespace: dict[str, dict[str, ParamRead]] = {}
-    for name, read in reads.unset.items():
-        if read.node.name not in reads.opaque:
-            namespace, _, leaf = name.rpartition("/")
-            by_namespace.setdefault(namespace, {})[leaf] = read
+    for read in unset:
+        namespace, _, leaf = read.name.rpartition("/")
+        by_namespace.setdefault(namespace, {})[leaf] = read
     for namespace, group in grouped(params).items():
         leaves = {names.leaf(param.name): param for param in group}
         for leaf, param in leaves.items():
