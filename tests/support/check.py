@@ -38,6 +38,7 @@ from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Executable, Package
 from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.inversion import arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit, Finding
@@ -175,7 +176,10 @@ def _what_if(fixture: Fixture, sources: Sources, args: Mapping[str, str], assume
 def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> Context:
     environment = environment_of(fixture)
     executables, results = _EveryExecutable(environment), _Results(fixture.commands)
-    tree = evaluate_launch(fixture.root, args, sources, executables, environment, "/", results, assumed=assumed)
+    given, variables = arguments_and_variables(args)
+    tree = evaluate_launch(
+        fixture.root, given, sources, executables, environment, "/", results, assumed=assumed, variables=variables
+    )
     documents: dict[str, Document] = {}
     launch_files = {}
     manifests = (package.manifest for path in tree.files if (package := package_around(environment, path)) is not None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +21,20 @@ def variable_of(db: Database, environment: Environment, name: str) -> str | None
 def with_queried_variables(db: Database, environment: Environment) -> Environment:
     """The environment, whose variables are asked for by `variable_of`."""
     return replace(environment, variables=_QueriedVariables(db, environment, environment.variables))
+
+
+def with_variables(environment: Environment, others: Mapping[str, str]) -> Environment:
+    """The environment with these variables set as well, or to other values."""
+    if not others:
+        return environment
+    variables = copied(environment.variables)
+    variables.update(others)
+    return replace(environment, variables=variables)
+
+
+def copied(variables: Mapping[str, str]) -> dict[str, str]:
+    """A copy that tells whoever notes which ones are read what the first one does."""
+    return copy(variables) if isinstance(variables, dict) else dict(variables)
 
 
 class _QueriedVariables(dict[str, str]):

@@ -6,42 +6,35 @@ these arguments. What cannot be read backwards gives nothing.
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import islice, product
-from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.evaluation.conditions import (
+    COMPARISONS,
+    MOST,
+    REFERENCES,
+    VARIABLE,
+    Wanted,
+    comparisons,
+    default_of,
+    name_in,
+    parsed_expression,
+    solved,
+)
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
-from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value, action_at
-from preflight_analysis.launch.references import NOT_ARGUMENTS, arg_references, first_word
+from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, action_at
 from preflight_analysis.launch.substitutions_ros2 import nested
 
 Assignment = Mapping[str, str]
-"""Arguments of the root with their values."""
+"""Arguments of the root with their values, and variables of the environment, whose names begin with `VARIABLE`."""
 
-MOST = 4
-"""Assignments that are looked at of one condition: those that it names first are mostly right."""
 _MAX_STEPS = 40
 """From an argument to the one that it is made of."""
 _MAX_COMBINATIONS = 64
 """Of what several parts of a condition ask for: most of them contradict each other where there are many."""
-_LONGEST = 500
-"""Characters of an expression that is read: parentheses and words nest, and Python's stack has an end."""
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
-_SAME_TEXT = frozenset({"lower", "upper", "strip", "casefold"})
-"""Methods that a comparison is not about."""
-_COMPARISONS = {"config-equals": True, "config-not-equals": False}
-"""Conditions of Python launch files on one configuration, with whether it has to be equal."""
-_MARK = "argument_{}_of_the_condition"
-
-
-class _Wanted(NamedTuple):
-    """A variable of a condition, with the text that it has to have."""
-
-    name: str
-    text: str
 
 
 def assignments(
@@ -60,12 +53,20 @@ def assignments(
     return list(unique.values())
 
 
+def arguments_and_variables(given: Assignment) -> tuple[dict[str, str], dict[str, str]]:
+    """What is given to the launch, and what the environment is to have."""
+    variables = {name.removeprefix(VARIABLE): text for name, text in given.items() if name.startswith(VARIABLE)}
+    return {name: text for name, text in given.items() if not name.startswith(VARIABLE)}, variables
+
+
 class _Reader:
     def __init__(self, tree: LaunchTree, launch_files: Mapping[str, LaunchFile], value: str | None) -> None:
         self._tree, self._files = tree, launch_files
         # Where values are put into the text of an expression, Python's words are what it knows.
         self._style = value if value is not None or not tree.ros.nested_substitutions else str(False)
         self._steps = 0
+        self._compared: dict[str, Mapping[str, list[str]]] = {}
+        """By file and name, the texts that its conditions compare arguments with."""
 
     def truth(
         self, parts: Sequence[Literal | Substitution], wanted: bool, file: str, chain: Origin
@@ -76,8 +77,8 @@ class _Reader:
         part = parts[0]
         words = part.words
         match part.command:
-            case "arg" | "var":
-                yield from self._argument(first_word(part)[0], "true" if wanted else "false", file, chain)
+            case command if command in REFERENCES:
+                yield from self._reference(part, "true" if wanted else "false", file, chain)
             case "not" if words:
                 yield from self.truth(words[0], not wanted, file, chain)
             case "and" | "all" | "or" | "any":
@@ -85,9 +86,9 @@ class _Reader:
                 yield from _all_of(each) if (part.command in ("and", "all")) == wanted else _any_of(each)
             case "equals" | "not-equals" if len(words) == 2:
                 yield from self._equal(words, wanted == (part.command == "equals"), file, chain)
-            case command if command in _COMPARISONS and len(words) == 2:
+            case command if command in COMPARISONS and len(words) == 2:
                 variable = part._replace(command="var", words=words[:1])
-                yield from self._equal(((variable,), words[1]), wanted == _COMPARISONS[command], file, chain)
+                yield from self._equal(((variable,), words[1]), wanted == COMPARISONS[command], file, chain)
             case "eval":
                 yield from self._expression(part, wanted, file, chain)
 
@@ -97,10 +98,47 @@ class _Reader:
         for one, other in (words, words[::-1]):
             text = "".join(piece.text for piece in other)
             if all(isinstance(piece, Literal) for piece in other) and len(one) == 1:
-                for wished in (text,) if wanted else _others(text):
+                name = name_in(one[0])
+                for wished in (text,) if wanted else self._others(name, text, file):
                     yield from self._parts(one, wished, file, chain)
 
+    def _others(self, name: str | None, text: str, file: str) -> Iterable[str]:
+        """The texts that are another one, as far as they can be told: of true there is one; of a name those that are
+        its choices or that the file compares it with."""
+        known = _WORDS.get(text.lower())
+        if known is not None:
+            return ("false" if known else "true",)
+        if name is None:
+            return ()
+        inside = (child for each in self._declared(name, file) for child in each.children if child.kind == "choice")
+        choices = [value.text for child in inside if (value := child.value("value")) is not None]
+        found = dict.fromkeys((*choices, *self._compared_in(file).get(name, ())))
+        return [each for each in found if each not in ("", text)]
+
+    def _compared_in(self, file: str) -> Mapping[str, list[str]]:
+        if file not in self._compared:
+            launch_file = self._files.get(file)
+            root = launch_file.root if launch_file is not None else None
+            found = self._compared[file] = dict[str, list[str]]()
+            for action in root.walk() if root is not None else ():
+                for condition in ("if", "unless"):
+                    value = action.value(condition)
+                    for part in nested(value.parts) if value is not None else ():
+                        for name, text in comparisons(part):
+                            found.setdefault(name, []).append(text)
+        return self._compared[file]
+
     # From the value of an argument to the arguments of the root
+
+    def _reference(self, part: Substitution, text: str, file: str, chain: Origin) -> Iterator[Assignment]:
+        """What makes the substitution of an argument or of a variable this text."""
+        name = name_in(part)
+        if name is None:
+            return
+        if not name.startswith(VARIABLE):
+            yield from self._argument(name, text, file, chain)
+        elif text:
+            yield {name: _in_style(text, default_of(part))}
 
     def _argument(self, name: str, text: str, file: str, chain: Origin) -> Iterator[Assignment]:
         self._steps += 1
@@ -138,8 +176,8 @@ class _Reader:
     ) -> Iterator[Assignment]:
         """What makes a value this text."""
         if len(parts) == 1 and isinstance(part := parts[0], Substitution):
-            if part.command in ("arg", "var"):
-                yield from self._argument(first_word(part)[0], text, file, chain)
+            if part.command in REFERENCES:
+                yield from self._reference(part, text, file, chain)
             elif text.lower() in _WORDS:
                 yield from self.truth(parts, _WORDS[text.lower()], file, chain)
 
@@ -158,16 +196,19 @@ class _Reader:
     # Expressions
 
     def _expression(self, part: Substitution, wanted: bool, file: str, chain: Origin) -> Iterator[Assignment]:
-        text, names = _with_marks(part)
-        if text is None or len(text) > _LONGEST:
+        expression = parsed_expression(part)
+        if expression is None:
             return
-        try:
-            node = ast.parse(text.strip(), mode="eval").body
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
-            return
-        for conjunction in _solved(node, wanted, names):
-            each = [partial(self._argument, name, text, file, chain) for name, text in conjunction]
-            yield from _all_of(each)
+        node, names = expression
+        for conjunction in solved(node, wanted, names):
+            yield from _all_of([partial(self._wished, each, file, chain) for each in conjunction])
+
+    def _wished(self, wish: Wanted, file: str, chain: Origin) -> Iterator[Assignment]:
+        for text in (wish.text,) if wish.equal else self._others(wish.name, wish.text, file):
+            if wish.name.startswith(VARIABLE):
+                yield {wish.name: text}
+            else:
+                yield from self._argument(wish.name, text, file, chain)
 
 
 def _of_file(action: Action) -> Iterator[Action]:
@@ -200,12 +241,6 @@ def _all_of(each: Iterable[_Found]) -> Iterator[Assignment]:
             yield merged
 
 
-def _others(text: str) -> tuple[str, ...]:
-    """The texts that are another one, as far as they can be told: of true there is one, of a name there are many."""
-    known = _WORDS.get(text.lower())
-    return () if known is None else ("false" if known else "true",)
-
-
 def _in_style(text: str, now: str | None) -> str:
     """A truth value as the file writes them."""
     value = _WORDS.get(text.lower())
@@ -214,85 +249,3 @@ def _in_style(text: str, now: str | None) -> str:
     if now in ("True", "False"):
         return str(value)
     return str(int(value)) if now in ("0", "1") else text
-
-
-def _with_marks(part: Substitution) -> tuple[str | None, dict[str, str] | None]:
-    """An expression with a mark for each argument, and the names that the marks stand for; in ROS 1, where arguments
-    are known by their names, no marks. None for what has other values in it."""
-    if not part.words:
-        return part.text[len("$(eval ") : -1], None
-    text, names = "", dict[str, str]()
-    for piece in part.words[0]:
-        if isinstance(piece, Literal):
-            text += piece.text
-        elif piece.command == "var" and len(piece.words) == 1:
-            mark = _MARK.format(len(names))
-            names[mark] = first_word(piece)[0]
-            text += mark
-        else:
-            return None, None
-    return text, names
-
-
-def _solved(node: ast.expr, wanted: bool, names: Mapping[str, str] | None) -> Iterator[tuple[_Wanted, ...]]:
-    """What variables have to be, all of a tuple together, for an expression to be true or false."""
-    match node:
-        case ast.UnaryOp(op=ast.Not(), operand=inner):
-            yield from _solved(inner, not wanted, names)
-        case ast.BoolOp(op=op, values=values):
-            if isinstance(op, ast.And) == wanted:
-                for several in product(*(list(islice(_solved(v, wanted, names), MOST)) or [()] for v in values)):
-                    yield tuple(each for one in several for each in one)
-            else:
-                for value in values:
-                    yield from _solved(value, wanted, names)
-        case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as op], comparators=[right]):
-            equal = wanted == isinstance(op, ast.Eq)
-            for one, other in ((left, right), (right, left)):
-                name, text = _variable(one, names), _constant(other, names)
-                if name is not None and text is not None:
-                    yield from ((_Wanted(name, each),) for each in ((text,) if equal else _others(text)))
-        case ast.Compare(
-            left=left, ops=[ast.In() | ast.NotIn() as op], comparators=[ast.List() | ast.Tuple() as items]
-        ):
-            name = _variable(left, names)
-            if name is not None and wanted == isinstance(op, ast.In):
-                texts = (_constant(each, names) for each in items.elts)
-                yield from ((_Wanted(name, text),) for text in texts if text is not None)
-        case _:
-            if (name := _variable(node, names)) is not None:
-                yield (_Wanted(name, "true" if wanted else "false"),)
-
-
-def _variable(node: ast.expr, names: Mapping[str, str] | None) -> str | None:
-    match node:
-        case ast.Call(func=ast.Attribute(value=inner, attr=method), args=[]) if method in _SAME_TEXT:
-            return _variable(inner, names)
-        case ast.Call(func=ast.Name(id="str" | "bool"), args=[inner]):
-            return _variable(inner, names)
-        case ast.Call(func=ast.Name(id="arg"), args=[ast.Constant(value=str(name))]) if names is None:
-            return name
-        case ast.Name(id=name):
-            return names.get(name) if names is not None else name if name not in NOT_ARGUMENTS else None
-        case ast.Constant(value=str(text)) if names is not None:
-            return names.get(text)
-    return None
-
-
-def _constant(node: ast.expr, names: Mapping[str, str] | None) -> str | None:
-    match node:
-        case ast.Constant(value=str(text)):
-            return None if names is not None and any(mark in text for mark in names) else text
-        case ast.Constant(value=bool(value)):
-            return str(value).lower()
-        case ast.Constant(value=int(number) | float(number)):
-            return str(number)
-        case ast.Name(id="true" | "false" as word):
-            return word
-    return None
-
-
-def named_arguments(value: Value) -> frozenset[str]:
-    """The arguments that a value names."""
-    compared = (part for part in nested(value.parts) if part.command in _COMPARISONS)
-    return frozenset((*(first_word(part)[0] for part in compared), *(name for name, _ in arg_references(value))))

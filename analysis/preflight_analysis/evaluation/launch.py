@@ -8,6 +8,7 @@ from collections.abc import Set as AbstractSet
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.variables import with_variables
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
@@ -26,12 +27,15 @@ def evaluate_launch(
     commands: Commands,
     surroundings: Surroundings | None = None,
     assumed: AbstractSet[Location] = frozenset(),
+    variables: Mapping[str, str] | None = None,
 ) -> LaunchTree:
-    """What launching `path` with `name:=value...` would start; see `evaluate` and `evaluate_ros2`."""
+    """What launching `path` with `name:=value...` would start, where these `variables` of the environment are others;
+    see `evaluate` and `evaluate_ros2`."""
     found = files.launch_file(path)
     if isinstance(found, Unreadable) or found.generation == ROS1.number:
+        environment = with_variables(environment, variables or {})
         return evaluate(path, args, files, executables, environment, cwd, commands, surroundings, assumed)
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 
-    return evaluate_ros2(path, args, files, executables, environment, cwd, commands, surroundings, assumed)
+    return evaluate_ros2(path, args, files, executables, environment, cwd, commands, surroundings, assumed, variables)

@@ -16,7 +16,8 @@ from dataclasses import dataclass, field, replace
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.inversion import Assignment, assignments, named_arguments
+from preflight_analysis.evaluation.conditions import VARIABLE, named_arguments
+from preflight_analysis.evaluation.inversion import Assignment, assignments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.incremental.query import Input
@@ -216,7 +217,11 @@ def _key(args: Assignment) -> _Key:
 
 
 def _shown(args: Assignment, given: Assignment) -> str:
-    return " ".join(f"{name}:={text}" for name, text in _key(args) if given.get(name) != text)
+    return " ".join(
+        f"{name.removeprefix(VARIABLE)}={text}" if name.startswith(VARIABLE) else f"{name}:={text}"
+        for name, text in _key(args)
+        if given.get(name) != text
+    )
 
 
 def _in_words(left_out: NotTaken) -> str:

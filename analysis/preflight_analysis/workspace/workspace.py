@@ -19,7 +19,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
-from preflight_analysis.evaluation.inversion import Assignment
+from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.surroundings import Surroundings
@@ -417,10 +417,11 @@ def _what_if(
 ) -> WhatIf:
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
-    # What is taken against its condition is not remembered for launches in which it is not.
-    parts = None if assumed else within
+    given, variables = arguments_and_variables(dict(args))
+    # What is taken against its condition, or with other variables, is not remembered for launches where it is not so.
+    parts = None if assumed or variables else within
     tree = evaluate_launch(
-        path, dict(args), files, executables, environment, within.cwd, within.commands, parts, assumed
+        path, given, files, executables, environment, within.cwd, within.commands, parts, assumed, variables
     )
     documents, launch_files = workspace.texts_of(tree)
     index = _executables(db, workspace, environment)

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, cast
 from preflight_analysis.catalogue.launches import SUFFIX
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
+from preflight_analysis.environment.variables import copied
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.tree import Tag
 from preflight_analysis.launch.model import Action
@@ -88,11 +89,6 @@ class PythonRun:
     """Whether the text is another one by now, and this the last run that went well: nothing is asked for it again."""
 
 
-def _copied(variables: Mapping[str, str]) -> dict[str, str]:
-    """A copy that tells whoever notes which ones are read what the first one does."""
-    return copy(variables) if isinstance(variables, dict) else dict(variables)
-
-
 Question = tuple[Hashable, ...]
 """What is asked, and of what: `("configuration", "rate")`."""
 
@@ -144,7 +140,7 @@ class Context:
         self.round: dict[str, str] = {}
         """What the variables of the loops around are in this round."""
         self._at_first = dict(environment)
-        self._environment = _copied(environment)
+        self._environment = copied(environment)
         self._scope = _Scope()
         self._launch_file = ""
         self._is_in_another_file = False
@@ -401,7 +397,7 @@ class Context:
         self._environment.pop(name, None)
 
     def _reset_environment(self) -> None:
-        self._environment = _copied(self.initial_environment)
+        self._environment = copied(self.initial_environment)
 
 
 _ANSWERS: Mapping[str, Callable[..., object]] = {

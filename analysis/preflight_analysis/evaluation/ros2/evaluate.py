@@ -41,19 +41,23 @@ def evaluate_ros2(
     commands: Commands = NO_RESULTS,
     surroundings: Surroundings | None = None,
     assumed: AbstractSet[Location] = frozenset(),
+    variables: Mapping[str, str] | None = None,
 ) -> LaunchTree:
     """What `ros2 launch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What
     starts of processes bring about comes after the rest, then, marked as deferred, what timers and other events do.
     Reads through `files` only; runs nothing. With `surroundings`, of the same things, and within a query, parts are
-    remembered. The tags at `assumed` are taken whatever their conditions say; give no `surroundings` then.
+    remembered. The tags at `assumed` are taken whatever their conditions say, and `variables` of the environment are
+    others; give no `surroundings` then.
     """
     within = surroundings if files.db.is_making else None
     try:
-        state = _launched(path, args, State(files, executables, environment, cwd, commands, within, assumed=assumed))
+        state = State(files, executables, environment, cwd, commands, within, assumed=assumed)
+        _launch(path, args, variables or {}, state)
     except NotByPartsError:
-        state = _launched(path, args, State(files, executables, environment, cwd, commands, assumed=assumed))
+        state = State(files, executables, environment, cwd, commands, assumed=assumed)
+        _launch(path, args, variables or {}, state)
     return LaunchTree(
         os.path.normpath(path),
         2,
@@ -75,12 +79,13 @@ def evaluate_ros2(
     )
 
 
-def _launched(path: str, args: Mapping[str, str], state: State) -> State:
+def _launch(path: str, args: Mapping[str, str], variables: Mapping[str, str], state: State) -> None:
     context = Context(state.environment.variables, python_classes())
     for name, value in args.items():
         context.set(name, Resolved(value), None)
+    for name, value in variables.items():
+        context.set_variable(name, value)
     _execute(Walk(state, context, _language()), os.path.normpath(path), args)
-    return state
 
 
 @cache
