@@ -1,0 +1,140 @@
+"""LCH040: a substitution or a condition whose value Python is asked for while the file is read (ROS 2)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.problems import shortened
+from preflight_analysis.rules.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for path, launch_file in context.launch_files.items():
+        for span, message in _asked(launch_file) if path.endswith(".py") else ():
+            yield rule.finding(message, context.location(path, span), confidence="likely")
+
+
+@memoize_by_file
+def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
+    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    if source.module is None:
+        return ()
+    found = _Finder(source)
+    found.visit(source.module)
+    return tuple(found.found)
+
+
+class _Finder(ast.NodeVisitor):
+    """Places where Python decides by an object that stands for a value of later."""
+
+    def __init__(self, source: PythonSource) -> None:
+        self._source = source
+        self._names = BoundNames(source)
+        self.found: list[tuple[Span, str]] = []
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> None:
+        self.generic_visit(node)
+        for at, each in enumerate(node.values[:-1]):
+            kind = self._kind(each)
+            if kind is not None:
+                both = isinstance(node.op, ast.And)
+                word, lost, instead = ("and", each, "And") if both else ("or", node.values[at + 1], "Or")
+                advice = f"; write {instead}Substitution(...)" if self._kind(node.values[-1]) is not None else ""
+                self._say(
+                    node,
+                    f"Python's '{word}' drops '{self._written(lost)}': {kind} is always true here, its value is known "
+                    f"only while the launch runs{advice}",
+                )
+                return
+
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> None:
+        self.generic_visit(node)
+        kind = self._kind(node.operand) if isinstance(node.op, ast.Not) else None
+        if kind is not None:
+            self._say(
+                node,
+                f"this is always False: {kind} is always true here, its value is known only while the "
+                "launch runs; use UnlessCondition or NotSubstitution",
+            )
+
+    def visit_IfExp(self, node: ast.IfExp) -> None:
+        self.generic_visit(node)
+        self._test(node.test)
+
+    def visit_If(self, node: ast.If) -> None:
+        self.generic_visit(node)
+        self._test(node.test)
+
+    def visit_Compare(self, node: ast.Compare) -> None:
+        self.generic_visit(node)
+        if len(node.ops) != 1 or not isinstance(node.ops[0], (ast.Eq, ast.NotEq)):
+            return
+        for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
+            kind = self._kind(one)
+            if kind is not None and isinstance(other, ast.Constant) and other.value is not None:
+                equal = isinstance(node.ops[0], ast.NotEq)
+                self._say(
+                    node,
+                    f"this is always {equal}: {kind} equals nothing here, its value is known only while the launch "
+                    "runs; use EqualsSubstitution, or perform(context) in an OpaqueFunction",
+                )
+
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
+        # Not at the object: before Python 3.12 nothing in an f-string has its right place.
+        self._in_text(node, (each.value for each in node.values if isinstance(each, ast.FormattedValue)))
+
+    def visit_Call(self, node: ast.Call) -> None:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "str" and len(node.args) == 1 and not node.keywords:
+            self._in_text(node, node.args)
+
+    def _test(self, node: ast.expr) -> None:
+        kind = self._kind(node)
+        if kind is not None:
+            self._say(node, f"{kind} is always true here: its value is known only while the launch runs")
+
+    def _in_text(self, text: ast.expr, values: Iterable[ast.expr]) -> None:
+        kind = next(filter(None, map(self._kind, values)), None)
+        if kind is not None:
+            self._say(
+                text,
+                f"the text gets the name of a Python object and not the value: that of {kind} is known only while the "
+                "launch runs; give a list of texts and substitutions",
+            )
+
+    def _kind(self, node: ast.expr) -> str | None:
+        made = self._names.made_by(node)
+        if made in CONDITIONS:
+            return "a condition"
+        return f"a {made}" if made in SUBSTITUTIONS else None
+
+    def _written(self, node: ast.expr) -> str:
+        span = self._source.whole_span(node)
+        return shortened(" ".join(self._source.text[span.start : span.end].split()))
+
+    def _say(self, node: ast.expr, message: str) -> None:
+        self.found.append((self._source.whole_span(node), message))
+
+
+RULE = Rule(
+    id="LCH040",
+    name="substitution-as-value",
+    severity="warning",
+    what="Reports a substitution or a condition in a Python launch file that Python itself asks for its value: before "
+    "`and` and `or`, after `not`, in `if`, compared with a text, put into a text. Only objects are spoken of that are "
+    "written there, or whose name is bound in one place of the file.",
+    why="The value is known only while the launch runs. While the file is read the object is always true, equals no "
+    "text, and its text is the name of a Python object. Of `IfCondition(a) and UnlessCondition(b)` the second is left.",
+    example="condition=IfCondition(use_rviz) and UnlessCondition(headless)",
+    instead="condition=IfCondition(AndSubstitution(use_rviz, NotSubstitution(headless)))",
+    generations=(2,),
+    check=_check,
+    in_branches=True,
+)

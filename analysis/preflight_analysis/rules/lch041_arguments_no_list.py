@@ -1,0 +1,69 @@
+"""LCH041: arguments of a process that are no list: one text, of which each character is one, or a set (ROS 2)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.python_names import BoundNames
+from preflight_analysis.rules.rule import Context, Rule
+
+_TAKE_LISTS = {
+    "ComposableNodeContainer": ("arguments", "ros_arguments"),
+    "ExecuteLocal": ("cmd",),
+    "ExecuteProcess": ("cmd",),
+    "LifecycleNode": ("arguments", "ros_arguments"),
+    "Node": ("arguments", "ros_arguments"),
+}
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for path, launch_file in context.launch_files.items():
+        for span, message in _no_lists(launch_file) if path.endswith(".py") else ():
+            yield rule.finding(message, context.location(path, span))
+
+
+@memoize_by_file
+def _no_lists(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
+    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    if source.module is None:
+        return ()
+    names = BoundNames(source)
+    found: list[tuple[Span, str]] = []
+    for node in ast.walk(source.module):
+        made = names.made_by(node) if isinstance(node, ast.Call) else None
+        for keyword in node.keywords if isinstance(node, ast.Call) and made is not None else ():
+            why = _problem(keyword.value) if keyword.arg in _TAKE_LISTS.get(made or "", ()) else None
+            if why is not None:
+                found.append((source.whole_span(keyword.value), f"'{keyword.arg}' takes a list: {why}"))
+    return tuple(found)
+
+
+def _problem(given: ast.expr) -> str | None:
+    text = isinstance(given, ast.Constant) and isinstance(given.value, str) and len(given.value) > 1
+    if text or isinstance(given, ast.JoinedStr):
+        return "of a text each character is one argument"
+    if isinstance(given, ast.Set) and len(given.elts) > 1:
+        return "a set has no order, its items come in another one at each launch"
+    return None
+
+
+RULE = Rule(
+    id="LCH041",
+    name="arguments-no-list",
+    severity="error",
+    what="Reports `arguments=` of a node, or `cmd=` of a process, in a Python launch file that is one text or a set.",
+    why="launch takes it item by item. Of a text each character is an argument of its own; the items of a set of "
+    "texts come in another order at each launch, so that options lose their values.",
+    example='Node(package="tf2_ros", executable="static_transform_publisher", arguments="0 0 0 0 0 0 map odom")',
+    instead='Node(package="tf2_ros", executable="static_transform_publisher",\n'
+    '     arguments=["--frame-id", "map", "--child-frame-id", "odom"])',
+    generations=(2,),
+    check=_check,
+    in_branches=True,
+)

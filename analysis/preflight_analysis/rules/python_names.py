@@ -1,0 +1,61 @@
+"""What the names of a Python launch file stand for that are bound in one place only."""
+
+from __future__ import annotations
+
+import ast
+from collections import Counter
+
+from preflight_analysis.launch.python_source import PythonSource
+
+SUBSTITUTIONS = frozenset(
+    {
+        "AllSubstitution", "AndSubstitution", "AnonName", "AnySubstitution", "BooleanSubstitution", "Command",
+        "EnvironmentVariable", "EqualsSubstitution", "ExecutableInPackage", "FileContent", "FindExecutable",
+        "FindPackagePrefix", "FindPackageShare", "IfElseSubstitution", "LaunchConfiguration", "LaunchLogDir",
+        "NotEqualsSubstitution", "NotSubstitution", "OrSubstitution", "PathJoinSubstitution", "PythonExpression",
+        "TextSubstitution", "ThisLaunchFile", "ThisLaunchFileDir",
+    }
+)  # fmt: skip
+"""Classes of `launch.substitutions` and `launch_ros.substitutions`."""
+CONDITIONS = frozenset({"IfCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals", "UnlessCondition"})
+
+
+class BoundNames:
+    """The names of a file, as far as it tells what they stand for: one that is bound in several places, or is an
+    argument of a function somewhere, may be anything."""
+
+    def __init__(self, source: PythonSource) -> None:
+        bound: Counter[str] = Counter()
+        self._imported: set[str] = set()
+        for piece in source.pieces:
+            for node in ast.walk(piece):
+                if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+                    bound[node.id] += 1
+                elif isinstance(node, ast.arg):
+                    bound[node.arg] += 2
+                elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                    bound[node.name] += 1
+                elif isinstance(node, (ast.Import, ast.ImportFrom)):
+                    for alias in node.names:
+                        bound[alias.asname or alias.name] += 1
+                        self._imported.add(alias.asname or alias.name)
+        self._values = {name: value for name, value in source.assigned.items() if bound[name] == 1}
+        self._bound = bound
+
+    def made_by(self, node: ast.expr) -> str | None:
+        """The class of `launch` whose call a value is, as it is written or by its name; None for all else."""
+        value = self._values.get(node.id) if isinstance(node, ast.Name) else node
+        if not isinstance(value, ast.Call):
+            return None
+        called = value.func
+        if isinstance(called, ast.Name):
+            return called.id if called.id in self._imported and self._bound[called.id] == 1 else None
+        return called.attr if isinstance(called, ast.Attribute) and self._is_module(called.value) else None
+
+    def _is_module(self, node: ast.expr) -> bool:
+        """Whether it is a module that is imported, or one within such a one: `launch.conditions`."""
+        while isinstance(node, ast.Attribute):
+            node = node.value
+        return isinstance(node, ast.Name) and (
+            node.id in self._imported or any(name.startswith(f"{node.id}.") for name in self._imported)
+        )

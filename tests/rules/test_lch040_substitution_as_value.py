@@ -1,0 +1,71 @@
+"""LCH040: a substitution or a condition that Python is asked for its value."""
+
+import pytest
+from support.check import check
+
+_START = """//- /robot.launch.py
+        from launch import LaunchDescription, conditions
+        from launch.actions import DeclareLaunchArgument, OpaqueFunction
+        from launch.conditions import IfCondition, UnlessCondition
+        from launch.substitutions import EqualsSubstitution, LaunchConfiguration
+        from launch_ros.actions import Node
+"""
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("IfCondition(sim) and UnlessCondition(sim)", "Python's 'and' drops 'IfCondition(sim)': a condition is always"),
+        ("conditions.IfCondition(sim) or UnlessCondition(sim)", "Python's 'or' drops 'UnlessCondition(sim)'"),
+        ("not sim", "this is always False: a LaunchConfiguration is always true here"),
+        ("sim == 'true'", "this is always False: a LaunchConfiguration equals nothing here"),
+        ("'true' != sim", "this is always True: a LaunchConfiguration equals nothing here"),
+        ("f'world_{sim}.sdf'", "the text gets the name of a Python object and not the value"),
+        ("str(sim)", "the text gets the name of a Python object and not the value"),
+    ],
+)
+def test_what_is_known_only_later(asked: str, said: str) -> None:
+    check(f"""
+        {_START}
+        def generate_launch_description():
+            sim = LaunchConfiguration("sim")
+            asked = {asked}
+                    {"^" * len(asked)} warning[LCH040] {said}
+            return LaunchDescription([DeclareLaunchArgument("sim", default_value="true")])
+    """)
+
+
+def test_in_a_statement() -> None:
+    check(f"""
+        {_START}
+        def generate_launch_description():
+            if LaunchConfiguration("sim"):
+               ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH040] a LaunchConfiguration is always true here
+                return LaunchDescription([])
+            return LaunchDescription([])
+    """)
+
+
+@pytest.mark.silent
+def test_what_may_be_something_else() -> None:
+    check(f"""
+        {_START}
+        def setup(context, given=None):
+            rate = given or LaunchConfiguration("rate")
+            sim = LaunchConfiguration("sim").perform(context)
+            if sim == "true" and not given:
+                rate = "1"
+            return [Node(package="p", executable="e", parameters=[{{"rate": f"{{rate}}"}}])]
+
+        def generate_launch_description():
+            shown = LaunchConfiguration("shown")
+            only = UnlessCondition(shown) if shown is not None else None
+            return LaunchDescription([
+                DeclareLaunchArgument("sim", default_value="true"),
+                DeclareLaunchArgument("rate", default_value="1"),
+                DeclareLaunchArgument("shown", default_value="1"),
+                OpaqueFunction(function=setup),
+                Node(package="p", executable="e", condition=IfCondition(EqualsSubstitution(shown, "1"))),
+                Node(package="p", executable="f", condition=only),
+            ])
+    """)
