@@ -1,0 +1,119 @@
+"""TOP008: a player of a recording is given the name of a topic that nobody subscribes to."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.build import effective_remaps
+from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.places import argument_location, related_endpoint
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.request import split_args
+
+_TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
+_PREFIX = re.compile(r"-p|--prefix(?:=.*)?")
+"""Of a text that goes in front of all names (ROS 1)."""
+_REMAPS = ("-m", "--remap")
+"""Before names of the recording with others for them (ROS 2); in ROS 1 these may stand anywhere."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph, nodes = context.graph, context.tree.nodes
+    if graph is None:
+        return
+    for node, played in zip(nodes, context.kept.each(_played, nodes, context.tree.generation), strict=True):
+        for written, topic in played:
+            consumer = _meant(graph, topic)
+            if consumer is None:
+                continue
+            place = argument_location(context, node, written)
+            known = _others_known(graph, node)
+            yield rule.finding(
+                f"played topic '{topic}' has no subscriber in this launch; did you mean '{consumer.name}', to which "
+                f"{consumer.node.name} subscribes and which nobody publishes?",
+                place,
+                severity=None if known else "info",
+                confidence="likely" if known else "possible",
+                related=(related_endpoint(consumer, "subscribes to"), *include_chain(node.origin)),
+                fixes=rename(context, place, written.lstrip("/"), consumer.name.lstrip("/")),
+            )
+
+
+def _meant(graph: Graph, topic: str) -> Connection | None:
+    """The subscriber of the nearest topic that differs by a slip and has no publisher; None where the topic itself is
+    known."""
+    channel = graph.topics.get(topic)
+    if (channel is not None and channel.consumers) or graph.is_external(topic):
+        return None
+    near = [
+        (alike[1], name)
+        for name, each in graph.topics.items()
+        if each.consumers and not each.providers and (alike := likeness(topic, name)) is not None and alike[0] == "typo"
+    ]
+    return graph.topics[min(near)[1]].consumers[0] if near else None
+
+
+def _others_known(graph: Graph, player: LaunchNode) -> bool:
+    """Whether it is likely that all is known of the nodes beside the player."""
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
+    return graph.tree.complete and all(each.likely_complete for node, each in pairs if node is not player)
+
+
+def _played(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:
+    """The topics that a player is told to play, as written and in full: those after `--topics`, by the names that they
+    are played under, and the names that topics of the recording are given."""
+    words = split_args(node.args)
+    if node.unknowns or "play" not in (node.executable, *words[1:2]) or any(map(_PREFIX.fullmatch, words)):
+        return ()
+    if (node.package, node.executable) == ("rosbag", "play"):
+        renamed = _renamed(words)
+        outer = {source: target for source, (_, target) in effective_remaps(node, generation).items()}
+    elif node.kind == "process" and (node.executable, *words[:2]) == ("ros2", "bag", "play"):
+        words = words[2:]
+        renamed = _renamed(_after(words, _REMAPS))
+        outer = {}
+    else:
+        return ()
+    topics = [topic for topic in _after(words, ("--topics",)) if topic not in renamed]
+    full = ((word, names.resolve(word, node.name)) for word in (*topics, *renamed.values()) if _TOPIC.fullmatch(word))
+    return tuple((word, outer.get(name, name)) for word, name in full)
+
+
+def _renamed(words: Sequence[str]) -> Mapping[str, str]:
+    """Names with what they are played under; private ones are parameters."""
+    pairs = (word.split(":=", 1) for word in words if ":=" in word)
+    return {source: target for source, target in pairs if not source.startswith("_")}
+
+
+def _after(words: Sequence[str], options: Sequence[str]) -> list[str]:
+    """The words that follow one of the options up to the next one."""
+    found: list[str] = []
+    listed = False
+    for word in words:
+        if word.startswith("-"):
+            listed = word in options
+        elif listed and (":=" in word) == (options is _REMAPS):
+            found.append(word)
+    return found
+
+
+RULE = Rule(
+    id="TOP008",
+    name="played-not-subscribed",
+    severity="warning",
+    what="Checks for a topic in the arguments of `rosbag play` or of a process `ros2 bag play`, after `--topics` or as "
+    "the new name in a remap, that no node of the launch subscribes to, where a node subscribes to a topic of nearly "
+    "that name which nobody publishes. Where not all other nodes are known it is for information.",
+    why="The recording is played, the node waits for its messages, and nothing says that the names differ.",
+    example='<node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scna"/>',
+    instead='<node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scan"/>',
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)
