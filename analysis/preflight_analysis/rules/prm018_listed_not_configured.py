@@ -1,0 +1,142 @@
+"""PRM018: a plugin in a list of plugins that is not configured as the others of the list are (ROS 2).
+
+nav2, moveit and others take their plugins so: a list of names, and `NAME.plugin` (or `NAME.type`) for each.
+https://docs.nav2.org/configuration/packages/configuring-costmaps.html#plugin-parameters
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from itertools import chain
+from typing import NamedTuple
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.problems import quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+_KINDS = ("plugin", "type")
+_WITH_DEFAULTS = frozenset(
+    map(
+        frozenset,
+        (
+            ("static_layer", "obstacle_layer", "inflation_layer"),
+            ("spin", "backup", "drive_on_heading", "wait"),
+            ("spin", "backup", "drive_on_heading", "assisted_teleop", "wait"),
+            ("navigate_to_pose", "navigate_through_poses"),
+            ("DistanceScorer", "DynamicEdgesScorer"),
+            ("AdjustSpeedLimit", "ReroutingService"),
+        ),
+    )
+)
+"""The lists that nav2 has where none is given: it knows the plugins of these, and of no other list."""
+
+
+class _Missing(NamedTuple):
+    """An item of a list without the parameter that says what it is. `ready`: plugins beside it that no list has."""
+
+    name: str
+    parameter: str
+    listed_in: str
+    span: Span
+    ready: tuple[tuple[str, Span], ...]
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    getters: dict[str, Related] = {}
+    for path, node, location in chain.from_iterable(context.kept.each(_files_of, context.tree.nodes)):
+        if path not in getters:
+            getters[path] = Related(f"{node} gets the file here", location)
+    found: list[tuple[str, _Missing]] = []
+    for path in getters:
+        document = context.documents.get(path)
+        found += ((path, each) for each in _missing_in(document.text)) if isinstance(document, Document) else ()
+    if not found:
+        return
+    given = {param.name for node in context.tree.nodes for source in node.param_sources for param in source.params}
+    for path, missing in found:
+        if missing.parameter in given:
+            continue
+        ready = [name for name, _ in missing.ready]
+        hint = f"; {quoted(ready)} is configured and in no list" if len(ready) == 1 else ""
+        yield rule.finding(
+            f"'{missing.name}' is listed in '{missing.listed_in}', and there is no parameter '{missing.parameter}' "
+            f"as the others have it: nothing can be loaded for it{hint}",
+            context.location(path, missing.span),
+            confidence="likely",
+            related=(
+                *(Related(f"'{name}' is configured here", context.location(path, at)) for name, at in missing.ready),
+                getters[path],
+            ),
+        )
+
+
+def _files_of(node: LaunchNode) -> tuple[tuple[str, str, Location], ...]:
+    """The parameter files that a node gets, with its name, and where it gets them."""
+    return tuple((each.path, node.name, each.origin[-1]) for each in node.param_sources if each.path is not None)
+
+
+@lru_cache(maxsize=64)
+def _missing_in(text: str) -> tuple[_Missing, ...]:
+    return tuple(found for section in read_param_file(text).sections for found in _missing(text, section))
+
+
+def _missing(text: str, section: Section) -> Iterator[_Missing]:
+    spans = {param.name: param.name_span for param in section.params}
+    lists = {p.name: p.value for p in section.params if isinstance(p.value, list) and _are_names(p.value)}
+    listed = {name for names in lists.values() for name in names}
+    for param in section.params:
+        items = lists.get(param.name)
+        if items is None or frozenset(items) in _WITH_DEFAULTS:
+            continue
+        above, dot, _ = param.name.rpartition(".")
+        for kind in _KINDS:
+            lacking = [name for name in items if f"{above}{dot}{name}.{kind}" not in spans]
+            if not lacking or len(lacking) == len(items):
+                continue
+            ready = tuple(_ready(spans, f"{above}{dot}", kind, listed))
+            for name in lacking:
+                at = re.search(
+                    rf"(?<![\w.]){re.escape(name)}(?![\w.])", text[param.value_span.start : param.value_span.end]
+                )
+                start = param.value_span.start + (at.start() if at is not None else 0)
+                yield _Missing(name, f"{above}{dot}{name}.{kind}", param.name, Span(start, start + len(name)), ready)
+
+
+def _are_names(items: Sequence[object]) -> bool:
+    return len(items) > 1 and all(isinstance(item, str) and re.fullmatch(r"\w+", item) for item in items)
+
+
+def _ready(spans: Mapping[str, Span], prefix: str, kind: str, listed: set[str]) -> Iterator[tuple[str, Span]]:
+    """What is configured at the same place and in no list of the section."""
+    for name, span in spans.items():
+        if name.startswith(prefix) and name.endswith(f".{kind}"):
+            plugin = name[len(prefix) : -len(kind) - 1]
+            if plugin and "." not in plugin and plugin not in listed:
+                yield plugin, span
+
+
+RULE = Rule(
+    id="PRM018",
+    name="listed-not-configured",
+    severity="warning",
+    what="Reports a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, ...) for "
+    "which there is no `NAME.plugin`, or `NAME.type`, while there is one for another name of the list (ROS 2). The "
+    "lists that nav2 has by default are left alone: it knows their plugins.",
+    why="Whoever reads the list asks for that parameter of each name, and does not start without it. Mostly the list "
+    "has another name than the section with its parameters.",
+    example='plugins: ["voxel_layer", "inflation_layer"]\n'
+    'obstacle_layer:\n  plugin: "nav2_costmap_2d::ObstacleLayer"\n'
+    'inflation_layer:\n  plugin: "nav2_costmap_2d::InflationLayer"',
+    instead='plugins: ["obstacle_layer", "inflation_layer"]\n'
+    'obstacle_layer:\n  plugin: "nav2_costmap_2d::ObstacleLayer"\n'
+    'inflation_layer:\n  plugin: "nav2_costmap_2d::InflationLayer"',
+    generations=(2,),
+    check=_check,
+    in_branches=True,
+)

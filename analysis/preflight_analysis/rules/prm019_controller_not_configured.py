@@ -1,0 +1,105 @@
+"""PRM019: a controller that is to be loaded and that its manager has no type of (ROS 2).
+
+https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html#helper-scripts
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.params import of_name
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.request import split_args
+
+_PACKAGE = _NAME = "controller_manager"
+_SPAWNERS = ("spawner", "spawner.py")
+_MANAGER = ("-c", "--controller-manager")
+_WITH_VALUE = (
+    "-n", "--namespace", "--controller-manager-timeout", "--switch-timeout", "--service-call-timeout",
+)  # fmt: skip
+_WITHOUT_VALUE = (
+    "--load-only", "--stopped", "--inactive", "-u", "--unload-on-kill", "--activate-as-group", "--switch-asap",
+)  # fmt: skip
+_SHOWN = 3
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    spawners = [node for node in context.tree.nodes if node.package == _PACKAGE and node.executable in _SPAWNERS]
+    if not spawners:
+        return
+    managers = {each.name: each for node in context.tree.nodes for each in _manager(context, node)}
+    for spawner in spawners:
+        asked = _asked(spawner)
+        manager = managers.get(asked[0]) if asked is not None else None
+        if asked is None or manager is None:
+            continue
+        known = [param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type")]
+        for controller in asked[1] if known else ():
+            if controller in known:
+                continue
+            near = nearest(controller, known)
+            files = [source for source in manager.param_sources if source.path is not None]
+            some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
+            yield rule.finding(
+                f"{manager.name} has no parameter '{controller}.type': the controller is not loaded"
+                + (f"; did you mean '{near}'?" if near is not None else f"; it knows {some}"),
+                spawner.location,
+                confidence="likely",
+                related=(
+                    *(Related(f"{manager.name} gets its parameters here", each.origin[-1]) for each in files[:1]),
+                    *include_chain(spawner.origin),
+                ),
+            )
+
+
+def _manager(context: Context, node: LaunchNode) -> Iterator[LaunchNode]:
+    """A node that loads controllers, with the name that its code gives it where the launch file gives none."""
+    if node.executable == "ros2_control_node" and not node.unknowns:
+        own = node.named or node.name_from_code
+        yield node if own else of_name(node, names.join(node.namespace, _NAME), context.documents, inferred=True)
+
+
+def _asked(spawner: LaunchNode) -> tuple[str, list[str]] | None:
+    """The full name of the manager and the controllers that a spawner names; None where its arguments tell of further
+    parameters, or are not all known."""
+    if spawner.unknowns or "$(" in spawner.args:
+        return None
+    manager, controllers = _NAME, []
+    words = iter(split_args(spawner.args))
+    for word in words:
+        option, equals, value = word.partition("=")
+        if option in _MANAGER:
+            manager = value if equals else next(words, manager)
+        elif option == "--ros-args":
+            break
+        elif option in _WITH_VALUE:
+            if not equals:
+                next(words, None)
+        elif word.startswith("-"):
+            if word not in _WITHOUT_VALUE:
+                return None
+        else:
+            controllers.append(word)
+    return names.resolve(manager, spawner.name), controllers
+
+
+RULE = Rule(
+    id="PRM019",
+    name="controller-not-configured",
+    severity="warning",
+    what="Reports a controller among the arguments of ros2_control's `spawner` whose type the parameters of the "
+    "`ros2_control_node` that it asks do not tell (ROS 2). Nothing is said where the manager is part of a simulation, "
+    "where its parameters are not all known, or where the spawner brings parameters of its own.",
+    why="The manager refuses to load it: `The 'type' param was not defined`. The spawner ends, and what the "
+    "controller should do nobody does.",
+    example="arguments=['streaming_controller']  # the manager's file has twist_controller",
+    instead="arguments=['twist_controller']",
+    generations=(2,),
+    check=_check,
+    in_branches=True,
+)

@@ -1,0 +1,60 @@
+"""PRM019: a controller that its manager knows nothing of."""
+
+import pytest
+from support.check import check
+
+_MANAGER = """<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager">
+            <param from="/p/controllers.yaml"/>
+          </node>"""
+_FILES = """//- /controller_manager/package.xml
+        <package><name>controller_manager</name></package>
+        //- /p/controllers.yaml
+        controller_manager:
+          ros__parameters:
+            update_rate: 100
+            twist_controller:
+              type: picknik_twist_controller/PicknikTwistController
+            joint_state_broadcaster:
+              type: joint_state_broadcaster/JointStateBroadcaster"""
+
+
+def test_one_that_no_file_has() -> None:
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          {_MANAGER}
+          <node pkg="controller_manager" exec="spawner" name="s" args="streaming_controller -c /controller_manager"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] no parameter 'streaming_controller.type': the controller is not loaded; it knows
+          <node pkg="controller_manager" exec="spawner" name="t" args="--inactive twist_controler"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] did you mean 'twist_controller'?
+        </launch>
+        {_FILES}
+    """)  # noqa: E501
+
+
+def test_a_manager_that_the_launch_does_not_name() -> None:
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          {_MANAGER.replace(' name="controller_manager"', "")}
+          <node pkg="controller_manager" exec="spawner" name="s" args="twist_controller other"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] no parameter 'other.type'
+        </launch>
+        {_FILES}
+    """)  # noqa: E501
+
+
+@pytest.mark.silent
+def test_what_is_known_or_may_be() -> None:
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          {_MANAGER}
+          <node pkg="controller_manager" exec="spawner" name="a" args="twist_controller joint_state_broadcaster"/>
+          <node pkg="controller_manager" exec="spawner" name="b" args="other -c /robot/controller_manager"/>
+          <node pkg="controller_manager" exec="spawner" name="c" args="other --param-file other"/>
+          <node pkg="controller_manager" exec="spawner" name="d" args="other -t a/Type"/>
+          <node pkg="controller_manager" exec="spawner" name="f" args="--switch-timeout 5 twist_controller --ros-args"/>
+        </launch>
+        {_FILES}
+    """)
