@@ -81,9 +81,9 @@ class Counting(Workspace):
         super().__init__(*args, **kwargs)
         self.made: list[str] = []
 
-    def tree(self, path: str, args: Mapping[str, str], *rest: Any) -> LaunchTree:
+    def outline(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         self.made.append(path)
-        return super().tree(path, args, *rest)
+        return super().outline(path, args)
 
 
 class Results(NoResults):

@@ -12,7 +12,7 @@ from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.workspace import indexing
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
-from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.indexing import build_index, entry_of
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -281,3 +281,26 @@ def test_the_order_of_a_folder_on_the_disk_does_not_show(harness: Harness, monke
 
         monkeypatch.setattr(indexing, "walk_unignored", walked)
         assert names() == expected
+
+
+def test_what_the_index_does_not_keep_is_not_worked_out(harness: Harness) -> None:
+    loaded = harness.write("loaded.yaml", "{a: [1, 2], $(anon n): 3, broken")
+    leaf = harness.write(
+        "leaf.launch",
+        including(
+            '<arg name="x"/><env name="E" value="1"/><remap from="a" to="b"/>',
+            f'<rosparam command="load" file="{loaded}"/><rosparam file="{loaded}" subst_value="true"/>',
+            '<node pkg="p" type="nowhere" name="$(anon n)"><rosparam file="no.yaml"/></node>',
+            '<node pkg="p" type="t" name="/bad"/><test pkg="p" type="t" test-name="x"/><unknown/>',
+        ),
+    )
+    root = harness.write("root.launch", including(include(leaf), include(leaf, "b", 'ns="n" clear_params="true"')))
+    for path in (leaf, root):
+        each = Root.of(str(path), {"x": "given"})
+        whole = harness.workspace.tree(each.path, dict(each.args))
+        outline = harness.workspace.outline(each.path, dict(each.args))
+        assert entry_of(outline, each) == entry_of(whole, each)
+        assert len(outline.nodes) == len(whole.nodes) > 0
+        assert str(loaded) in outline.inputs
+        kinds = {type(problem.kind).__name__ for problem in whole.problems}
+        assert kinds - {type(problem.kind).__name__ for problem in outline.problems} >= {"BadYaml"}

@@ -28,13 +28,18 @@ def evaluate_launch(
     surroundings: Surroundings | None = None,
     assumed: AbstractSet[Location] = frozenset(),
     variables: Mapping[str, str] | None = None,
+    *,
+    outline: bool = False,
 ) -> LaunchTree:
     """What launching `path` with `name:=value...` would start, where these `variables` of the environment are others;
-    see `evaluate` and `evaluate_ros2`."""
+    see `evaluate` and `evaluate_ros2`. An `outline` has the includes, the nodes by their names, and what was read: of
+    ROS 1 nothing else is worked out then."""
     found = files.launch_file(path)
     if isinstance(found, Unreadable) or found.generation == ROS1.number:
         environment = with_variables(environment, variables or {})
-        return evaluate(path, args, files, executables, environment, cwd, commands, surroundings, assumed)
+        return evaluate(
+            path, args, files, executables, environment, cwd, commands, surroundings, assumed, outline=outline
+        )
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 

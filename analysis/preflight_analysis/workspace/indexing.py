@@ -202,7 +202,7 @@ class _Maker:
                 self.left_out += 1
             else:
                 notes = Notes(self._workspace.sources)
-                launch = partial(self._workspace.tree, root.path, dict(root.args))
+                launch = partial(self._workspace.outline, root.path, dict(root.args))
                 entry = notes.of(lambda: entry_of(launch(), root), self._pause)
                 entry = replace(entry, observations=notes.observations)
                 self._included += len(entry.inclusions)

@@ -232,9 +232,16 @@ class Workspace:
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered. The results of commands are those of the last
         `look_at_results`."""
+        return self._unremembered(path, args, outline=False)
+
+    def outline(self, path: str, args: Mapping[str, str]) -> LaunchTree:
+        """As `tree`, of what the index keeps: files, includes, and nodes by their names."""
+        return self._unremembered(path, args, outline=True)
+
+    def _unremembered(self, path: str, args: Mapping[str, str], *, outline: bool) -> LaunchTree:
         within = _surroundings(self.sources.db, self, self.environment_of(path))
         executables, environment, commands = within.executables, within.environment, within.commands
-        return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands)
+        return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands, outline=outline)
 
     def look_at_results(self) -> None:
         """Notice results of commands that came, and what executables did elsewhere meanwhile."""

@@ -73,6 +73,8 @@ def evaluate(
     commands: Commands = NO_RESULTS,
     surroundings: Surroundings | None = None,
     assumed: AbstractSet[Location] = frozenset(),
+    *,
+    outline: bool = False,
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
 
@@ -80,9 +82,10 @@ def evaluate(
     paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing: the values
     of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With
     `surroundings`, of the same things, includes are remembered. The tags at `assumed` are taken whatever their
-    conditions say; give no `surroundings` then.
+    conditions say; give no `surroundings` then. Nor for an `outline`: that lacks what YAML says, where executables are,
+    and what is wrong in the language of the files.
     """
-    state = State(files, executables, environment, cwd, commands, surroundings, assumed=assumed)
+    state = State(files, executables, environment, cwd, commands, surroundings, assumed=assumed, outline=outline)
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
@@ -96,7 +99,8 @@ def evaluate(
         if (asked_for := _asked_for(found)) is not None:
             report_undeclared(state, found, args, asked_for)
     _check_machines(state)
-    _check_language(state)
+    if not outline:
+        _check_language(state)
     return LaunchTree(
         path,
         1,
@@ -211,7 +215,7 @@ def _within(state: State, scope: Scope, default_machine: str | None) -> Hashed |
     """All of a scope that nodes and includes in it depend on, the same object while that is equal; None where nothing
     of them can be remembered."""
     db = state.files.db
-    if not db.is_making or len(scope.chain) > MAX_REMEMBERED_DEPTH:
+    if not db.is_making or state.outline or len(scope.chain) > MAX_REMEMBERED_DEPTH:
         return None
     key = tags_key_of(scope, default_machine)
     if key is None:

@@ -61,7 +61,8 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
     origin = scope.origin(action.head_span)
     if not is_test and name.text and not _claim_name(state, full, origin[-1], scope, action):
         return
-    resolved = state.executables.find(package, executable) if attributes.all_known else Executable(None)
+    is_wanted = attributes.all_known and not state.outline
+    resolved = state.executables.find(package, executable) if is_wanted else Executable(None)
     if resolved.path is not None:
         target = Location.of_file(resolved.path)
         place = scope.location(_span(action, "type"))

@@ -172,7 +172,8 @@ def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str |
         text = _substituted(state, scope, action, text, full)
         if text is None:
             return
-    _load(state, scope, action, text, file, full, bool(below), node)
+    if not state.outline:
+        _load(state, scope, action, text, file, full, bool(below), node)
 
 
 @dataclass(frozen=True, slots=True)

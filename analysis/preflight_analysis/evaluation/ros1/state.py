@@ -32,8 +32,11 @@ class State(Collector):
         *,
         is_included: bool = False,
         assumed: AbstractSet[Location] = frozenset(),
+        outline: bool = False,
     ) -> None:
         super().__init__(1, files, executables, environment, cwd, results, surroundings, assumed)
+        self.outline = outline
+        """Whether nobody wants to know what YAML says and where executables are."""
         self.is_included = is_included
         """Whether it is that of an included file alone, without what is above it."""
         self.node_names: dict[str, Location | None] = {"/rosout": None}
