@@ -29,6 +29,10 @@ class Harness:
         self.write("CMakeLists.txt", text)
         return read_build(str(self.folder), "demo", Disk())
 
+    def build_for(self, generation: int, text: str) -> Build:
+        self.write("CMakeLists.txt", text)
+        return read_build(str(self.folder), "demo", Disk(), generation)
+
     def sources(self, build: Build, name: str) -> list[str] | None:
         target = build.executable(name)
         return [str(Path(s).relative_to(self.folder)) for s in build.sources(target)] if target else None
@@ -253,3 +257,33 @@ PIECES = [*'()"#[]=${};\\ \nab', "set", "foreach", "endforeach", "macro", "add_e
 def test_any_text_is_read(text: str) -> None:
     texts = {"/nowhere/CMakeLists.txt": text}
     assert read_build("/nowhere", "demo", disk_with(texts)) == read_build("/nowhere", "demo", disk_with(texts))
+
+
+@pytest.mark.parametrize("version", ["$ENV{ROS_VERSION}", '"$ENV{ROS_VERSION}"', "ROS_VERSION", "${ROS_VERSION}"])
+def test_what_is_built_for_the_other_generation_alone_is_left_out(harness: Harness, version: str) -> None:
+    text = f"""
+        if({version} STREQUAL 1)
+          add_executable(demo src/ros1.cpp)
+        elseif({version} EQUAL "2")
+          add_executable(demo src/ros2.cpp)
+        endif()
+        """
+    assert harness.sources(harness.build_for(1, text), "demo") == ["src/ros1.cpp"]
+    assert harness.sources(harness.build_for(2, text), "demo") == ["src/ros2.cpp"]
+    assert harness.sources(harness.build(text), "demo") == ["src/ros1.cpp", "src/ros2.cpp"], "not known for which"
+
+
+def test_folders_of_headers_are_those_of_the_package_that_are_there(harness: Harness) -> None:
+    harness.write("a/include/a.h")
+    harness.write("b/include/b.h")
+    harness.write("b/CMakeLists.txt", "target_include_directories(b PRIVATE include missing)")
+    build = harness.build(
+        """
+        include_directories(SYSTEM /usr/include ${catkin_INCLUDE_DIRS} .. .)
+        add_library(a SHARED a.cpp)
+        target_include_directories(a PUBLIC
+          "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/a/include>" "$<INSTALL_INTERFACE:include>")
+        add_subdirectory(b)
+        """
+    )
+    assert build.include_folders == (str(harness.folder / "a/include"), str(harness.folder / "b/include"))

@@ -78,6 +78,18 @@ def test_dependencies_of_all_kinds(tmp_path: Path) -> None:
     assert find_packages([str(tmp_path)]).packages["p"].dependencies == {"a", "b", "c"}
 
 
+def test_a_package_for_both_generations_is_built_for_the_one_that_is_asked(tmp_path: Path) -> None:
+    body = """<export>
+      <build_type condition="$ROS_VERSION == 1">catkin</build_type>
+      <build_type condition="$ROS_VERSION != 1">ament_cmake</build_type>
+    </export>"""
+    package(tmp_path / "p", body=body)
+    package(tmp_path / "q", body="<export><build_type condition='$ROS_DISTRO == noetic'>catkin</build_type></export>")
+    found = find_packages([str(tmp_path)])
+    assert [found.built_for(each).packages["p"].build_type for each in (1, 2)] == ["catkin", "ament_cmake"]
+    assert [found.built_for(each).packages["q"].build_type for each in (1, 2)] == ["catkin", "catkin"]
+
+
 def test_links_that_form_a_cycle_end(tmp_path: Path) -> None:
     package(tmp_path / "a" / "p")
     (tmp_path / "a" / "up").symlink_to(tmp_path)

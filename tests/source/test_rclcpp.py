@@ -67,6 +67,22 @@ def harness(tmp_path: Path) -> Harness:
     return Harness(tmp_path)
 
 
+def test_headers_lie_where_the_build_says(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", f"{CMAKE}target_include_directories(t PRIVATE src/parts/headers)\n")
+    harness.write(
+        "src/parts/headers/part.hpp",
+        "struct Part { std::shared_ptr<rclcpp::Node> node; rclcpp::Publisher<std_msgs::msg::String>::SharedPtr out; };",
+    )
+    found = harness.main(
+        """
+        Part part{node};
+        part.out = part.node->create_publisher<std_msgs::msg::String>("out", 1);
+        """,
+        before='#include "part.hpp"',
+    )
+    assert ends(found) == [("publisher", "out", "std_msgs/msg/String")]
+
+
 CLASS = """
 #include "rclcpp_action/rclcpp_action.hpp"
 #include "nav2_msgs/action/navigate_to_pose.hpp"

@@ -74,13 +74,15 @@ MANIFEST = "<package><name>robot</name><export><build_type>ament_python</build_t
 SETUP = "from setuptools import setup\nsetup(entry_points={'console_scripts': ['driver = robot.driver:main']})\n"
 
 
-def interface(tmp_path: Path, launch: str = LAUNCH, base: str = BASE) -> Interface:
+def interface(
+    tmp_path: Path, launch: str = LAUNCH, base: str = BASE, setup: str = SETUP, modules: str = ""
+) -> Interface:
     files = {
         "package.xml": MANIFEST,
-        "setup.py": SETUP,
-        "robot/__init__.py": "",
-        "robot/base.py": base,
-        "robot/driver.py": NODE,
+        "setup.py": setup,
+        f"{modules}robot/__init__.py": "",
+        f"{modules}robot/base.py": base,
+        f"{modules}robot/driver.py": NODE,
         "launch/robot.launch.xml": launch,
     }
     for name, text in files.items():
@@ -127,6 +129,14 @@ def test_a_node_of_a_class_of_its_own(tmp_path: Path) -> None:
     }
     line = next(e.source_line for e in found.endpoints if e.name == "map")
     assert NODE.splitlines()[(line or 0) - 1].strip().startswith("self.maps")
+
+
+def test_modules_in_a_folder_of_their_own_find_each_other(tmp_path: Path) -> None:
+    setup = SETUP.replace("setup(", "setup(package_dir={'': 'src'}, ")
+    found = interface(tmp_path / "a", setup=setup, modules="src/")
+    plain = interface(tmp_path / "b")
+    assert [(e.role, e.name) for e in found.endpoints] == [(e.role, e.name) for e in plain.endpoints]
+    assert found.params
 
 
 def test_what_the_launch_file_sets_decides(tmp_path: Path) -> None:

@@ -50,13 +50,16 @@ _FOLDERS = {
     "CMAKE_INSTALL_LIBDIR": "lib",
 }
 """Variables that CMake sets, as they are in a ROS workspace; GNUInstallDirs' among them."""
+_AT_BUILD = re.compile(r"\A\$<BUILD_INTERFACE:([^<>]*)>\Z")
+"""A folder that only counts where the package is built, not where it is installed."""
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
 _PLACES = frozenset("TYPE DESTINATION PERMISSIONS CONFIGURATIONS COMPONENT OPTIONAL RENAME EXCLUDE_FROM_ALL".split())  # noqa: SIM905
 
 
-def read_build(folder: str, package: str, disk: Disk) -> Build:
-    """What the `CMakeLists.txt` of the package in `folder` says. Nothing raises; what is not understood is left out."""
-    lists = _Lists(folder, disk)
+def read_build(folder: str, package: str, disk: Disk, generation: int | None = None) -> Build:
+    """What the `CMakeLists.txt` of the package in `folder` says, where it is built for the ROS of `generation`. Nothing
+    raises; what is not understood is left out."""
+    lists = _Lists(folder, disk, generation)
     complete = False
     with contextlib.suppress(_TooLargeError):
         complete = lists.folder(folder, {**_FOLDERS, "PROJECT_NAME": package}, 0)
@@ -79,15 +82,17 @@ class _Making:
 
 
 class _Lists:
-    def __init__(self, top: str, disk: Disk) -> None:
+    def __init__(self, top: str, disk: Disk, generation: int | None) -> None:
         self._top = top
         self._disk = disk
+        self._generation = generation
         self._targets: dict[str, _Making] = {}
         self._programs: dict[str, Program] = {}
         self._installed: list[Installed] = []
         self._components: dict[str, str] = {}
         self._component_programs: dict[str, str] = {}
         self._parameter_libraries: dict[str, str] = {}
+        self._include_folders: dict[str, None] = {}
         self._macros: dict[str, Command] = {}
         self._left = _MAX_COMMANDS
         self.complete = True
@@ -104,6 +109,7 @@ class _Lists:
             self._components,
             self._parameter_libraries,
             self._component_programs,
+            tuple(self._include_folders),
         )
 
     def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> bool:
@@ -140,7 +146,7 @@ class _Lists:
             if each is not None and each.name not in _BRANCHES:
                 branch.append(each)
                 continue
-            known = known_condition(condition)
+            known = known_condition(condition, self._generation)
             if known is not False:
                 self._block(branch, variables, depth + 1)
             if known or each is None:
@@ -197,6 +203,8 @@ class _Lists:
                 self._target(target, "executable" if kind == "add_executable" else "library", rest, folder)
             case "target_sources", [target, *rest] if target in self._targets:
                 self._targets[target].sources += source_files(self._disk, rest, folder)
+            case ("include_directories", paths) | ("target_include_directories", [_, *paths]):
+                self._headers(paths, folder)
             case "target_link_libraries", [target, *rest] if target in self._targets:
                 self._targets[target].links += [word for word in rest if word not in _LINK_WORDS]
             case "set_target_properties", [*targets, "OUTPUT_NAME", output] if "PROPERTIES" in targets:
@@ -260,6 +268,13 @@ class _Lists:
             made.sources += globbed(self._disk, patterns, folder, False)
             rest = rest[:at]
         made.sources += source_files(self._disk, rest, folder)
+
+    def _headers(self, words: Sequence[str], folder: str) -> None:
+        """The folders that are named of the package itself; what else is named is not below it."""
+        for word in words:
+            path = os.path.normpath(os.path.join(folder, _AT_BUILD.sub(r"\1", word)))
+            if path.startswith(self._top + os.sep) and self._disk.is_folder(path):
+                self._include_folders[path] = None
 
     def _outputs(self, targets: Sequence[str], output: str) -> None:
         for name in targets:

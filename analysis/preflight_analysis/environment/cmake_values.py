@@ -18,18 +18,24 @@ SOURCES = (".cpp", ".cc", ".cxx", ".c++", ".C", ".c", ".cu")
 _VARIABLE = re.compile(r"\$\{([^${}]*)\}")
 _PLATFORM = {"UNIX": True} | dict.fromkeys(("WIN32", "APPLE", "MSVC", "ANDROID", "CYGWIN", "MINGW"), False)
 """Conditions whose value is known: what robots run on is Linux."""
+_ROS_VERSION = frozenset({"$ENV{ROS_VERSION}", "${ROS_VERSION}", "ROS_VERSION"})
+"""By convention what `ROS_VERSION` is in the environment."""
 _NO_SOURCES = frozenset(
     "WIN32 MACOSX_BUNDLE EXCLUDE_FROM_ALL STATIC SHARED MODULE OBJECT PUBLIC PRIVATE INTERFACE".split()  # noqa: SIM905
 )
 
 
-def known_condition(condition: Sequence[Word]) -> bool | None:
-    """Whether a condition holds; None where that depends on more than the platform. Without one it is an `else`."""
+def known_condition(condition: Sequence[Word], generation: int | None = None) -> bool | None:
+    """Whether a condition holds; None where that depends on more than the platform and the `generation` of ROS that is
+    built for. Without one it is an `else`."""
     words = [word.text for word in condition]
     negated = words[:1] == ["NOT"]
-    if not words or len(words) != 1 + negated or words[-1] not in _PLATFORM:
-        return None
-    return _PLATFORM[words[-1]] is not negated
+    match words[negated:]:
+        case [platform] if platform in _PLATFORM:
+            return _PLATFORM[platform] is not negated
+        case [version, "EQUAL" | "STREQUAL", number] if version in _ROS_VERSION and generation is not None:
+            return (number == str(generation)) is not negated
+    return None
 
 
 def is_only_known_to_cmake(variables: Mapping[str, str]) -> Callable[[Word], bool]:

@@ -130,6 +130,7 @@ def detect_environment(
     if package_path is None:
         prefixes = ament_prefixes(variables, colcon or workspace, root)
     ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
+    found = found.built_for(2 if ros2 else 1)
     packages, shadowed = _in_order(found, prefixes, system, _own(workspace, found.packages.values()), ros2=ros2)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)

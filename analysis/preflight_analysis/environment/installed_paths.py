@@ -126,11 +126,12 @@ def _python_build(db: Database, share: str, name: str) -> PythonBuild:
 
 def cmake_build(disk: Disk, package: Package) -> Build:
     """What `CMakeLists.txt` says."""
-    return _cmake_build(disk.db, package.share, package.name)
+    known = package.is_ament or package.build_type == "catkin"
+    return _cmake_build(disk.db, package.share, package.name, package.generation if known else None)
 
 
 @query
-def _cmake_build(db: Database, share: str, name: str) -> Build:
+def _cmake_build(db: Database, share: str, name: str, generation: int | None) -> Build:
     from preflight_analysis.environment.cmake import read_build  # noqa: PLC0415, likewise
 
-    return read_build(share, name, Disk(db))
+    return read_build(share, name, Disk(db), generation)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from preflight_analysis.generation import Generation, ros
@@ -19,11 +19,18 @@ class Package:
     dependencies: frozenset[str] = frozenset()
     build_type: str | None = None
     """`ament_cmake`, `ament_python` or `catkin`, None where the manifest does not say."""
+    conditional: tuple[tuple[int, str], ...] = ()
+    """Of one that is built for both generations the build type for each."""
 
     @property
     def is_ament(self) -> bool:
         """Whether ament builds it."""
         return (self.build_type or "").startswith("ament")
+
+    def built_for(self, generation: int) -> Package:
+        """It as it is built for a generation of ROS."""
+        chosen = dict(self.conditional).get(generation, self.build_type)
+        return self if chosen == self.build_type else replace(self, build_type=chosen)
 
     @property
     def generation(self) -> int:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lxml import etree
 
@@ -22,6 +23,7 @@ _MADE_BY_COLCON = frozenset({"build", "install", "log"})
 OF_ROS1 = (None, "catkin")
 """The build types of packages for ROS 1; one with `cmake` is for both."""
 _BLANKS = " \n\r\t"
+_OF_VERSION = re.compile(r"""\$ROS_VERSION\s*([!=]=)\s*["']?([12])["']?""")
 _FLAT = "/usr/share/"
 """Debian's rospkg and catkin look no deeper than the folders right below this one."""
 
@@ -33,6 +35,16 @@ class FoundPackages:
     packages: dict[str, Package]
     shadowed: dict[str, tuple[Package, ...]]
     problems: tuple[str, ...]
+
+    def built_for(self, generation: int) -> FoundPackages:
+        """They as they are built for a generation of ROS."""
+        return replace(
+            self,
+            packages={name: package.built_for(generation) for name, package in self.packages.items()},
+            shadowed={
+                name: tuple(each.built_for(generation) for each in others) for name, others in self.shadowed.items()
+            },
+        )
 
 
 def find_packages(package_path: Iterable[str], skip: Collection[str] = ()) -> FoundPackages:
@@ -109,7 +121,17 @@ def _read_manifest(folder: str, path: str, metapackages: bool, problems: list[st
         for element in root
         if isinstance(element.tag, str) and (element.tag == "depend" or element.tag.endswith("_depend"))
     }
-    return Package(name, folder, path, frozenset(dependencies - {""}), _build_type(root, dependencies))
+    build_type = _build_type(root, dependencies)
+    return Package(name, folder, path, frozenset(dependencies - {""}), build_type, tuple(_conditional(root)))
+
+
+def _conditional(root: etree._Element) -> Iterator[tuple[int, str]]:
+    """The build types that count for one generation alone (REP 149)."""
+    for element in root.iterfind("./export/build_type"):
+        found = _OF_VERSION.fullmatch(element.get("condition", "").strip(_BLANKS))
+        if found is not None and (said := (element.text or "").strip(_BLANKS)):
+            generation = int(found[2])
+            yield generation if found[1] == "==" else 3 - generation, said
 
 
 def _build_type(root: etree._Element, dependencies: Collection[str]) -> str | None:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 MAX_MODULES = 30
 """How many modules of one program are followed."""
+_MAX_DEPTH = 10
 _MAX_REMEMBERED = 16_384
 _MAX_TREES = 256
 _RELAY = re.compile(r"^python_script = '([^'\n]+)'$", re.MULTILINE)
@@ -232,11 +233,19 @@ class _Program:
             for _ in range(level - 1):
                 folder = os.path.dirname(folder)
             return [folder]
-        folders = [os.path.dirname(self._path)]
+        folders = [os.path.dirname(self._path), *self._root()]
         for package in dict.fromkeys((self._package, name.partition(".")[0])):
             if (source := self._source_of(package)) is not None:
                 folders.append(source)
         return folders
+
+    def _root(self) -> list[str]:
+        """The folder that Python finds the package in which the main file is a module."""
+        folder = os.path.dirname(self._path)
+        depth = 0
+        while depth < _MAX_DEPTH and self._disk.is_file(os.path.join(folder, "__init__.py")):
+            folder, depth = os.path.dirname(folder), depth + 1
+        return [folder] if depth else []
 
     def _source_of(self, name: str) -> str | None:
         """The folder with the Python modules of a package by convention."""

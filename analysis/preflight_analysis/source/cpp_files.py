@@ -165,12 +165,8 @@ class CppFiles:
         if found is None:
             return []
         share = found.share
-        return [
-            os.path.join(share, "include"),
-            os.path.join(share, "src"),
-            share,
-            os.path.join(share, "include", package),
-        ]
+        by_convention = (os.path.join(share, *below) for below in (("include",), ("src",), (), ("include", package)))
+        return list(dict.fromkeys((*by_convention, *self.build(package).include_folders)))
 
     def _implementing(self, header: str, package: str) -> Iterator[str]:
         stem = PurePath(header).stem

@@ -77,7 +77,8 @@ def lay_out(sources: Path, distro: str, folder: Path) -> Laid:
             name = repository.replace("/", "+")
             snapshot.unpack(folder / "src" / name)
             of[name] = (repository, snapshot.commit, snapshot.date)
-    environment = detect_environment(str(folder), {"ROS_DISTRO": distro}, root=str(folder / "nowhere"))
+    variables = {"ROS_DISTRO": distro, "ROS_VERSION": str(GENERATIONS[distro])}
+    environment = detect_environment(str(folder), variables, root=str(folder / "nowhere"))
     return Laid(distro, folder, environment, of)
 
 

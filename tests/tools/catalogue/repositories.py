@@ -11,6 +11,8 @@ from pathlib import Path
 
 from typing_extensions import Self
 
+_LINK = "120000"
+"""The mode of a symbolic link."""
 _NO_SOURCE = re.compile(
     r"\.(?:png|jpe?g|gif|svg|stl|dae|obj|mtl|bag|db3|pgm|pdf|mp4|webm|zip|gz|pcd|ply|bin|so|a|js)\Z", re.I
 )
@@ -55,7 +57,7 @@ class Snapshot:
             row.split("\t", 1) for row in _git(self.git, "ls-tree", "-r", "-z", self.commit).decode().split("\0")[:-1]
         ]
         wanted = [(*about.split(), path) for about, path in rows if not _NO_SOURCE.search(path)]
-        files = [(mode, name, path) for mode, kind, name, path in wanted if kind == "blob" and mode != "120000"]
+        files = [(mode, name, path) for mode, kind, name, path in wanted if kind == "blob"]
         asked = "".join(f"{name}\n" for _, name, _ in files).encode()
         answers = io.BytesIO(_git(self.git, "cat-file", "--batch", input_=asked, check=False))
         for mode, _, path in files:
@@ -63,11 +65,23 @@ class Snapshot:
             if len(head) < 3:
                 continue
             place = into / path
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(answers.read(int(head[2])))
+            content = answers.read(int(head[2]))
             answers.read(1)
+            if mode == _LINK:
+                _link(place, content.decode("utf-8", "surrogateescape"), into)
+                continue
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(content)
             if mode == "100755":
                 place.chmod(0o755)
+
+
+def _link(place: Path, target: str, into: Path) -> None:
+    """A link that stays within the snapshot; any other is left out."""
+    leads_to = Path(os.path.normpath(place.parent / target))
+    if into in leads_to.parents and not Path(target).is_absolute():
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.symlink_to(target)
 
 
 def _git(git: Path, *arguments: str, check: bool = True, input_: bytes | None = None) -> bytes:
