@@ -5,7 +5,9 @@
 Forty robots of five packages (description, drivers, navigation, perception, bringup) with five launch files each. They
 look as those of real projects do: a handful of arguments with defaults that are passed down the includes, groups with
 namespaces and conditions, parameters written out and loaded from YAML, remaps. `roslaunch` takes each of them. Nodes
-are scripts of the packages, and a few of Debian's ROS packages. The same files come out every time.
+are scripts of the packages, and a few of Debian's ROS packages. They read the parameters that they are given, but for
+some keys of the YAML files (`topics`, the acceleration), and have defaults for others that only some are given. The
+same files come out every time.
 
 The first three robots have ten nodes where the others have two or three, and `fleet.launch` starts all three of them:
 500 nodes through 60 includes, the largest tree.
@@ -99,7 +101,7 @@ def _write_leaf(package: Path, robot: str, kind: str, leaf: str) -> None:
     (package / "config" / f"{leaf}.yaml").write_text(_config(robot, leaf))
     for name in (leaf, f"{leaf}_monitor"):
         script = package / "scripts" / f"{name}.py"
-        script.write_text(_SCRIPT.format(name=name))
+        script.write_text(_SCRIPT.format(name=name, leaf=leaf))
         script.chmod(0o755)
     if leaf == "description":
         (package / "urdf").mkdir()
@@ -233,6 +235,19 @@ rospy.init_node("{name}")
 out = rospy.Publisher("out", String, queue_size=1)
 status = rospy.Publisher("status", String, queue_size=1)
 rospy.Subscriber("in", String, out.publish)
+frame_id = rospy.get_param("~frame_id", "base_link")
+frames = rospy.get_param("~frames/odom", "odom"), rospy.get_param("~frames/base", "base_link")
+timeout = rospy.get_param("~timeout", 1.0)
+queue_size = rospy.get_param("~queue_size", 1)
+sources = rospy.get_param("~sources", {{}})
+slowest = rospy.get_param("~limits/velocity/min", 0.0)
+fastest = rospy.get_param("~limits/velocity/max", 1.0)
+window = rospy.get_param("~window/size", 10), rospy.get_param("~window/overlap", 0.0)
+axes = rospy.get_param("~axes", [])
+use_gpu = rospy.get_param("~use_gpu", False)
+parts = rospy.get_param("~parts", 0)
+robots = rospy.get_param("~robots", [])
+of_{leaf} = rospy.get_param("~{leaf}", {{}})
 rate = rospy.Rate(rospy.get_param("~rate", 10))
 while not rospy.is_shutdown():
     status.publish("alive")
