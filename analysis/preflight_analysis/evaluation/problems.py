@@ -330,6 +330,16 @@ class BadYaml(_Message):
 
 
 @dataclass(frozen=True, slots=True)
+class NothingToReplace(OfName):
+    """What `by` (`RewrittenYaml`, `ReplaceString`) is to replace is not in the file at `path`."""
+
+    usually_fatal = False
+
+    by: str
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
 class YamlKeyTwice(OfName):
     """A key stands twice in one dictionary. `second` is the later one, which counts."""
 

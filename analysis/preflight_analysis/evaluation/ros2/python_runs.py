@@ -25,6 +25,7 @@ from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import (
     LaunchFileNotRun,
+    NothingToReplace,
     PackageNotFound,
     PythonException,
     PythonImportFailed,
@@ -345,6 +346,7 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
     _guessed(state, place, run, reply.get("guessed"), origin)
     _missed(state, context, place, run, reply.get("missed"), origin)
+    _unmatched(state, place, run, reply.get("unmatched"), origin)
     error = reply.get("error")
     if isinstance(error, dict):
         _raised(state, place, run, error, origin)
@@ -388,6 +390,14 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 state.problem(undeclared, _line(place, run, at, origin), fatal=undeclared.not_followed is None)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
+
+
+def _unmatched(state: Collector, place: Place, run: PythonRun, unmatched: object, origin: Origin) -> None:
+    """What is to be replaced in a file and is not in it."""
+    for each in unmatched if isinstance(unmatched, list) else ():
+        match each:
+            case [str(by), str(name), str(path), at]:
+                state.problem(NothingToReplace(name, by, path), _line(place, run, at, origin), fatal=False)
 
 
 def _guessed(state: Collector, place: Place, run: PythonRun, guessed: object, origin: Origin) -> None:

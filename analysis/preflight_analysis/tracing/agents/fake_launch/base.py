@@ -35,6 +35,8 @@ class Recorder:
         self.missed: dict[tuple[str, str], Any] = {}
         self.guessed: dict[tuple[str, int], Any] = {}
         """Where the file asks whether something holds that is not known, by what that is and the line."""
+        self.unmatched: list[list[Any]] = []
+        """What `RewrittenYaml` and the like are to replace and did not find, each with its line."""
         self.own_xacro = ""
         """The folder of the module that is used where ROS has none."""
         self.unknown = False
@@ -47,6 +49,7 @@ class Recorder:
         """A further call begins: the answers to those before tell what was missed in them."""
         self.missed.clear()
         self.guessed.clear()
+        self.unmatched.clear()
 
     def miss(self, what: str, name: str) -> None:
         """Note a module or package that is not here, where it is asked for first."""

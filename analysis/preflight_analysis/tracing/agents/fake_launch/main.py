@@ -19,7 +19,7 @@ import zlib
 from typing import Any, Callable, Optional
 
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
-from . import installed, reads, unknown_files
+from . import installed, reads, rewrites, unknown_files
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -64,6 +64,7 @@ def _answer(work: Callable[[], dict[str, Any]]) -> str:
         result["read"] = RECORDER.last_reads.record()
     result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
     result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
+    result["unmatched"] = RECORDER.unmatched
     result["files"] = _files()
     return json.dumps(result)
 
@@ -170,6 +171,7 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
         if call["what"] == "perform":
             is_condition = isinstance(thing, Condition)
             text = str(thing.evaluate(context)).lower() if is_condition else str(thing.perform(context))
+            RECORDER.unmatched += [[*each, thing.preflight_place] for each in rewrites.unmatched(thing, context)]
             # The file that it wrote is known but for what it wrote of that.
             is_guess = RECORDER.guessed and not is_unknown(text) and not os.path.isfile(text)
             return {"text": unknown_text(next(iter(RECORDER.guessed))[0]) if is_guess else text}

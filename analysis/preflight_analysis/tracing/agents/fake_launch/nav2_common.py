@@ -28,17 +28,17 @@ def _normalized(given: Any) -> dict[str, list[Substitution]]:
 
 class _OfFile(Substitution):
     def __init__(self, source_file: Any) -> None:
-        self._source = normalize_to_list_of_substitutions(source_file)
+        self._source_file = normalize_to_list_of_substitutions(source_file)
 
     @property
     def name(self) -> list[Substitution]:
-        return self._source
+        return self._source_file
 
     def describe(self) -> str:
         return ""
 
     def _path(self, context: LaunchContext) -> str:
-        return perform_substitutions(context, self._source)
+        return perform_substitutions(context, self._source_file)
 
     def _data(self, path: str) -> Any:
         with open(path) as file:
@@ -57,7 +57,7 @@ class RewrittenYaml(_OfFile):
         out_dir: Any = None,
     ) -> None:
         super().__init__(source_file)
-        self._params, self._keys = _normalized(param_rewrites), _normalized(key_rewrites)
+        self._param_rewrites, self._keys = _normalized(param_rewrites), _normalized(key_rewrites)
         self._values, self._convert_types = _normalized(value_rewrites), convert_types
         self._root = None if root_key is None else normalize_to_list_of_substitutions(root_key)
 
@@ -65,7 +65,7 @@ class RewrittenYaml(_OfFile):
         data = self._data(self._path(context))
         if isinstance(data, Anything):
             return str(data)
-        params, values = _performed(context, self._params), _performed(context, self._values)
+        params, values = _performed(context, self._param_rewrites), _performed(context, self._values)
         _replace_leaves(data, {name: self._converted(text) for name, text in params.items()})
         known = dict(_leaves(data, ""))
         for path, text in params.items():

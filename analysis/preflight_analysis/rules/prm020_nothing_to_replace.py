@@ -1,0 +1,73 @@
+"""PRM020: what `RewrittenYaml` or `ReplaceString` is to replace is not in the file (ROS 2)."""
+
+import re
+from collections.abc import Iterable, Iterator
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.problems import NothingToReplace
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+_KEY = re.compile(r"^[ \t-]*[\"']?([\w./-]+)[\"']?[ \t]*:", re.MULTILINE)
+_MARKED = re.compile(r"<[\w/-]+>|\{[\w/-]+\}|\$[\w/-]+\$|%[\w/-]+%|@[\w/-]+@")
+_LONGEST = 500_000
+"""Characters of a file in which a like name is looked for."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(context, NothingToReplace):
+        name, by, path = problem.kind.name, problem.kind.by, problem.kind.path
+        found = context.documents.get(path) or context.disk.text(path)
+        text = found.text if isinstance(found, Document) else ""
+        near = _near(name, by, text[:_LONGEST])
+        there = f"'{shown(path, context)}'" if text else "the file"
+        what = "key" if by == "RewrittenYaml" else "text"
+        place = _place(context, problem.location, name)
+        yield problem_finding(
+            rule,
+            problem,
+            f"{by} replaces nothing: {there} has no {what} '{name}'{did_you_mean(near)}",
+            severity="warning" if near is not None else "hint",
+            confidence="likely" if near is not None else "possible",
+            fixes=rename(context, place, name, near) if near is not None else (),
+        )
+
+
+def _near(name: str, by: str, text: str) -> str | None:
+    """What is in the file and differs by a slip; of a path the last key does."""
+    if by != "RewrittenYaml":
+        return _slip(name, _MARKED.findall(text))
+    above, dot, leaf = name.rpartition(".")
+    near = _slip(leaf, _KEY.findall(text))
+    return f"{above}{dot}{near}" if near is not None else None
+
+
+def _slip(name: str, others: Iterable[str]) -> str | None:
+    near = nearest(name, others)
+    return near if near is not None and is_slip(name, near) else None
+
+
+def _place(context: Context, around: Location, name: str) -> Location:
+    """Where the file names it, if that is once."""
+    document = context.documents.get(around.file)
+    quoted = [m.span(2) for m in re.finditer(rf"(['\"])({re.escape(name)})\1", document.text)] if document else []
+    return context.location(around.file, Span(*quoted[0])) if len(quoted) == 1 else around
+
+
+RULE = Rule(
+    id="PRM020",
+    name="nothing-to-replace",
+    severity="warning",
+    what="Checks for a key in the `param_rewrites` of a `RewrittenYaml`, or a text in the `replacements` of a "
+    "`ReplaceString`, that the source file does not have (ROS 2). Where the file has one of nearly that name it is a "
+    "warning, otherwise a hint: launch files often have rewrites for more than one file.",
+    why="`RewrittenYaml` adds no keys: the nodes keep the value of the file, and nothing says so.",
+    example="RewrittenYaml(source_file=params, param_rewrites={'use_sim_tme': use_sim_time})",
+    instead="RewrittenYaml(source_file=params, param_rewrites={'use_sim_time': use_sim_time})",
+    generations=(2,),
+    check=_check,
+    problems=(NothingToReplace,),
+)

@@ -1,0 +1,54 @@
+"""What `RewrittenYaml` and `ReplaceString` of `nav2_common` are to replace, and what of it their source file lacks."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from typing import Any, Iterator
+
+from ..anything import is_unknown
+from .base import LaunchContext, perform_substitutions
+
+_WANTED = {"RewrittenYaml": "param_rewrites", "ReplaceString": "replacements"}
+_MARK = "ros__parameters"
+_MOST = 20_000
+
+
+def unmatched(thing: Any, context: LaunchContext) -> Iterator[list[str]]:
+    """What each is to replace that is not in the file, with the file: `["RewrittenYaml", "use_sim_time", "/a.yaml"]`.
+
+    The real classes, where they are installed, have what they were given in attributes of these names, too.
+    """
+    wanted = _WANTED.get(type(thing).__name__)
+    if wanted is None:
+        return
+    given = {name.rpartition("__")[2].lstrip("_"): value for name, value in vars(thing).items()}
+    replaced, source = given.get(wanted), given.get("source_file")
+    condition = given.get("condition")
+    if not isinstance(replaced, dict) or source is None or (condition is not None and not condition.evaluate(context)):
+        return
+    path = perform_substitutions(context, source)
+    if is_unknown(path) or not os.path.isfile(path):
+        return
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    keys = _keys(importlib.import_module("yaml").safe_load(text)) if wanted == "param_rewrites" else None
+    for name in replaced:
+        if not isinstance(name, str) or is_unknown(name):
+            continue
+        # A path with the mark in it is added where it is not there.
+        if name not in text if keys is None else name not in keys and _MARK not in name.split("."):
+            yield [type(thing).__name__, name, path]
+
+
+def _keys(data: Any) -> set[str]:
+    """The keys of a file, alone and with those above them."""
+    found: set[str] = set()
+    below = [("", data)]
+    while below and len(found) < _MOST:
+        above, value = below.pop()
+        for key, inner in value.items() if isinstance(value, dict) else ():
+            path = f"{above}.{key}" if above else str(key)
+            found.update((str(key), path))
+            below.append((path, inner))
+    return found
