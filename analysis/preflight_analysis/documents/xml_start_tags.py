@@ -16,6 +16,7 @@ from preflight_analysis.documents.xml_patterns import (
     NAME,
     NAME_EQUALS,
     NAME_START,
+    NO_NAME_STARTS,
     ONE_NAME,
     SPACE,
     VALUE_SPECIAL,
@@ -29,8 +30,8 @@ START_TAG = lazy_pattern(f"<({NAME})((?:{S}+{NAME}{S}*={S}*(?:\"[^<\"]*\"|'[^<']
 _ATTRIBUTE = lazy_pattern(f"{S}+({NAME}){S}*={S}*(?:\"([^<\"]*)\"|'([^<']*)')")
 _TO_DECODE = re.compile("[&\r\n\t]")
 _UNQUOTED = re.compile(r"""(?:\$\([^()<>"'\n]*\)|[^ \t\r\n<>"'/$]|/(?!>)|\$)+""")
-_TAG_LIKE = lazy_pattern(f"<[/!?]?[{NAME_START}]|<!--|</")
-_JUNK = lazy_pattern(f"[^{NAME_START} \t\r\n<>/\"'=]+")
+_TAG_LIKE = lazy_pattern(f"<[/!?]?{NAME_START}|<!--|</")
+_JUNK = lazy_pattern(f"(?:(?![ \t\r\n<>/\"'=])[{NO_NAME_STARTS}])+")
 _AFTER_COMMENT = lazy_pattern(f"{S}*(?:{NAME}{S}*=|/?>)")
 _STRAIGHT_END = re.compile("[^<>\"'= \t\r\n]*[\"'](?=[ \t\r\n/>])")
 _CURLY_QUOTES = "\u201c\u201d\u201e\u2018\u2019"

@@ -10,13 +10,14 @@ import yaml
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
 from preflight_analysis.documents.hash_comments import preflight_comments
+from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Span
 
 MAX_REPAIRS = 8
 """How many lines are left out before nothing is made of the text."""
 
-_BOTH_AGREE = re.compile(r"(?!.*(?:[?!]|[|>]#))[\n -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufdff]*", re.DOTALL)
+_BOTH_AGREE = lazy_pattern(r"(?s)(?!.*(?:[?!]|[|>]#))[\n -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufdff]*")
 """Texts that libyaml takes exactly where PyYAML does, and with the same marks: what they disagree on are tabs, `?` and
 `!`, a comment right after `|` or `>`, byte order marks and unusual line breaks. Found by a comparison of two hundred
 thousand damaged parameter files; `tests/documents/test_yaml.py` repeats some of it."""
