@@ -43,3 +43,37 @@ def test_of_two_declarations_under_conditions_one_counts() -> None:
           <param name="b" value="$(arg a)"/>
         </launch>
     """)
+
+
+def test_a_second_declaration_under_a_condition() -> None:
+    check(
+        """
+        <launch>
+          <arg name="side" default=""/>
+          <arg name="port" default="0"/>
+          <arg name="port" value="2" if="$(eval side == 'rear')"/>
+                     ^^^^ error[ARG005] argument 'port' is declared already (if side:=rear)
+          <param name="port" value="$(arg port)"/>
+        </launch>
+        """,
+        branches=True,
+    )
+
+
+def test_of_two_declarations_under_conditions_one_counts_whichever_is_taken() -> None:
+    check(
+        """
+        <launch>
+          <arg name="sim" default="true"/>
+          <arg name="side" default="rear"/>
+          <arg name="port" value="1" if="$(arg sim)"/>
+          <arg name="port" value="2" unless="$(arg sim)"/>
+          <arg name="scan" value="1" if="$(eval side == 'rear')"/>
+          <arg name="scan" value="2" if="$(eval side == 'front')"/>
+          <arg name="user" value="1" if="$(eval optenv('A', 'x').startswith('y'))"/>
+          <arg name="user" value="2" unless="$(eval optenv('A', 'x').startswith('y'))"/>
+          <param name="port" value="$(arg port)$(arg scan)$(arg user)"/>
+        </launch>
+        """,
+        branches=True,
+    )

@@ -132,3 +132,32 @@ def test_simulated_time_by_a_tag() -> None:
                                    ^^^^ error[LCH008] value='true' of <set_use_sim_time> is not what launch can use: it takes no text; write <set_parameter name="use_sim_time" value="..."/>
         </launch>
     """)  # noqa: E501
+
+
+def test_an_output_that_launch_does_not_know() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="to" default="image"/>
+          <node pkg="p" exec="e" output="$(var to)"/>
+                                         ^^^^^^^^^ error[LCH008] output='image' of <node> is not screen, log
+          <executable cmd="ls" output="scren"/>
+                                       ^^^^^ error[LCH008] did you mean 'screen'?
+          <node pkg="p" exec="f" output="own_log"/>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_outputs_in_python() -> None:
+    check("""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            return LaunchDescription([
+                Node(package="p", executable="e", output={"stdout": "screen", "stderr": "log"}),
+                Node(package="p", executable="f", output="both"),
+            ])
+    """)

@@ -38,6 +38,15 @@ def test_two_lines_without_a_comma() -> None:
     assert '"--one",\n' in apply(text, found[0].fixes[0].edits)["/robot.launch.py"]
 
 
+def test_beside_what_is_no_text() -> None:
+    check(f"""
+        {_START}
+                Node(package="p", executable="e", arguments=["one" "two", "--file", str(3)]),
+                                                             ^^^^^^^^^^^ warning[LCH039] 'one' and 'two' are one string
+            ])
+    """)
+
+
 @pytest.mark.silent
 def test_what_is_broken_on_purpose() -> None:
     check(f"""
@@ -49,6 +58,9 @@ def test_what_is_broken_on_purpose() -> None:
                 ]),
                 Node(package="p", executable="e", arguments=["--file", "a/long/path/"
                     "that/goes/on"]),
+                Node(package="p", executable="e", arguments=["/clock@rosgraph_msgs/msg/Clock["
+                    "gz.msgs.Clock", "/tf@"
+                    "tf2_msgs/msg/TFMessage"]),
                 Node(package="p", executable="e", arguments=["--file", ("a"
                     "b")]),
             ])

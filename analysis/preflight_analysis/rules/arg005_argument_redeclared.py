@@ -27,4 +27,5 @@ RULE = Rule(
     instead='<arg name="rate" default="20"/>',
     check=_check,
     problems=(RedeclaredArgument,),
+    in_branches=True,
 )

@@ -15,8 +15,8 @@ from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.rules.problems import quoted, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
-_BREAKS = "/_-.:,="
-"""Where somebody breaks a long path or name on purpose."""
+_BREAKS = "/_-.:,=@[](){}"
+"""Where somebody breaks a long path, name or expression on purpose."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -47,10 +47,12 @@ def _glued(launch_file: LaunchFile) -> tuple[tuple[int, Span, tuple[str, ...]], 
 
 def _in_sequence(source: PythonSource, elements: list[ast.expr]) -> Iterator[tuple[int, Span, tuple[str, ...]]]:
     words = [each.value for each in elements if isinstance(each, ast.Constant) and isinstance(each.value, str)]
-    # Texts and long lines are broken on purpose; a list of single words is not.
-    if len(words) < len(elements) or any(len(word.split()) != 1 for word in words):
+    # Texts and long lines are broken on purpose; single words are not.
+    if any(len(word.split()) != 1 for word in words):
         return
     for each in elements:
+        if not isinstance(each, ast.Constant):
+            continue
         span = source.whole_span(each)
         tokens = _strings(source.text[span.start : span.end])
         if len(tokens) < 2 or source.text[: span.start].rstrip().endswith("("):
@@ -80,9 +82,8 @@ RULE = Rule(
     id="LCH039",
     name="glued-strings",
     severity="warning",
-    what="Reports two strings in a list of single words in a Python launch file, between which there is no comma: "
-    "Python makes one string of them. Texts with blanks, and what is broken after a `/` or another sign, are left "
-    "alone.",
+    what="Reports two strings in a list in a Python launch file, between which there is no comma: Python makes one "
+    "string of them. Lists with texts that have blanks, and what is broken at a `/` or another sign, are left alone.",
     why="The list has neither of the two: an argument refuses a value that seems to be among its choices, a node "
     "gets one word for two.",
     example='choices=["diff_drive" "mecanum", "tricycle"]',

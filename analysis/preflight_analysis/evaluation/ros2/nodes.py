@@ -21,11 +21,14 @@ from preflight_analysis.evaluation.ros2.params import (
     pushed_source,
     tag_params,
 )
+from preflight_analysis.evaluation.ros2.processes import OUTPUTS
 from preflight_analysis.evaluation.ros2.python_params import dict_params
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.tree import LaunchNode, ParamSource, Remap, Unknown, Use
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
+from preflight_analysis.launch.problems import BadValue
 
+_WORD = re.compile(r"\w+")
 _NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NAMESPACE = re.compile(r"/|(?:/[A-Za-z_][A-Za-z0-9_]*)+")
 
@@ -124,7 +127,7 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
             place.tag(action),
             resolved,
             respawn=_text(performer, action, "respawn", "false").lower() in ("true", "1"),
-            output=_text(performer, action, "output", "log"),
+            output=_output(performer, action),
             cwd=_text(performer, action, "cwd", "") or None,
             launch_prefix=_text(performer, action, "launch-prefix", "") or None,
             unknowns=tuple(unknowns),
@@ -206,7 +209,7 @@ def evaluate_executable(performer: Performer, action: Action, *, deferred: bool)
             place.tag(action),
             Executable(None),
             respawn=_text(performer, action, "respawn", "false").lower() in ("true", "1"),
-            output=_text(performer, action, "output", "log"),
+            output=_output(performer, action),
             cwd=_text(performer, action, "cwd", "") or None,
             launch_prefix=_text(performer, action, "launch-prefix", "") or None,
             named=False,
@@ -231,6 +234,15 @@ def _text(performer: Performer, action: Action, name: str, default: str) -> str:
     if value.typed is not None:
         return str(value.typed.value)
     return performer.value(value).text
+
+
+def _output(performer: Performer, action: Action) -> str:
+    """Where the output goes. What launch does not know it refuses when it starts the process."""
+    text, value = _text(performer, action, "output", "log"), action.value("output")
+    if value is not None and text not in OUTPUTS and _WORD.fullmatch(text) and performer.value(value).known:
+        bad = BadValue(action.kind, "output", text, "screen, log, both, own_log or full", OUTPUTS)
+        performer.state.problem(bad, performer.place.origin(value.span))
+    return text
 
 
 def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: bool) -> None:

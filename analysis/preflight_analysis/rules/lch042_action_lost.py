@@ -1,0 +1,88 @@
+"""LCH042: an action of a Python launch file whose variable gets another one before it is used (ROS 2)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.python_names import BoundNames
+from preflight_analysis.rules.rule import Context, Rule
+
+_ACTIONS = frozenset(
+    {
+        "ComposableNodeContainer", "DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription",
+        "LifecycleNode", "LoadComposableNodes", "Node", "RegisterEventHandler", "SetEnvironmentVariable", "TimerAction",
+    }
+)  # fmt: skip
+
+
+class _Lost(NamedTuple):
+    name: str
+    kind: str
+    span: Span
+    again: Span
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for path, launch_file in context.launch_files.items():
+        for lost in _lost(launch_file) if path.endswith(".py") else ():
+            yield rule.finding(
+                f"this {lost.kind} is never launched: '{lost.name}' is assigned again before anything uses it",
+                context.location(path, lost.span),
+                confidence="likely",
+                related=(Related("assigned again here", context.location(path, lost.again)),),
+            )
+
+
+@memoize_by_file
+def _lost(launch_file: LaunchFile) -> tuple[_Lost, ...]:
+    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    if source.module is None:
+        return ()
+    names = BoundNames(source)
+    return tuple(
+        lost
+        for node in ast.walk(source.module)
+        if isinstance(node, (ast.Module, ast.FunctionDef, ast.If, ast.With))
+        for lost in _in_block(source, names, node.body)
+    )
+
+
+def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) -> Iterator[_Lost]:
+    """Of two assignments in the same block the first one, if no statement between them speaks of the name."""
+    waiting: dict[str, tuple[ast.Name, str]] = {}
+    for statement in block:
+        target = statement.targets[0] if isinstance(statement, ast.Assign) and len(statement.targets) == 1 else None
+        made = names.made_by(statement.value) if isinstance(statement, ast.Assign) else None
+        own = target if isinstance(target, ast.Name) else None
+        for each in ast.walk(statement):
+            if isinstance(each, ast.Name) and each is not own:
+                waiting.pop(each.id, None)
+        if own is None:
+            continue
+        before = waiting.pop(own.id, None)
+        if made in _ACTIONS:
+            if before is not None:
+                yield _Lost(own.id, before[1], source.whole_span(before[0]), source.whole_span(own))
+            waiting[own.id] = (own, str(made))
+
+
+RULE = Rule(
+    id="LCH042",
+    name="action-lost",
+    severity="warning",
+    what="Reports an action that a Python launch file makes and assigns to a variable, which the same block assigns "
+    "another action to before anything uses the first one.",
+    why="What was copied kept the name: the first node, process or include is never launched, and nothing says so.",
+    example='front = Node(package="camera", executable="front")\nfront = Node(package="camera", executable="rear")',
+    instead='front = Node(package="camera", executable="front")\nrear = Node(package="camera", executable="rear")',
+    generations=(2,),
+    check=_check,
+    in_branches=True,
+)

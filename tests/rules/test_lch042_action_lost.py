@@ -1,0 +1,43 @@
+"""LCH042: an action whose variable gets another one before it is used."""
+
+import pytest
+from support.check import check
+
+
+def test_the_name_of_the_one_that_was_copied() -> None:
+    check("""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            broadcaster = Node(package="p", executable="b")
+            drive = Node(package="p", executable="drive")
+            ^^^^^ warning[LCH042] this Node is never launched: 'drive' is assigned again
+            drive = Node(package="p", executable="imu")
+            return LaunchDescription([broadcaster, drive])
+    """)
+
+
+@pytest.mark.silent
+def test_what_is_used_or_chosen() -> None:
+    check("""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch.actions import GroupAction
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            made = []
+            node = Node(package="p", executable="a")
+            made.append(node)
+            node = Node(package="p", executable="b")
+            node = GroupAction([node])
+            made.append(node)
+            if len(made) > 2:
+                node = Node(package="p", executable="c")
+            else:
+                node = Node(package="p", executable="d")
+            unused = Node(package="p", executable="e")
+            return LaunchDescription([*made, node])
+    """)
