@@ -7,6 +7,8 @@ from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.rule import Context, Rule
 
+MESSAGE = "'{}' does not stand below '{}', which has to follow the node's name: the file is refused"
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen: set[str] = set()
@@ -21,11 +23,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue  # launch_ros reads it and gives it to the container as it stands
             seen.add(path)
             for name, span in file.unmarked[:1]:
-                message = (
-                    f"'{name}' does not stand below '{MARK}', which has to follow the node's name: the file is refused"
-                )
                 related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
-                yield rule.finding(message, context.location(path, span), related=related)
+                yield rule.finding(MESSAGE.format(name, MARK), context.location(path, span), related=related)
 
 
 RULE = Rule(
@@ -33,7 +32,8 @@ RULE = Rule(
     name="missing-ros-parameters",
     severity="error",
     what="Reports a value in a parameter file that stands below a node's name without `ros__parameters` between (ROS "
-    "2). The first one of a file is reported. A file for a component may do without: `launch_ros` reads it itself.",
+    "2). The first one of a file is reported. A file for a component may do without: `launch_ros` reads it itself. In "
+    "a parameter file of the package that no node of the launch gets it is a warning.",
     why="The client libraries refuse the whole file, and the node does not start.",
     example="camera:\n  rate: 30",
     instead="camera:\n  ros__parameters:\n    rate: 30",

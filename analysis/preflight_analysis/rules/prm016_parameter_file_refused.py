@@ -75,7 +75,8 @@ RULE = Rule(
     what="Reports what a parameter file of ROS 2 cannot have although it is YAML: a list whose items are of several "
     "types, such as `[1, 2.5]`, a list of lists, a parameter without a value, two slashes in a node's name (a key that "
     "begins with a slash below another one). `y`, `n`, `on` and `off` are bools, so `[x, y, z]` "
-    "is such a list, in a launch file too.",
+    "is such a list, in a launch file too. In a parameter file of the package that no node of the launch gets, as a "
+    "program rewrites it or an argument names it, it is a warning.",
     why="The file is refused as a whole: `Sequence should be of same type`. Each node that gets it ends at once, "
     "whether there is a section for it or not.",
     example="camera:\n  ros__parameters:\n    gains: [1, 2.5]",

@@ -14,6 +14,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from preflight_analysis.catalogue.launches import catalogued_file
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.conditions import VARIABLE, named_arguments
@@ -53,14 +54,25 @@ class WhatIf:
 
 @dataclass(frozen=True, slots=True)
 class Branches:
-    """What is found in the tags that a launch leaves out, each finding with the text that it is about. `documents` are
-    those of the files that it speaks of, `untried` is the number of tags that were not looked into, as there are so
-    many. `pending` are the runs of Python launch files that have yet to be made to know more."""
+    """What is found in the tags and files that a launch leaves out, each finding with the text that it is about.
+    `documents` are those of the files that it speaks of, `untried` is the number of tags that were not looked into, as
+    there are so many. `pending` are the runs of Python launch files that have yet to be made to know more."""
 
     findings: tuple[tuple[Finding, str], ...] = ()
     documents: Mapping[str, Document] = field(default_factory=dict, compare=False, repr=False)
     untried: int = 0
     pending: tuple[str, ...] = ()
+
+    def with_others(self, found: Iterable[Finding], disk: Disk) -> Branches:
+        """With findings of other files that the launch leaves out."""
+        documents = dict(self.documents)
+        more: list[tuple[Finding, str]] = []
+        for finding in found:
+            document = disk.text(finding.location.file)
+            if isinstance(document, Document):
+                documents.setdefault(finding.location.file, document)
+                more.append((finding, document.text[slice(*finding.location.span)]))
+        return replace(self, findings=(*self.findings, *more), documents=documents)
 
 
 def _none_yet(workspace: Hashable, root: Root) -> Branches:

@@ -36,6 +36,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
+from preflight_analysis.rules.loose_param_files import findings_of_loose_files
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
@@ -292,9 +293,9 @@ class Workspace:
         )
 
     def branches(self, analysis: Analysis, stops: Callable[[], bool] = lambda: False) -> Branches:
-        """What is found in the tags that a static analysis leaves out. It takes several evaluations of the launch,
-        which are remembered. It raises `Cancelled` when it `stops`, and within `Database.reading` where somebody writes
-        meanwhile."""
+        """What is found in the tags and parameter files that a static analysis leaves out. It takes several evaluations
+        of the launch, which are remembered. It raises `Cancelled` when it `stops`, and within `Database.reading` where
+        somebody writes meanwhile."""
         db, path = self.sources.db, analysis.root
 
         def ask(args: Assignment, assumed: frozenset[Location]) -> WhatIf:
@@ -302,7 +303,8 @@ class Workspace:
                 raise Cancelled
             return _what_if(db, self, path, tuple(sorted(args.items())), assumed)
 
-        return branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask)
+        found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask)
+        return found.with_others(findings_of_loose_files(analysis.context), self.sources)
 
     def with_interfaces(
         self,

@@ -1,0 +1,66 @@
+"""Parameter files of ROS 2 that no node of a launch gets, which may be given to some node all the same: a program
+rewrites them, an argument names them, the launch file could not be followed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import PurePath
+
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.package_files import files_in
+from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
+from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
+from preflight_analysis.rules import prm016_parameter_file_refused as prm016
+from preflight_analysis.rules.rule import Context
+
+_SUFFIXES = (".yaml", ".yml")
+_FOLDERS = frozenset({"config", "configs", "param", "params", "parameters", "cfg", "launch"})
+"""Where packages have their parameter files, below other folders or not."""
+_NOT_OURS = frozenset({"test", "tests", "build", "install", "log"})
+_MOST = 200
+"""Files of one package that are read."""
+_LONGEST = 200_000
+"""Characters of one."""
+
+
+def findings_of_loose_files(context: Context) -> Iterator[Finding]:
+    """What is wrong with those of the package that the launch file is in. To read them takes time: it is no part of
+    what is found at a keystroke."""
+    package = package_around(context.environment, context.root) if context.tree.ros.own_parameters else None
+    if package is None:
+        return
+    given = {source.path for node in context.tree.nodes for source in node.param_sources}
+    for path in _param_files(context.disk.db, package.share):
+        document = context.disk.text(path)
+        if path in given or not isinstance(document, Document):
+            continue
+        file = read_param_file(document.text)
+        # Only what has a section of a node is one for certain.
+        for name, span in file.unmarked[:1] if file.sections else ():
+            message = prm012.MESSAGE.format(name, MARK)
+            yield prm012.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
+        for what, span in file.refused[:1]:
+            message = f"{what}; the client libraries refuse the whole file for it, and no node that gets it starts"
+            yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
+
+
+@query
+def _param_files(db: Database, folder: str) -> tuple[str, ...]:
+    """Those below a folder that may be parameter files."""
+    return tuple(path for path in sorted(files_in(Disk(db), folder, deep=True)) if _is_one(db, path, folder))[:_MOST]
+
+
+@query
+def _is_one(db: Database, path: str, folder: str) -> bool:
+    folders = frozenset(PurePath(os.path.relpath(path, folder)).parts[:-1])
+    if not path.endswith(_SUFFIXES) or folders.isdisjoint(_FOLDERS) or not folders.isdisjoint(_NOT_OURS):
+        return False
+    document = Disk(db).text(path)
+    text = document.text if isinstance(document, Document) else ""
+    return len(text) <= _LONGEST and MARK in text and "$(" not in text
