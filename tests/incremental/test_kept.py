@@ -138,6 +138,7 @@ def test_groups_are_those_of_all_items(rounds: list[list[int]]) -> None:
         assert found == {
             key: tuple(pool[number] for number in numbers if number % 3 == key) for key in {n % 3 for n in numbers}
         }
+        assert list(found) == list(dict.fromkeys(number % 3 for number in numbers))
         assert all(found[key] is before[key] for key in found if found[key] == before.get(key))
         before = found
 

@@ -254,8 +254,7 @@ class Database:
             raise Cancelled
         cells = self._answered.setdefault((kind, key), [])
         cell = next((each for each in cells[::-1] if would_answer(answers, each)), None) or Cell(kind, key)
-        self._make_for(answers, cell)
-        if not would_answer(answers, cell):
+        if self._make_for(answers, cell) and not would_answer(answers, cell):
             # Somebody asked for it at the same time, and answered otherwise what the function asks now.
             cell = Cell(kind, key)
             self._make_for(answers, cell)
@@ -271,12 +270,15 @@ class Database:
             self._used(cell, kind.limit)
         return cell.value
 
-    def _make_for(self, answers: Answers, cell: Cell) -> None:
+    def _make_for(self, answers: Answers, cell: Cell) -> bool:
+        """Note that the cell is read, and bring it up to date; whether there was anything to do for that."""
         if self._thread.reads:
             self._thread.reads[-1][cell] = None
         cell.used_at = self.revision
-        if not (cell.durable and cell.verified_at >= self._durable_changed_at):
-            self._bring_up_to_date_for(answers, cell)
+        if cell.durable and cell.verified_at >= self._durable_changed_at:
+            return False
+        self._bring_up_to_date_for(answers, cell)
+        return True
 
     def ask(self, question: Hashable) -> Any:
         """For the function of a query that is asked for by `answered`: what its asker answers."""

@@ -57,8 +57,8 @@ class Kept:
         return self._of_rows(function, fixed, shared)
 
     def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> dict[K, tuple[T, ...]]:
-        """The items by their `key`, in order, the groups in none. A group of the same objects as last time is the same
-        object. Ask once for each key and `tag`."""
+        """The items by their `key`, in order, and the groups by their first items. A group of the same
+        objects as last time is the same object. Ask once for each key and `tag`."""
         now, name = [*items], (key, tag)
         before = self._groups_before.get(name)
         if before is None:
@@ -81,7 +81,7 @@ class Kept:
             elif (known := groups.get(at)) is None or not _are(known, group):
                 groups[at] = group
         self._groups_now[name] = _Groups(now, keys, groups)
-        return groups.copy()
+        return {at: groups[at] for at in dict.fromkeys(keys)}
 
     def _of_rows(self, function: Callable[..., V], columns: _Columns, shared: tuple[Any, ...]) -> list[V]:
         before = self._each_before.get(function)

@@ -11,6 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.parameters import namespace_of
 from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -84,20 +85,22 @@ def _outside(param: Param) -> Param | None:
 
 def _homeless(context: Context, params: Iterable[Param], homes: _Homes) -> dict[str, list[Param]]:
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
+    namespaces = context.kept.grouped(namespace_of, "outside", params)
+    at_fault = {namespace: prefix for namespace in namespaces if (prefix := _at_fault(namespace, homes)) is not None}
     found: dict[str, list[Param]] = {}
-    for prefix, param in filter(None, context.kept.each(_at_fault, params, homes)):
-        if param.name not in context.once(_read):
+    for param in params if at_fault else ():
+        prefix = at_fault.get(namespace_of(param))
+        if prefix is not None and param.name not in context.once(_read):
             found.setdefault(prefix, []).append(param)
     return found
 
 
-def _at_fault(param: Param, homes: _Homes) -> tuple[str, Param] | None:
-    """The first part of the parameter's namespace in which nothing lives, None if it leads to a node or to where nodes
-    live."""
+def _at_fault(namespace: str, homes: _Homes) -> str | None:
+    """The first part of the namespace in which nothing lives, None if it leads to a node or to where nodes live."""
     prefix = ""
-    for part in param.name.split("/")[1:-1]:
+    for part in namespace.split("/")[1:]:
         if part not in homes.children.get(prefix, ()):
-            return f"{prefix}/{part}", param
+            return f"{prefix}/{part}"
         prefix = f"{prefix}/{part}"
         if prefix in homes.names:
             break

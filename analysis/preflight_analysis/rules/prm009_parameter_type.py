@@ -25,20 +25,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     params = graph.tree.params
     reported: set[tuple[str, str]] = set()
-    for read in filter(None, context.kept.each(_with_default, graph.param_reads)):
-        param = params.get(read.name)
-        if param is None or type(param.value) is type(read.use.default) or (read.name, read.node.name) in reported:
-            continue
-        difference = _difference(param.value, read.use.default)
-        if difference is not None:
+    named = [*filter(None, context.kept.each(_with_default, graph.param_reads))]
+    reads, set_to = [read for _, read in named], [*map(params.get, [name for name, _ in named])]
+    for read, found in filter(None, context.kept.each_row(_refused, (reads, set_to), rule)):
+        if (read.name, read.node.name) not in reported:
             reported.add((read.name, read.node.name))
-            yield _finding(rule, param, read, *difference)
+            yield found
 
 
-def _with_default(read: ParamRead) -> ParamRead | None:
-    """The read itself, if it is one whose default tells of what kind the value is."""
+def _with_default(read: ParamRead) -> tuple[str, ParamRead] | None:
+    """The read with its name, if it is one whose default tells of what kind the value is."""
     use = read.use
-    return read if use.has_default and not use.builtin and use.access == "get" else None
+    return (read.name, read) if use.has_default and not use.builtin and use.access == "get" else None
+
+
+def _refused(read: ParamRead, param: Param | None, rule: Rule) -> tuple[ParamRead, Finding] | None:
+    if param is None or type(param.value) is type(read.use.default):
+        return None
+    difference = _difference(param.value, read.use.default)
+    return (read, _finding(rule, param, read, *difference)) if difference is not None else None
 
 
 def _finding(

@@ -139,9 +139,14 @@ def _alike(before: Before[tuple[Finding, ...]] | None, findings: tuple[Finding, 
     """The findings, the equal ones of before for those: what was made of them is found again."""
     if before is None:
         return findings
-    known = {finding: finding for finding in before[1]}
-    found = tuple(old if (old := known.get(each)) is not None and _is_alike(old, each) else each for each in findings)
-    return before[1] if found == before[1] and all(map(is_, found, before[1])) else found
+    # Most are the very same, and to compare by value takes long.
+    same = {*map(id, before[1])}.intersection(map(id, findings))
+    known = {finding: finding for finding in before[1] if id(finding) not in same}
+    found = tuple(
+        old if id(each) not in same and (old := known.get(each)) is not None and _is_alike(old, each) else each
+        for each in findings
+    )
+    return before[1] if len(found) == len(before[1]) and all(map(is_, found, before[1])) else found
 
 
 def _is_alike(one: Finding, other: Finding) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from itertools import chain
@@ -13,10 +13,12 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import each_namespace, grouped, namespace_of, namespaces_around
+from preflight_analysis.rules.parameters import grouped, namespace_of, namespaces_around
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
+
+_ASKING = ("get", "has")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,32 +44,49 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     if graph is None or not any(told):
         return ()
     reads = _collect(context, graph, told)
-    unasked = [param for param in context.tree.all_params if param.name not in reads.covered]
+    unasked = [param for name, param in context.tree.params.items() if name not in reads.covered]
     if reads.searched:
         unasked = [*filter(None, kept.each(_unless_searched, unasked, reads.searched))]
-    groups = kept.grouped(namespace_of, "unasked", unasked)
-    namespaces = [namespace for namespace in dict.fromkeys(context.once(each_namespace)) if namespace in groups]
-    nodes = {node.name: node for node in graph.tree.nodes}
-    orphans: list[Param] = []
-    private: list[tuple[Param, ...]] = []
-    holders: list[LaunchNode] = []
-    for namespace, around in zip(namespaces, kept.each(_around, namespaces), strict=True):
-        holder = next((nodes[name] for name in around if name in nodes), None)
-        if (holder is not None and holder.name in reads.opaque) or reads.covers_all(around):
-            continue
-        if holder is None:
-            orphans += groups[namespace]
-        else:
-            private.append(groups[namespace])
-            holders.append(holder)
-    unset = kept.grouped(_reader, "unset", reads.unset)
+    if "/" in reads.names or not unasked:
+        return ()
+    private, holders, orphans = _by_holder(context, graph, reads, unasked)
+    by_reader = kept.grouped(_reader, "param reads", graph.param_reads)
+    asked = chain.from_iterable(by_reader.get(holder, ()) for holder in dict.fromkeys(map(id, holders)))
+    unset = kept.grouped(_reader, "unset", [read for read in asked if reads.is_unset(read)])
     of_holders = kept.each_row(_of_holder, (private, holders, [unset.get(id(holder), ()) for holder in holders]))
     of_nobody: tuple[Unread, ...] = ()
     if orphans and not reads.listed:
-        of_told = tuple(read for read in reads.unset if read.node.name not in reads.opaque)
+        # Of thousands of reads few have anything in common with those.
+        leaves, spaces = {names.leaf(param.name) for param in orphans}, {*map(namespace_of, orphans)}
+        parts = zip(graph.param_reads, kept.each(_parts, graph.param_reads), strict=True)
+        near = [read for read, (namespace, leaf) in parts if leaf in leaves or namespace in spaces]
+        of_told = tuple(read for read in near if reads.is_unset(read) and read.node.name not in reads.opaque)
         alone = graph.tree.complete and not reads.opaque
         of_nobody = kept.get(_of_nobody, None, tuple(orphans), of_told, reads.sought, alone)
     return (*chain.from_iterable(of_holders), *of_nobody)
+
+
+def _by_holder(
+    context: Context, graph: Graph, reads: _Reads, params: Iterable[Param]
+) -> tuple[list[tuple[Param, ...]], list[LaunchNode], list[Param]]:
+    """The parameters that no node asks for, by namespace, with the nodes whose they are; and those of no node. Of nodes
+    of which it is not known what they read there are none, nor of namespaces that somebody asks for as a whole."""
+    kept = context.kept
+    groups = kept.grouped(namespace_of, "unasked", params)
+    pairs = zip(groups, kept.each(_around, groups), strict=True)
+    is_free = reads.names.isdisjoint
+    nodes = {node.name: node for node in graph.tree.nodes}
+    private: list[tuple[Param, ...]] = []
+    holders: list[LaunchNode] = []
+    orphans: list[Param] = []
+    for namespace, around in [pair for pair in pairs if is_free(pair[1])]:
+        holder = next((nodes[name] for name in around if name in nodes), None)
+        if holder is None:
+            orphans += groups[namespace]
+        elif holder.name not in reads.opaque:
+            private.append(groups[namespace])
+            holders.append(holder)
+    return private, holders, orphans
 
 
 def reports_params(interface: Interface) -> bool:
@@ -95,8 +114,10 @@ class _Reads:
     covered: AbstractSet[str]
     """The names, and every name above one: reading `/a/b` reads part of the value of `/a`."""
     searched: frozenset[str]
-    unset: tuple[ParamRead, ...]
-    """Of each name that some node reads and nothing sets the first who reads it."""
+    taken: AbstractSet[str]
+    """The names that something sets, and the namespaces with such names."""
+    first: Mapping[str, ParamRead]
+    """Who is the first to ask for a name, for its own sake."""
     opaque: AbstractSet[str]
     """Full names of the nodes of which it is not known what they read."""
     sought: tuple[ParamRead, ...]
@@ -104,25 +125,29 @@ class _Reads:
     listed: bool
     """Whether a node asks for the names of all parameters: it may read any of them."""
 
-    def covers_all(self, namespaces: Collection[str]) -> bool:
-        """Whether somebody asks for one of these namespaces as a whole, and so for all in it."""
-        return "/" in self.names or not self.names.isdisjoint(namespaces)
+    def is_unset(self, read: ParamRead) -> bool:
+        """Whether nothing sets what is asked for there, and nobody asked for it before."""
+        return read.name not in self.taken and self.first.get(read.name) is read
 
 
 def _collect(context: Context, graph: Graph, told: Iterable[bool]) -> _Reads:
     """`told` says of each node whether it is known what it reads."""
     kept, params = context.kept, graph.tree.params
-    reads = kept.grouped(_kind, "param reads", graph.param_reads)
-    lists, searches, asks, makes = (reads.get(kind, ()) for kind in ("list", "search", "ask", "make"))
-    made = {read.name for read in makes}
-    asked = (*asks, *reads.get("builtin", ()))
-    found = made.union(kept.each(_asked_name, asked))
-    above = names.with_namespaces({*kept.each(_namespace_asked, asked), *(name.rpartition("/")[0] for name in made)})
-    taken = params.keys() | context.once(namespaces_around) | made
-    unset: dict[str, ParamRead] = {}
-    for read in asks:
-        if read.name not in taken:
-            unset.setdefault(read.name, read)
+    lists: list[ParamRead] = []
+    searches: list[ParamRead] = []
+    made: set[str] = set()
+    for read in filter(None, kept.each(_unless_asking, graph.param_reads)):
+        if read.use.access == "list":
+            lists.append(read)
+        elif read.use.access == "search":
+            searches.append(read)
+        else:
+            made.add(read.name)
+    asked = {*filter(None, kept.each(_asked_name, graph.param_reads))}
+    found = asked | made
+    above = names.with_namespaces(
+        {*filter(None, kept.each(_namespace_asked, graph.param_reads)), *(name.rpartition("/")[0] for name in made)}
+    )
     sought: dict[str, ParamRead] = {}
     for read in searches:
         sought.setdefault(_sought_leaf(read), read)
@@ -133,7 +158,8 @@ def _collect(context: Context, graph: Graph, told: Iterable[bool]) -> _Reads:
         found,
         found | above,
         frozenset(read.use.name.strip("~/").partition("/")[0] for read in searches),
-        tuple(unset.values()),
+        params.keys() | context.once(namespaces_around) | made,
+        dict(reversed([*filter(None, kept.each(_named_request, graph.param_reads))])),
         {
             *(node.name for node, is_told in zip(graph.tree.nodes, told, strict=True) if not is_told),
             *(read.node.name for read in lists),
@@ -143,18 +169,28 @@ def _collect(context: Context, graph: Graph, told: Iterable[bool]) -> _Reads:
     )
 
 
-def _kind(read: ParamRead) -> str:
-    if read.use.access in ("get", "has"):
-        return "builtin" if read.use.builtin else "ask"
-    return read.use.access if read.use.access in ("list", "search") else "make"
+def _unless_asking(read: ParamRead) -> ParamRead | None:
+    return None if read.use.access in _ASKING else read
 
 
-def _asked_name(read: ParamRead) -> str:
-    return read.name.rstrip("/") or "/"
+def _asked_name(read: ParamRead) -> str | None:
+    return read.name.rstrip("/") or "/" if read.use.access in _ASKING else None
 
 
-def _namespace_asked(read: ParamRead) -> str:
-    return _asked_name(read).rpartition("/")[0]
+def _namespace_asked(read: ParamRead) -> str | None:
+    name = _asked_name(read)
+    return name.rpartition("/")[0] if name is not None else None
+
+
+def _named_request(read: ParamRead) -> tuple[str, ParamRead] | None:
+    """A read that a node's own code makes, with its name."""
+    return (read.name, read) if read.use.access in _ASKING and not read.use.builtin else None
+
+
+def _parts(read: ParamRead) -> tuple[str, str]:
+    """Its namespace and its last name."""
+    namespace, _, leaf = read.name.rpartition("/")
+    return namespace, leaf
 
 
 def _sought_leaf(read: ParamRead) -> str:
