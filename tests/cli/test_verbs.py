@@ -207,7 +207,7 @@ def test_an_interrupt_ends_the_runs(harness: Harness) -> None:
     ) as process:
         until(lambda: harness.sandbox_starts() >= 3)
         os.kill(process.pid, signal.SIGINT)
-        out, err = process.communicate(timeout=10)  # the node sleeps for a minute
+        out, err = process.communicate(timeout=50)  # the node sleeps for a minute
     assert (process.returncode, out, err) == (2, "", "ros-preflight: interrupted\n")
     assert harness.processes() == []
 
@@ -219,7 +219,7 @@ def test_lsp_takes_what_editors_add(harness: Harness) -> None:
         env=harness.environment,
         input=b"Content-Length: %d\r\n\r\n%s" % (len(body), body),
         capture_output=True,
-        timeout=30,
+        timeout=60,
         check=False,
     )
     assert (done.returncode, done.stdout) == (1, b""), "exit without shutdown"

@@ -17,7 +17,7 @@ def harness(workspace_name: str, *, server_on_path: bool = True) -> Iterator[Har
     with tempfile.TemporaryDirectory(prefix="editor-") as folder:
         created = create_harness(Path(folder), workspace_name, server_on_path=server_on_path)
         yield created
-        until(lambda: created.processes() == [], 20, "the editor left processes running")
+        until(lambda: created.processes() == [], why="the editor left processes running")
 
 
 @pytest.fixture

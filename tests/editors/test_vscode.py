@@ -71,29 +71,33 @@ def test_finding_is_seen_and_fixed(trusted_harness: Harness) -> None:
     assert trusted_harness.sandbox_starts() > 0
 
 
+TREE = [
+    "base/",
+    "  odometry preflight_demo/talker.py",
+    "left/",
+    "  driver preflight_demo/talker.py",
+    "  monitor preflight_demo/listener.py",
+    "right/",
+    "  driver preflight_demo/talker.py",
+    "  monitor preflight_demo/listener.py",
+    "Includes 2",
+    "  launch/arm.launch 2 nodes  rate:=5",
+    "  launch/arm.launch 2 nodes  rate:=20",
+    "Shared parameters 1",
+    "Not started 2",
+    "  group if $(arg sim) is false",
+    "    simulator",
+    "  include $(dirname)/gripper.launch if $(eval rate > 10) is False",
+]
+"""Lines of the tree of nodes."""
+
+
 def test_tree_leads_to_the_files_and_names_are_renamed_across_them(trusted_harness: Harness) -> None:
     folder = create_robot(trusted_harness)
 
-    seen = drive(trusted_harness, "tree")
+    seen = drive(trusted_harness, "tree", tree=TREE)
 
-    assert seen["tree"] == [
-        "base/",
-        "  odometry preflight_demo/talker.py",
-        "left/",
-        "  driver preflight_demo/talker.py",
-        "  monitor preflight_demo/listener.py",
-        "right/",
-        "  driver preflight_demo/talker.py",
-        "  monitor preflight_demo/listener.py",
-        "Includes 2",
-        "  launch/arm.launch 2 nodes  rate:=5",
-        "  launch/arm.launch 2 nodes  rate:=20",
-        "Shared parameters 1",
-        "Not started 2",
-        "  group if $(arg sim) is false",
-        "    simulator",
-        "  include $(dirname)/gripper.launch if $(eval rate > 10) is False",
-    ]
+    assert seen["tree"] == TREE
     assert seen["badges"] == 2
     assert 'name="frequency" default="1"' in (folder / "arm.launch").read_text()
     robot = (folder / "robot.launch").read_text()

@@ -150,7 +150,7 @@ async def test_in_a_file_that_does_not_parse(harness: Harness, files: tuple[Path
 async def test_topics_and_parameters_lead_to_the_source_of_the_node(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         found = await editor.references(harness.launch_file, editor.at(harness.launch_file, '"chater"', 1))
         assert [covered(editor, place) for place in found] == [
             "talker_listener.launch:7 chatter",

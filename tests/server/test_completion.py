@@ -89,7 +89,7 @@ async def test_packages_executables_files_and_arguments_while_typing(harness: Ha
 async def test_what_nodes_do_is_offered_from_their_traces(harness: Harness, path: Path) -> None:
     async with editing(harness, trusted=True) as editor:
         text = editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")  # both have been run
+        await editor.misspelling(harness.launch_file)  # both have been run
         remap, rate = '<remap from="chatter" to="chater"/>', '<param name="rate" value="5"/>'
         found = await at_cursor(editor, harness.launch_file, text.replace(remap, '<remap from="$0'), '"')
         assert [(i.label, i.detail) for i in found] == [("chatter", "std_msgs/String, subscribes")]
@@ -144,7 +144,7 @@ async def test_a_node_that_is_being_written_is_known_by_its_source(harness: Harn
 async def test_a_new_node_beside_known_ones_is_known_by_its_source(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         text = editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")  # both have been run
+        await editor.misspelling(harness.launch_file)  # both have been run
         (harness.launch_file.parents[1] / "scripts/fresh.py").write_text(
             "#!/usr/bin/env python3\nimport rospy\nfrom std_msgs.msg import Bool\nrospy.init_node('fresh')\n"
             "rospy.get_param('~gain', 2)\nrospy.Subscriber('door', Bool, print)\nrospy.spin()\n"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 from typing import Any
 
@@ -53,12 +52,8 @@ async def test_hover_says_what_it_is_in_each_root(harness: Harness) -> None:
     async with editing(harness) as editor:
         editor.open(fragment, FRAGMENT + "<unfinished")
 
-        async def both() -> str:
-            while "By launch:" not in (text := await shown_value(editor, fragment)):
-                pass
-            return text
-
-        assert "- `50` in `fast.launch`\n- `2` in `slow.launch`" in await asyncio.wait_for(both(), 20)
+        wanted = "By launch:\n- `50` in `fast.launch`\n- `2` in `slow.launch`"
+        await editor.once(lambda: shown_value(editor, fragment), lambda text: wanted in text)
 
 
 async def test_the_user_selects_root_and_arguments(harness: Harness) -> None:
@@ -182,7 +177,7 @@ async def test_nothing_is_left_of_a_root_that_is_gone(harness: Harness) -> None:
                 ]
 
             await editor.once(known, lambda uris, root=root: root.as_uri() not in uris)
-        # With the hover all is analysed that was known then.
-        await shown_value(editor, fragment)
-        assert editor.rules(fragment) == ["ARG003"]
-        assert {uri for uri, params in editor.published.items() if params.diagnostics} == {fragment.as_uri()}
+        await editor.until(lambda: editor.rules(fragment) == ["ARG003"])
+        await editor.until(
+            lambda: {uri for uri, params in editor.published.items() if params.diagnostics} == {fragment.as_uri()}
+        )

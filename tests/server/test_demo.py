@@ -13,8 +13,7 @@ pytestmark = pytest.mark.ros
 async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        found = await editor.having(harness.launch_file, "TOP001")
-        assert found.severity == types.DiagnosticSeverity.Warning
+        found = await editor.misspelling(harness.launch_file)
         assert found.source == "ros-preflight"
         assert "'/chatter'" in found.message
         assert "/talker" in found.message
@@ -37,21 +36,21 @@ async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
 async def test_a_remap_needs_no_new_run(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         text = editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         runs = harness.sandbox_starts()
         at = text.index("chater")
         for _ in range(3):
             editor.replace(harness.launch_file, at, at + 6, "chatter")
             await editor.without(harness.launch_file, "TOP001")
             editor.replace(harness.launch_file, at, at + 7, "chater")
-            await editor.having(harness.launch_file, "TOP001")
+            await editor.misspelling(harness.launch_file)
         assert harness.sandbox_starts() == runs
 
 
 async def test_a_parameter_that_is_read_runs_that_node_again_and_no_other(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         text = editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         before, starts = set(editor.runs), harness.sandbox_starts()
         at = text.index('<param name="rate"')
         editor.replace(harness.launch_file, at, at, '<param name="never_read" value="1"/>')
@@ -68,7 +67,7 @@ async def test_a_parameter_that_is_read_runs_that_node_again_and_no_other(harnes
 async def test_findings_stay_while_other_text_is_typed(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         editor.history.clear()
         for letter in "<!-- a word -->":
             editor.replace(harness.launch_file, len("<launch>\n"), len("<launch>\n"), letter)
@@ -81,7 +80,7 @@ async def test_findings_stay_while_other_text_is_typed(harness: Harness) -> None
 async def test_progress_is_shown_while_nodes_run(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         await editor.until(lambda: any(v["kind"] == "end" for values in editor.runs.values() for v in values))
         (values,) = editor.runs.values()
         kinds = [v["kind"] for v in values]
@@ -93,11 +92,11 @@ async def test_progress_is_shown_while_nodes_run(harness: Harness) -> None:
 async def test_a_second_server_needs_no_run(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
     runs = harness.sandbox_starts()
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         assert editor.runs == {}
     assert harness.sandbox_starts() - runs <= 1, "only the probe of the sandbox"
 
@@ -109,7 +108,7 @@ async def test_columns_behind_other_scripts(harness: Harness, encoding: str) -> 
         assert editor.result.capabilities.position_encoding == encoding
         text = harness.launch_file.read_text().replace("<remap from=", "<!-- größe 漢字 𝒳 --><remap from=")
         editor.open(harness.launch_file, text)
-        found = await editor.having(harness.launch_file, "TOP001")
+        found = await editor.misspelling(harness.launch_file)
         assert editor.covered(harness.launch_file, found.range) == "chater"
         actions = await editor.actions(harness.launch_file, found.range, ["quickfix"])
         editor.apply(actions[0].edit)
@@ -122,5 +121,5 @@ async def test_a_client_that_names_no_encoding_gets_utf_16(harness: Harness) -> 
     async with editing(harness, trusted=True, client=capabilities(encoding=None)) as editor:
         text = harness.launch_file.read_text().replace("<remap from=", "<!-- 𝒳 --><remap from=")
         editor.open(harness.launch_file, text)
-        found = await editor.having(harness.launch_file, "TOP001")
+        found = await editor.misspelling(harness.launch_file)
         assert editor.covered(harness.launch_file, found.range) == "chater"

@@ -56,8 +56,7 @@ async def test_folders_of_both_generations_stand_side_by_side(harness: Harness) 
     async with editing(harness, folders=[one, two]) as editor:
         for file in (old, new):
             editor.open(file)
-            await editor.until(lambda file=file: editor.rules(file) is not None)
-            assert editor.rules(file) == []
+            await editor.until(lambda file=file: editor.rules(file) == [])
         text = await editor.doctor()
         assert str(one) in text
         assert "ROS 1" in text

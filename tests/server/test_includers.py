@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 from typing import Any
 
@@ -74,7 +73,7 @@ async def test_who_includes_a_file_and_what_it_includes(harness: Harness, files:
 async def test_nodes_files_and_topics_of_the_workspace(harness: Harness, files: tuple[Path, Path]) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
 
         async def found(query: str) -> list[tuple[str, str, types.SymbolKind]]:
             symbols = await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams(query))
@@ -127,7 +126,7 @@ async def test_lenses_are_asked_for_again_when_another_file_changed_them(
         outer.write_text(OUTER.replace(' ns="b"', ' ns="b" if="false"'))
         editor.watched(outer)
         await editor.until(lambda: editor.lens_refreshes > before)
-        assert (await titles(editor, inner))[1] == "1 of 2 nodes"
+        await editor.once(lambda: titles(editor, inner), lambda shown: shown[1] == "1 of 2 nodes")
 
 
 async def test_no_refresh_for_a_client_that_knows_none(harness: Harness, files: tuple[Path, Path]) -> None:
@@ -138,10 +137,5 @@ async def test_no_refresh_for_a_client_that_knows_none(harness: Harness, files: 
         await editor.lenses(inner)
         outer.write_text(OUTER.replace(' ns="b"', ' ns="b" if="false"'))
         editor.watched(outer)
-
-        async def changed() -> None:
-            while (await titles(editor, inner))[1] != "1 of 2 nodes":
-                pass
-
-        await asyncio.wait_for(changed(), 20)
+        await editor.once(lambda: titles(editor, inner), lambda shown: shown[1] == "1 of 2 nodes")
         assert editor.lens_refreshes == 0

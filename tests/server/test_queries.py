@@ -56,7 +56,7 @@ async def gone_to(editor: Editor, path: Path, needle: str, after: int = 0) -> li
 async def test_hover_on_a_node_shows_its_interface_and_where_it_comes_from(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         talker = await hovered(editor, harness.launch_file, 'name="talker"')
         assert "**/talker** `preflight_demo/talker.py`" in talker
         assert "from a run in the sandbox" in talker
@@ -103,8 +103,10 @@ async def test_hover_on_arguments_values_includes_and_parameters(harness: Harnes
 
         inner = outer.with_name("inner.launch")
         editor.open(inner)
-        rate = await hovered(editor, inner, "$(arg rate)", 7)
-        assert "argument `rate` = `7`" in rate, "the value that it has where it is included"
+        # The value that it has where it is included, once that is known.
+        rate = await editor.once(
+            lambda: hovered(editor, inner, "$(arg rate)", 7), lambda text: "argument `rate` = `7`" in text
+        )
         assert "[outer.launch:4]" in rate
         node = await hovered(editor, inner, "<node", 2)
         assert "**/husky/talker**" in node
@@ -122,19 +124,24 @@ async def test_definitions(harness: Harness, outer: Path) -> None:
         inner = outer.with_name("inner.launch")
         editor.open(inner)
         assert await gone_to(editor, inner, "$(arg rate)", 7) == [("inner.launch", 2)]
-        assert await gone_to(editor, inner, 'arg name="rate"', 11) == [("outer.launch", 4)]
+        await editor.once(
+            lambda: gone_to(editor, inner, 'arg name="rate"', 11), lambda places: places == [("outer.launch", 4)]
+        )
         assert await gone_to(editor, inner, "talker.py", 2) == [("talker.py", 1)]
 
 
 async def test_definition_leads_to_the_other_end(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         text = editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         assert await gone_to(editor, harness.launch_file, '"chater"', 3) == [("talker_listener.launch", 3)]
         at = text.index("chater")
         editor.replace(harness.launch_file, at, at + 6, "chatter")
         await editor.without(harness.launch_file, "TOP001")
-        assert await gone_to(editor, harness.launch_file, 'to="chatter"', 6) == [("talker.py", 10)]
+        await editor.once(
+            lambda: gone_to(editor, harness.launch_file, 'to="chatter"', 6),
+            lambda places: places == [("talker.py", 10)],
+        )
 
 
 async def test_symbols_are_the_tags_as_they_nest(harness: Harness, outer: Path) -> None:
@@ -155,13 +162,13 @@ async def test_symbols_are_the_tags_as_they_nest(harness: Harness, outer: Path) 
 async def test_the_traced_interface_can_be_written_as_an_annotation(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         where = editor.at(harness.launch_file, 'name="talker"')
         actions = await editor.actions(harness.launch_file, types.Range(where, where), ["refactor"])
         assert [a.title for a in actions] == ["Annotate '/talker' with its traced interface"]
         editor.apply(actions[0].edit)
         assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[harness.launch_file]
-        found = await editor.having(harness.launch_file, "TOP001")
+        found = await editor.misspelling(harness.launch_file)
         assert editor.covered(harness.launch_file, found.range) == "chater"
         where = editor.at(harness.launch_file, 'name="talker"')
         assert await editor.actions(harness.launch_file, types.Range(where, where), ["refactor"]) == []
@@ -170,7 +177,7 @@ async def test_the_traced_interface_can_be_written_as_an_annotation(harness: Har
 async def test_only_the_asked_kinds_of_actions(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        found = await editor.having(harness.launch_file, "TOP001")
+        found = await editor.misspelling(harness.launch_file)
         assert await editor.actions(harness.launch_file, found.range, ["source.organizeImports"]) == []
         assert [a.kind for a in await editor.actions(harness.launch_file, found.range, ["quickfix"])] == ["quickfix"]
 

@@ -140,7 +140,7 @@ async def test_a_killed_server_leaves_nothing_running(harness: Harness, slow: Pa
 async def test_a_changed_script_is_run_again(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         script = harness.launch_file.parents[1] / "scripts/talker.py"
         script.write_text(script.read_text().replace('"chatter"', '"chater"'))
         editor.watched(script)
@@ -170,7 +170,7 @@ async def test_a_half_typed_tag_starts_no_run(harness: Harness) -> None:
         said = [value.get("message") for values in editor.runs.values() for value in values]
         assert said[-1] == "1 node", "only the talker"
         editor.change(harness.launch_file, harness.launch_file.read_text())
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
 
 
 READS_FIRST = """#!/usr/bin/env python3

@@ -23,7 +23,7 @@ async def tree_of(editor: Editor, harness: Harness) -> Any:
 async def test_the_tree_has_the_nodes_with_what_is_wrong(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         tree = await tree_of(editor, harness)
         assert tree.root.uri == harness.launch_file.as_uri()
         assert list(tree.files) == [harness.launch_file.as_uri()]
@@ -71,7 +71,7 @@ async def test_the_status_is_told_to_those_who_ask(harness: Harness) -> None:
 async def test_the_status_is_not_told_to_others(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         assert (editor.statuses, editor.analysed) == ([], 0)
 
 
@@ -119,14 +119,14 @@ async def test_what_runs_told_is_forgotten(harness: Harness) -> None:
     traces = harness.home / ".cache/ros-preflight/traces"
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         await editor.until(lambda: len(list(traces.rglob("*.json"))) == 2)
         starts = harness.sandbox_starts()
         answer = await ask(editor, "clearCache", {})
         assert answer.entries == 2
         assert answer.bytes > 0
         await editor.until(lambda: harness.sandbox_starts() == starts + 2)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
 
 
 async def test_the_doctor_answers(harness: Harness) -> None:

@@ -40,7 +40,7 @@ async def test_the_running_system_is_compared_with_the_file_as_it_is_edited(
 ) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
-        await editor.having(harness.launch_file, "TOP001")
+        await editor.misspelling(harness.launch_file)
         answer = await watch(editor, harness.launch_file)
         assert (answer.watching, answer.message) == (True, None)
         await editor.until(lambda: told(editor) is not None)

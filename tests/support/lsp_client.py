@@ -16,7 +16,7 @@ from pytest_lsp import LanguageClient
 from pytest_lsp.client import DEFAULT_CLIENT_FEATURES, register_lsp_features
 
 from support.editor_harness import Harness
-from support.waiting import answered
+from support.waiting import PATIENCE, answered
 
 ENCODINGS = ("utf-8", "utf-16", "utf-32")
 T = TypeVar("T")
@@ -203,7 +203,7 @@ class Editor:
         assert process is not None
         return process.pid
 
-    async def until(self, what: Callable[[], T | None], seconds: float = 60) -> T:
+    async def until(self, what: Callable[[], T | None], seconds: float = PATIENCE) -> T:
         """Wait until `what()` is something true; it is asked again at each message of the server."""
         deadline = asyncio.get_running_loop().time() + seconds
         while not (found := what()):
@@ -215,7 +215,7 @@ class Editor:
                 await asyncio.wait_for(self._news.wait(), min(left, 0.2))
         return found
 
-    async def once(self, ask: Callable[[], Awaitable[T]], is_so: Callable[[T], bool], seconds: float = 60) -> T:
+    async def once(self, ask: Callable[[], Awaitable[T]], is_so: Callable[[T], bool], seconds: float = PATIENCE) -> T:
         """Ask again and again until the answer is as expected."""
         return await answered(ask, is_so, seconds)
 
@@ -233,13 +233,23 @@ class Editor:
         found = self.diagnostics(path)
         return None if found is None else sorted(str(d.code) for d in found)
 
-    async def having(self, path: Path, rule: str, seconds: float = 60) -> types.Diagnostic:
-        """The diagnostic of that rule, as soon as it is there."""
-        return await self.until(
-            lambda: next((d for d in self.diagnostics(path) or () if d.code == rule), None), seconds
-        )
+    async def having(
+        self, path: Path, rule: str, seconds: float = PATIENCE, *, severity: types.DiagnosticSeverity | None = None
+    ) -> types.Diagnostic:
+        """The diagnostic of that rule and, if one is given, that severity, as soon as it is there."""
 
-    async def without(self, path: Path, rule: str, seconds: float = 60) -> None:
+        def found() -> types.Diagnostic | None:
+            of_rule = (d for d in self.diagnostics(path) or () if d.code == rule)
+            return next((d for d in of_rule if severity in (None, d.severity)), None)
+
+        return await self.until(found, seconds)
+
+    async def misspelling(self, path: Path) -> types.Diagnostic:
+        """The warning about the demo's misspelt topic, once all its nodes were run: while one of them still runs, there
+        is but a hint."""
+        return await self.having(path, "TOP001", severity=types.DiagnosticSeverity.Warning)
+
+    async def without(self, path: Path, rule: str, seconds: float = PATIENCE) -> None:
         """Wait until the rule is silent on the file's present version."""
         await self.until(lambda: (found := self.rules(path)) is not None and rule not in found, seconds)
 
@@ -483,7 +493,7 @@ async def editing(
             )
         )
         yield editor
-        await asyncio.wait_for(editor.client.shutdown_session(), 15)
+        await asyncio.wait_for(editor.client.shutdown_session(), PATIENCE)
     finally:
         server = editor.client._server
         if server is not None and server.returncode is None:

@@ -42,7 +42,8 @@
                        (seq-find (lambda (each) (string-prefix-p "Replace" each)) said))))
             (eglot-code-actions (flymake-diagnostic-beg finding) (flymake-diagnostic-end finding) nil t)))
         (eglot--signal-textDocument/didChange) ; what an idle timer does, which --batch has not
-        (drive-wait "no finding" (lambda () (not (drive-with "did you mean"))))
+        (drive-wait "what is left" (lambda ()
+                                     (and (drive-with "remapped to itself") (not (cdr (flymake-diagnostics))))))
         (save-buffer))
       (setq after (drive-findings))
       (with-temp-file result

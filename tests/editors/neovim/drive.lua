@@ -129,7 +129,7 @@ function scenarios.fix()
   local remap = line_with('to="chater"')
   local diagnostic = wait_for("the listener's diagnostic", function()
     for _, d in ipairs(diagnostics_with('chatter')) do
-      if d.lnum == remap then
+      if d.lnum == remap and d.severity == vim.diagnostic.severity.WARN then -- a hint while a node still runs
         return d
       end
     end
@@ -161,6 +161,9 @@ function scenarios.untrusted()
   local reason = wait_for('a diagnostic that speaks of trust', function()
     return diagnostics_with('not trusted')[1]
   end)
+  wait_for('what the sources say of the topic', function()
+    return #diagnostics_with('chatter') == 1
+  end)
   local hover = hover_on_node('name="listener"')
   return { reason = reason.message, chatter = #diagnostics_with('chatter'), hover = hover }
 end
@@ -177,7 +180,7 @@ function scenarios.root()
   end
   local before = wait_for('lenses', function()
     local found = titles()
-    return #found > 0 and found
+    return table.concat(found, ' '):find('includers', 1, true) and #found == 3 and found
   end)
   local result = { before = before }
   vim.ui.select = function(items, opts, on_choice)
@@ -362,8 +365,10 @@ function scenarios.maintenance()
     local now = client.clients(file)[1]
     return now and now.id ~= before and now.id
   end)
+  result.old_is_gone = wait_for('the end of the old server', function()
+    return vim.lsp.get_client_by_id(before) == nil
+  end)
   result.clients = #client.clients()
-  result.old_is_gone = vim.lsp.get_client_by_id(before) == nil
   edit('to="chater"', 'to="chater2"')
   wait_for('findings of the new server', function()
     return diagnostics_with('chater2')[1]
@@ -432,7 +437,10 @@ function scenarios.views_untrusted()
   wait_for('a message', function()
     return result.trace
   end)
-  result.status = require('ros_preflight').status(file)
+  result.status = wait_for('its status', function()
+    local status = require('ros_preflight').status(file)
+    return status:find('not run', 1, true) and status
+  end)
   return result
 end
 

@@ -20,6 +20,12 @@ async function step(name, action) {
   return result;
 }
 
+/** What `seen` comes to, which may be there only while `action` is under way. */
+async function during(seen, action) {
+  const [result] = await Promise.all([seen, action()]);
+  return result;
+}
+
 function picture(name) {
   return workbench.screenshot(path.join(harness.screenshots, `${name}.png`));
 }
@@ -76,12 +82,14 @@ const scenarios = {
       await workbench.parkMouse();
       await picture("1-squiggle");
     });
-    seen.hoverOnTopic = await step("hover on the topic", () => workbench.hover("chater", 'to="chater"'));
+    seen.hoverOnTopic = await step("hover on the topic", () => workbench.hover("chater", 'to="chater"', "/chatter"));
     await step("picture of the hover", async () => {
       await workbench.page.getByText("Checking for quick fixes").waitFor({ state: "hidden" });
       await picture("2-hover");
     });
-    seen.hoverOnNode = await step("hover on the node", () => workbench.hover("node", 'type="listener.py"'));
+    seen.hoverOnNode = await step("hover on the node", () =>
+      workbench.hover("node", 'type="listener.py"', "std_msgs/String"),
+    );
     await step("picture of the node's hover", () => picture("3-hover-node"));
     await step("quick-fix menu", async () => {
       await workbench.parkMouse();
@@ -111,11 +119,20 @@ const scenarios = {
     await step("show the tree", () => workbench.command("ROS Preflight: Show Node Tree"));
     await step("node in the tree", () => workbench.treeLine("odometry").waitFor());
     await step("findings in the tree", async () => {
-      await workbench.badge("monitor").first().waitFor();
-      seen.badges = await workbench.badge("monitor").count();
+      seen.badges = await until("a mark on each monitor", async () => {
+        const count = await workbench.badge("monitor").count();
+        return count > 1 && count;
+      });
     });
     await step("everything is up to date", () => workbench.idle());
-    seen.tree = await step("lines of the tree", () => workbench.treeLines());
+    await step("lines of the tree", () =>
+      until("the lines of the tree", async () => {
+        seen.tree = await workbench.treeLines();
+        return seen.tree.join("\n") === harness.tree.join("\n");
+      }).catch((error) => {
+        throw new Error(`${error.message}: ${seen.tree.join("\n")}`);
+      }),
+    );
     await step("picture of the tree", async () => {
       await workbench.parkMouse();
       await picture("11-tree");
@@ -143,8 +160,13 @@ const scenarios = {
       await workbench.rename('"rate"', "rate", "frequency");
       await page.locator(".view-line", { hasText: "frequency" }).first().waitFor();
       await workbench.command("File: Save All Files");
-      const robot = path.join(path.dirname(harness.launchFile), "robot.launch");
-      await until("the renamed argument on disk", () => contents(robot).includes('name="frequency" value="20"'));
+      const [robot, arm] = ["robot", "arm"].map((name) =>
+        path.join(path.dirname(harness.launchFile), `${name}.launch`),
+      );
+      await until(
+        "the renamed argument on disk",
+        () => contents(robot).includes('name="frequency" value="20"') && contents(arm).includes('"frequency"'),
+      );
     });
     await step("insert an annotation", async () => {
       await workbench.openFile("robot.launch");
@@ -186,7 +208,7 @@ const scenarios = {
     const healthy = message.filter({ hasText: "as it should be" });
     seen.healthy = await step("the system is as it should be", () => healthy.innerText());
     process.kill(harness.victim, "SIGKILL");
-    const broken = message.filter({ hasText: "difference" });
+    const broken = message.filter({ hasText: "difference" }).filter({ hasText: "/listener" });
     seen.broken = await step("a node is missed", () => broken.innerText());
     const marked = ".codicon-error, .codicon-debug-disconnect";
     await step("its line", () =>
@@ -207,8 +229,10 @@ const scenarios = {
   async setups() {
     workbench.settings = { "rosPreflight.environment.setup": ["/no/such/setup.bash"] };
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
-    await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
-    seen.missing = await step("message about the set-up", () => workbench.message("/no/such/setup.bash").innerText());
+    // Messages leave again by themselves: each is waited for from before what brings it about.
+    seen.missing = await step("open the launch file, message about the set-up", () =>
+      during(workbench.message("/no/such/setup.bash").innerText(), () => workbench.openFile("talker_listener.launch")),
+    );
     await step("squiggle without it", () => squiggle().waitFor());
     const before = serverProcess();
     workbench.configure({ "rosPreflight.environment.setup": [harness.setup] });
@@ -228,8 +252,9 @@ const scenarios = {
   // The extension installs the server that it brings along, and uses it the next time.
   async installs() {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
-    await step("open the launch file", () => workbench.openFile("talker_listener.launch"));
-    await step("status of the installation", () => workbench.status("installing").waitFor());
+    await step("open the launch file, status of the installation", () =>
+      during(workbench.status("installing").waitFor(), () => workbench.openFile("talker_listener.launch")),
+    );
     await step("picture of the installation", () => picture("15-installing"));
     await step("squiggle of the installed server", () => squiggle().waitFor({ timeout: INSTALLING }));
     const first = serverProcess();
@@ -277,10 +302,10 @@ const scenarios = {
     workbench.configure({ "rosPreflight.server.command": [harness.server] });
     await step("squiggle of the configured server", () => squiggle().waitFor());
     for (let death = 1; death <= 5; death += 1) {
-      await step(`death ${death}`, killServer);
+      const told = death === 1 ? workbench.message("is started again").waitFor() : Promise.resolve();
+      await step(`death ${death}`, () => during(told, killServer));
       await step(`restart ${death}`, () => squiggle().waitFor());
       if (death === 1) {
-        await step("told that it came back", () => workbench.message("is started again").waitFor());
         await step("picture of the restarted server", () => picture("9-came-back"));
       }
     }

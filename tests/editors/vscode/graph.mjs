@@ -81,6 +81,6 @@ export async function walkThroughGraph({ workbench, harness, step, picture, seen
     await item("node /listener").waitFor();
     await tab.filter({ hasText: "fixed.launch" }).waitFor();
     await picture("23-graph-restored");
-    seen.restored = await graph().locator("#filter").inputValue();
+    seen.restored = await until("the filter as it was", () => graph().locator("#filter").inputValue());
   });
 }

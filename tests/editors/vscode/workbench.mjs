@@ -131,15 +131,16 @@ export class Workbench {
    *
    * @param {string} text
    * @param {string} line what the text's line holds
+   * @param {string} wanted what the hover is to say: its parts come one after another
    */
-  async hover(text, line = text) {
-    const widget = this.page.locator(".monaco-hover:not(.hidden) .hover-contents", { hasText: /\S/ });
+  async hover(text, line, wanted) {
+    const contents = ".monaco-hover:not(.hidden) .hover-contents";
     await until(`a hover on ${text}`, async () => {
       await this.parkMouse();
       await this.#moveTo(await this.#boxOf(text, line));
-      return appears(widget.first(), 4000);
+      return appears(this.page.locator(contents, { hasText: wanted }).first(), 4000);
     });
-    return (await widget.allInnerTexts()).join("\n");
+    return (await this.page.locator(contents, { hasText: /\S/ }).allInnerTexts()).join("\n");
   }
 
   /** Clicks into the middle of a text. */
