@@ -14,7 +14,7 @@ from preflight_server.lsp.app import PreflightServer
 from preflight_server.lsp.rounds import LARGE
 from preflight_server.lsp.session import Session
 from preflight_server.lsp.settings import Settings
-from support.waiting import answered
+from support.waiting import PATIENCE, answered
 
 
 async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -34,7 +34,7 @@ async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypat
             document = server.texts.open(launch_file.as_uri(), "roslaunch", version, "<launch/>")
             session.takes(document)
             session.text_changed(document, own=True, quiet=0)
-            await asyncio.wait_for(session.settled(), 10)
+            await asyncio.wait_for(session.analyses.settled(), PATIENCE)
             await asyncio.sleep(0.2)  # nothing tells that it is not tried again
             assert len(tried) <= 2 * version, "once for the edit, and once when the index came"
         assert await session.view(launch_file.as_uri()) is None
@@ -50,7 +50,7 @@ async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
     whole = Workspace.with_interfaces
 
     def waits(self: Workspace, *args: Any) -> Analysis:
-        may_go_on.wait(20)
+        may_go_on.wait(PATIENCE)
         return whole(self, *args)
 
     monkeypatch.setattr(Workspace, "with_interfaces", waits)
@@ -65,7 +65,7 @@ async def test_of_a_large_launch_what_needs_no_graph_is_there_first(
         session.text_changed(document, own=True, quiet=0)
         if first:
             may_go_on.set()
-        await asyncio.wait_for(session.settled(), 20)
+        await asyncio.wait_for(session.analyses.settled(), PATIENCE)
         view = await session.view(launch_file.as_uri())
         assert view is not None
         assert {finding.rule for finding in view.findings} >= {"PKG001"}
@@ -91,7 +91,7 @@ async def test_no_edit_waits_for_who_reads(tmp_path: Path, monkeypatch: pytest.M
         if not reads.is_set():
             with self.sources.db.reading():  # as who parses a large file, and asks nothing meanwhile
                 reads.set()
-                let_go.append(may_go_on.wait(10))
+                let_go.append(may_go_on.wait(PATIENCE))
         return whole(self, *args)
 
     monkeypatch.setattr(Workspace, "analysed", waits)
@@ -107,7 +107,7 @@ async def test_no_edit_waits_for_who_reads(tmp_path: Path, monkeypatch: pytest.M
 
     try:
         edit(1, "<launch/>")
-        assert await asyncio.get_running_loop().run_in_executor(None, reads.wait, 20)
+        assert await asyncio.get_running_loop().run_in_executor(None, reads.wait, PATIENCE)
         for version in (2, 3, 4):
             edit(version, f'<launch><arg name="a{version}"/></launch>')
             await asyncio.sleep(0)  # for the loop to begin with what it is told

@@ -94,7 +94,7 @@ class CommandRuns:
                 self._take(await self._run(runner, missing, pool), edition)
         changed = any(self.results.result(command.line) != command.result for command in analysis.tree.commands)
         if changed:
-            self._session.results_changed()
+            self._session.analyses.ask_again()
         return changed or not self._current.issuperset(lines)
 
     def _take(self, results: Mapping[str, CommandResult], edition: int) -> None:

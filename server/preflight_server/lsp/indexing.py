@@ -77,8 +77,8 @@ class Indexing:
         while (self._changed or self._everything) and not self._cancel.is_set():
             workspace = await self._session.workspace()
             if self.index.complete:
-                await self._session.settled()
-                await self._session.quiet()
+                await self._session.analyses.settled()
+                await self._session.analyses.quiet()
             changed = None if self._everything or not self.index.complete else frozenset(self._changed)
             self._changed, self._everything = set(), False
             await self._session.written()
@@ -90,7 +90,7 @@ class Indexing:
             if index is not None:
                 self.index = index
                 self._to_keep = (workspace, index) if changed is not None else None
-                self._session.index_changed()
+                self._session.analyses.ask_again()
 
     async def _make(self, workspace: Workspace, changed: Collection[str] | None) -> WorkspaceIndex | None:
         progress = Progress(self._server, "Indexing launch files", "indexing") if changed is None else None
@@ -130,14 +130,14 @@ class Indexing:
 
     def _gives_way(self) -> bool:
         """Wait while something is analysed that the user looks at. Whether to stop altogether."""
-        self._session.calm.wait(_AT_MOST)
+        self._session.analyses.calm.wait(_AT_MOST)
         return self._cancel.is_set()
 
     def _gives_way_to_edits(self) -> bool:
         """As `_gives_way`, and wait until the user pauses: what an edit interrupts begins again, and takes its turns at
         the interpreter while the edit is analysed."""
-        until = time.monotonic() + _AT_MOST
-        while (pause := min(until - time.monotonic(), self._session.quiet_for)) > 0 and not self._cancel.wait(pause):
+        analyses, until = self._session.analyses, time.monotonic() + _AT_MOST
+        while (pause := min(until - time.monotonic(), analyses.quiet_for)) > 0 and not self._cancel.wait(pause):
             pass
         return self._gives_way()
 

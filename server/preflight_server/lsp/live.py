@@ -92,7 +92,7 @@ class LiveWatch:
     def _analysed(self) -> None:
         watch = self._watch
         if watch is not None:
-            newest = (a for a in watch.session.roots() if a.launch == watch.analysis.launch)
+            newest = (a for a in watch.session.analyses.of_roots() if a.launch == watch.analysis.launch)
             watch.analysis = next(newest, watch.analysis)
 
     def _run(self, watch: _Watch, loop: asyncio.AbstractEventLoop) -> None:

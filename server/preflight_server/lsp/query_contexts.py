@@ -19,14 +19,14 @@ async def query_context(view: View) -> QueryContext:
     """The context of an open launch file. What was not analysed since the last edit is left out: its places are
     gone."""
     session, workspace = view.session, await view.session.workspace()
-    others = filter(session.is_current, view.analyses[1:])
+    others = filter(session.analyses.is_current, view.analyses[1:])
     return QueryContext(view.path, (view.analysis, *others), view.index, workspace)
 
 
 async def workspace_query_context(session: Session, path: str = "") -> QueryContext:
     """The context of any launch file of a folder, open or not, or of none: with the analyses of all that is open."""
-    await session.settled()
-    workspace, current = await session.workspace(), filter(session.is_current, session.roots())
+    await session.analyses.settled()
+    workspace, current = await session.workspace(), filter(session.analyses.is_current, session.analyses.of_roots())
     return QueryContext(path, tuple(current), session.indexing.index, workspace)
 
 

@@ -50,7 +50,7 @@ class Refresher:
     async def _compare(self) -> None:
         while self._again:
             for session in self._server.sessions:
-                await session.quiet()
+                await session.analyses.quiet()
             self._again = False
             for uri, last in tuple(self._answered.items()):
                 if self._server.texts.get(uri) is not last.document:

@@ -1,7 +1,4 @@
-"""Runs of nodes in the sandbox: when they may start, which are needed, and what is known from earlier ones.
-
-What a node did last is kept while it is run again, so that its findings do not come and go with each keystroke.
-"""
+"""Runs of nodes in the sandbox: when they may start, and which are needed."""
 
 from __future__ import annotations
 
@@ -11,7 +8,7 @@ import logging
 import threading
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from preflight_analysis.tracing import sandbox
@@ -27,6 +24,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.command_runs import CommandRuns
 from preflight_server.lsp.markup import counted
+from preflight_server.lsp.node_results import NodeResults
 from preflight_server.lsp.progress import Progress
 
 if TYPE_CHECKING:
@@ -40,14 +38,6 @@ NOT_TRUSTED = "the workspace is not trusted; trust it to have its nodes run in t
 CANCELLED = "the runs were cancelled; save the file to start them again"
 NotRunSince = Literal["off", "untrusted", "cancelled", "sandbox"]
 _KINDS: Mapping[str, NotRunSince] = {SWITCHED_OFF: "off", NOT_TRUSTED: "untrusted", CANCELLED: "cancelled"}
-
-
-@dataclass(frozen=True, slots=True)
-class Known:
-    """What a node was last seen to do, and for which request; None where that may be out of date."""
-
-    request: TraceRequest | None
-    interface: Interface
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,9 +91,7 @@ class Runs:
         self._closing = False
         self.commands = CommandRuns(server, session, lambda: self.why_not_run)
         self._tracer: Tracer | None = None
-        self._known: dict[Root, dict[NodeKey, Known]] = {}
-        self._edition = 0
-        """How often files changed: what a run told that began before may be out of date."""
+        self._results = NodeResults()
         self._fresh: dict[Root, set[NodeKey]] = {}
         """Nodes that the user wants to be run anew."""
         self._batch: _Batch | None = None
@@ -134,8 +122,7 @@ class Runs:
 
     def results(self, root: Root) -> RunResults:
         """What is known of the nodes of a root."""
-        interfaces = {key: known.interface for key, known in self._known.get(root, {}).items()}
-        return RunResults(interfaces, self.why_not_run, pending=True)
+        return RunResults(self._results.of(root), self.why_not_run, pending=True)
 
     def set_trusted(self, trusted: bool) -> None:
         """The user's decision; without trust what runs is stopped."""
@@ -153,17 +140,14 @@ class Runs:
     def forget_requests(self) -> None:
         """Files changed: look every interface up again, but keep it until then."""
         self._cancelled = False
-        self._edition += 1
+        self._results.look_again()
         self.commands.forget()
-        for nodes in self._known.values():
-            nodes.update({key: replace(known, request=None) for key, known in nodes.items()})
 
     def again(self, analysis: Analysis, names: Collection[str] | None = None) -> list[str]:
         """Run nodes anew, all or those of these names, whatever is known of them. Returns which are."""
         self._cancelled = False
         keys = [key for key in node_keys(analysis.tree) if names is None or key[0] in names]
-        known = self._known.get(analysis.launch, {})
-        known.update({key: replace(known[key], request=None) for key in keys if key in known})
+        self._results.look_again_at(analysis.launch, keys)
         self._fresh.setdefault(analysis.launch, set()).update(keys)
         self.wake()
         return [name for name, _ in keys]
@@ -171,8 +155,7 @@ class Runs:
     def clear(self) -> None:
         """Take back all that runs told."""
         self._cancelled = False
-        self._edition += 1
-        self._known.clear()
+        self._results.clear()
         self.commands.clear()
 
     def hold(self, seconds: float) -> None:
@@ -189,7 +172,7 @@ class Runs:
         elif self._batch is not None:
             self._server.spawn(self._reconsider(self._batch))
         else:
-            self.commands.reconsider(self._session.roots())
+            self.commands.reconsider(self._session.analyses.of_roots())
 
     def cancel(self, token: int | str) -> None:
         """The user cancelled a batch."""
@@ -215,11 +198,11 @@ class Runs:
         while self._wanted and not self._closing:
             while (pause := self._not_before - asyncio.get_running_loop().time()) > 0:  # noqa: ASYNC110
                 await asyncio.sleep(pause)
-            await self._session.settled()
+            await self._session.analyses.settled()
             self._wanted = False
             await self._probe()
             if self.why_not_run is None:
-                for analysis in self._session.roots():
+                for analysis in self._session.analyses.of_roots():
                     async with self._server.turn_to_run:
                         if not self._wanted and not self._closing and self.why_not_run is None:
                             await self._round(analysis)
@@ -232,7 +215,7 @@ class Runs:
         self._no_sandbox = None if status.works else status.reason or "no sandbox works on this machine"
         self._probed = True
         if self._no_sandbox is not None:
-            self._session.results_changed()
+            self._session.analyses.ask_again()
 
     async def _round(self, analysis: Analysis) -> None:
         """Look up, then run, what is not known of the nodes of one root."""
@@ -244,24 +227,21 @@ class Runs:
             return
         workspace = await self._session.workspace()
         requests = await self._requests(workspace, analysis, broken)
-        known = self._known.setdefault(analysis.launch, {})
+        root, results = analysis.launch, self._results
         if not broken.files:  # else what an error hides comes back
-            for key in set(known) - set(requests):
-                del known[key]
-        missing = {k: r for k, r in requests.items() if k not in known or known[k].request != r}
-        edition = self._edition
-        fresh = frozenset(self._fresh.get(analysis.launch, ()))
-        kept = {k: r for k, r in missing.items() if k not in fresh}
+            results.keep(root, requests)
+        lacking = results.lacking(root, requests)
+        edition = results.edition
+        fresh = frozenset(self._fresh.get(root, ()))
+        kept = {k: r for k, r in lacking.items() if k not in fresh}
         hits = await self._session.in_pool(lambda: {k: tracer.lookup(r) for k, r in kept.items()})
         found = {k: hit for k, hit in hits.items() if hit is not None}
-        changed = any(k not in known or known[k].interface != hit for k, hit in found.items())
-        current = edition == self._edition
-        known.update({k: Known(missing[k] if current else None, hit) for k, hit in found.items()})
-        if changed:
-            self._session.results_changed()
-        remaining = {k: r for k, r in missing.items() if k not in found}
+        news = [results.put(root, k, lacking[k], hit, edition) for k, hit in found.items()]
+        if any(news):
+            self._session.analyses.ask_again()
+        remaining = {k: r for k, r in lacking.items() if k not in found}
         if remaining and not self._closing:
-            await self._run(tracer, analysis.launch, remaining)
+            await self._run(tracer, root, remaining)
 
     async def _requests(self, workspace: Workspace, analysis: Analysis, broken: Broken) -> dict[NodeKey, TraceRequest]:
         """What to run; not what is being typed: a tag with a syntax error is not worth a run."""
@@ -278,8 +258,7 @@ class Runs:
         fresh = self._fresh.get(root, set())
         jobs = [_Job(requests[key], key in fresh) for key in keys]
         batch = self._batch = _Batch(root, dict(zip(keys, jobs, strict=True)), progress)
-        known = self._known.setdefault(root, {})
-        edition = self._edition
+        edition = self._results.edition
         done = 0
 
         def one_done(index: int, interface: Interface) -> None:
@@ -287,7 +266,7 @@ class Runs:
             done += 1
             key, job = keys[index], jobs[index]
             if interface.known or not job.cancel.is_set():
-                known[key] = Known(job.request if edition == self._edition else None, interface)
+                self._results.put(root, key, job.request, interface, edition)
             self._fresh.get(root, set()).discard(key)
             progress.report(done, len(keys), key[0])
 
@@ -308,12 +287,12 @@ class Runs:
         finally:
             self._batch = None
             progress.end("cancelled" if batch.cancelled.is_set() else counted(len(keys), "node"))
-        self._session.results_changed()
+        self._session.analyses.ask_again()
 
     async def _reconsider(self, batch: _Batch) -> None:
         """End the runs of a batch that the launch file does not ask for any more, and let the root that the user looks
         at now go first. A run that is under way may still tell what is asked for now: that depends on what it reads."""
-        roots = self._session.roots()
+        roots = self._session.analyses.of_roots()
         analysis = next((a for a in roots if a.launch == batch.root), None)
         if analysis is None:
             batch.stop()
@@ -328,6 +307,5 @@ class Runs:
                 job.cancel.set()
 
     async def _wants_runs(self, workspace: Workspace, analysis: Analysis) -> bool:
-        known = self._known.get(analysis.launch, {})
         requests = await self._requests(workspace, analysis, Broken(analysis))
-        return any(key not in known or known[key].request != request for key, request in requests.items())
+        return bool(self._results.lacking(analysis.launch, requests))

@@ -62,12 +62,12 @@ class Status:
             self._server.protocol.notify(STATUS, now)
 
     def _broken(self) -> list[str]:
-        analyses = (analysis for session in self._server.sessions for analysis in session.roots())
+        analyses = (analysis for session in self._server.sessions for analysis in session.analyses.of_roots())
         documents = (document for analysis in analyses for document in analysis.documents.values())
         return sorted({to_uri(document.path) for document in documents if document.problems})
 
     def _missing(self) -> dict[str, list[str]]:
-        found = [each for session in self._server.sessions for each in session.missing]
+        found = [each for session in self._server.sessions for each in session.analyses.missing]
         return {"lines": list(in_words(found)), "commands": list(commands(found))}
 
     def _analysed(self) -> None:

@@ -30,6 +30,6 @@ def register(server: PreflightServer) -> None:
         positions = view.converter.positions(view.path)
         offset = positions.offset(params.position)
         context = await query_context(view)
-        unseen = max(0, len(view.session.roots_of(view.path)) - len(view.analyses))
+        unseen = max(0, len(view.session.choice.of(view.path)) - len(view.analyses))
         found = await view.session.in_pool(lambda: query(context.analyses, view.path, offset, unseen))
         return types.Hover(_content(ls, found.markdown), positions.range(found.span)) if found else None

@@ -75,5 +75,5 @@ def register(server: PreflightServer) -> None:
         for session in ls.sessions:
             environment = (await session.workspace()).environment
             # An empty command is run, nothing of the workspace's.
-            pages.append(page(environment, await session.in_pool(sandbox.probe), session.missing))
+            pages.append(page(environment, await session.in_pool(sandbox.probe), session.analyses.missing))
         return {"text": "\n".join(pages)}

@@ -49,7 +49,7 @@ def register(server: PreflightServer) -> None:
         path, session = to_path(uri), ls.session_of(uri)
         if session is None or path is None:
             return {"shown": None, "roots": []}
-        found = [_to_json(session, root) for root in session.roots_of(path)]
+        found = [_to_json(session, root) for root in session.choice.of(path)]
         return {"shown": next(iter(found), None), "roots": found}
 
     @server.feature(SELECT_ROOT)
@@ -62,5 +62,5 @@ def register(server: PreflightServer) -> None:
         wanted = given.get("root")
         root = _from_json(wanted)
         message = await session.select(path, root) if wanted is None or root else "the root is no file"
-        shown = next(iter(session.roots_of(path)), None)
+        shown = next(iter(session.choice.of(path)), None)
         return {"shown": _to_json(session, shown) if shown is not None else None, "message": message}

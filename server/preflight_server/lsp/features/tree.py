@@ -30,7 +30,7 @@ def register(server: PreflightServer) -> None:
         view = await ls.view_of(str(as_mapping(params).get("uri", "")), python=True)
         if view is None:
             return None
-        analysis, findings = view.analysis, view.session.findings
+        analysis, findings = view.analysis, view.session.analyses.findings
 
         def work() -> dict[str, Any]:
             found = node_tree(analysis, findings)
