@@ -10,7 +10,13 @@ from pathlib import Path
 from preflight_analysis.generation import ROS1, ROS2, Generation, ros
 
 ROOT = Path(__file__).parent.parent.parent
-SOURCES = sorted(path for folder in ("analysis", "server") for path in (ROOT / folder).rglob("*.py"))
+SOURCES = sorted(
+    path
+    for folder in ("analysis", "server")
+    for path in (ROOT / folder).rglob("*.py")
+    if "agents" not in path.parts  # what runs inside the sandbox knows nothing of `generation.py`
+)
+_NUMBERED = {"generation", "_generation", "generation_of"}
 IS_IT_THIS_ONE = {
     "analysis/preflight_analysis/evaluation/launch.py": 1,  # what ROS 2 needs is imported only then
     "analysis/preflight_analysis/evaluation/tags.py": 2,  # likewise
@@ -23,8 +29,8 @@ def _comparisons(path: Path) -> Iterator[ast.Compare]:
     text = path.read_text()
     for node in ast.walk(ast.parse(text)) if "generation" in text else ():
         if isinstance(node, ast.Compare):
-            names = {getattr(each, "attr", getattr(each, "id", "")) for each in (node.left, *node.comparators)}
-            if "generation" in names and any(_is_number(each) for each in (node.left, *node.comparators)):
+            names = {getattr(each, "attr", getattr(each, "id", "")) for each in ast.walk(node)}
+            if names & _NUMBERED and any(_is_number(each) for each in (node.left, *node.comparators)):
                 yield node
 
 

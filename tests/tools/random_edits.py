@@ -372,7 +372,7 @@ class Harness:
 def _with_graph(workspace: Workspace, analysis: Analysis) -> Analysis:
     """The analysis as if its nodes had been run: what they do is made up from how they are started."""
     told = dict(zip(node_keys(analysis.tree), map(_interface, analysis.tree.nodes), strict=True))
-    workspace.tell(analysis.launch, RunResults(told))
+    workspace.set_results(analysis.launch, RunResults(told))
     return workspace.analysed(analysis.root, dict(analysis.args))
 
 

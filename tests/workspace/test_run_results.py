@@ -26,7 +26,7 @@ class Launch:
         self.static = self.workspace.static(str(path))
 
     def analysis(self, results: RunResults) -> Analysis:
-        self.workspace.tell(self.static.launch, results)
+        self.workspace.set_results(self.static.launch, results)
         return self.workspace.analysed(self.static.root)
 
     def reasons(self, results: RunResults) -> list[str | None]:

@@ -59,13 +59,13 @@ def by_file(
 
 def lacks_once(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """The findings of a file, of those that show the same lack of this machine only the first."""
-    told: set[Lack] = set()
+    shown_before: set[Lack] = set()
     shown = []
     for finding in findings:
-        if finding.lack is None or finding.lack not in told:
+        if finding.lack is None or finding.lack not in shown_before:
             shown.append(finding)
         if finding.lack is not None:
-            told.add(finding.lack)
+            shown_before.add(finding.lack)
     return tuple(shown) if len(shown) < len(findings) else findings
 
 

@@ -16,6 +16,7 @@ from preflight_analysis.catalogue.launches import SUFFIX
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import Span
+from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Literal, Substitution, Typed, Value
 from preflight_analysis.launch.substitutions import parse_value
 
@@ -74,7 +75,7 @@ class _Reader:
             plain = written["v"]
             text = json.dumps(plain) if isinstance(plain, (bool, list)) else str(plain)
             return Value(text, span, (Literal(text, span),), typed=Typed(plain))
-        if self._generation == 1:
+        if not ros(self._generation).nested_substitutions:
             at = (*(span.start,) * len(written), span.end)
             return parse_value(SpannedText(written, span, at))
         parts = tuple(_parts(written if isinstance(written, list) else [written], span))

@@ -29,6 +29,8 @@ LAUNCH_SUFFIXES = (
     *(f"{mark}launch.{suffix}" for mark in "._" for suffix in ("xml", "yaml", "yml", "py")),
 )
 """Launch files by their name; any other file is one if a launch file includes it."""
+_OF_XML = {1: read_ros1, 2: read_ros2_xml}
+"""Who reads XML, by generation."""
 LAUNCH_FOLDER = "launch"
 """Where packages have their launch files, whatever they are called."""
 LAUNCH_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
@@ -86,9 +88,7 @@ def read_launch(
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
     document = parse_xml(path, text, source.encoding, source.lines, before.document if before is not None else None)
-    if (generation or generation_of(path, text, undecided, of_package)) == 2:
-        return read_ros2_xml(document)
-    return read_ros1(document)
+    return _OF_XML[generation or generation_of(path, text, undecided, of_package)](document)
 
 
 def is_yaml(path: str) -> bool:

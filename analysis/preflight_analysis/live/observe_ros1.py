@@ -84,7 +84,7 @@ class Ros1Observer:
         """The system as it is now, asked for so many seconds at most. Raises `CannotObserveError`."""
         until = time.monotonic() + min(within, _LOOK_SECONDS)
         try:
-            publishers, subscribers, services = (_side(side) for side in _call(until, self.uri, "getSystemState"))
+            publishers, subscribers, services = (_by_name(pairs) for pairs in _call(until, self.uri, "getSystemState"))
             types = {str(name): str(kind) for name, kind in _call(until, self.uri, "getTopicTypes")}
         except (*_FAILURES, _RefusedError) as error:
             raise CannotObserveError(
@@ -155,7 +155,7 @@ class Ros1Observer:
         return found
 
 
-def _side(given: Any) -> dict[str, list[str]]:
+def _by_name(given: Any) -> dict[str, list[str]]:
     return {str(name): [str(node) for node in nodes] for name, nodes in given}
 
 

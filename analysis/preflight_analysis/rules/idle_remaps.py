@@ -89,7 +89,7 @@ def _idle(graph: Graph, idle: Iterable[tuple[Remap, ...]]) -> Iterator[IdleRemap
 def _reports_names(node: LaunchNode, interface: Interface) -> bool:
     """Whether a run showed, or the source tells, all names that the node uses. One that made nothing of its own is a
     wrapper or a loader of something else, whose names nobody saw."""
-    if interface.declared or not interface.told or node.unknowns:
+    if interface.declared or not interface.known_in_full or node.unknowns:
         return False
     if node.package == "nodelet":
         return False  # those of images subscribe only while somebody reads what they make of it

@@ -175,7 +175,7 @@ def _known(context: Context) -> frozenset[str]:
     if graph is None:
         return frozenset()
     pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
-    return frozenset(node.name for node, interface in pairs if interface.told)
+    return frozenset(node.name for node, interface in pairs if interface.known_in_full)
 
 
 RULE = Rule(

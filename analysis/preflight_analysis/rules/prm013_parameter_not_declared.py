@@ -32,14 +32,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             near = nearest(param.name, declared)
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
-            severity: Severity = "warning" if near or interface.told else "info"
+            in_full = interface.known_in_full
+            severity: Severity = "warning" if near or in_full else "info"
             use = declared.get(near) if near is not None else None
             related = [related_node(node)]
             yield rule.finding(
                 f"{node.name} declares no parameter '{param.name}': its value is ignored{did_you_mean(near)}",
                 param.place,
                 severity=severity,
-                confidence="likely" if interface.told or (use is not None and not use.inferred) else "possible",
+                confidence="likely" if in_full or (use is not None and not use.inferred) else "possible",
                 related=(*related, *include_chain(node.origin)),
                 fixes=_rename(context, param, near) if near is not None else (),
             )

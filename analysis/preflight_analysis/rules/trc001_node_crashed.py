@@ -26,7 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
         reads = [read for read in context.graph.param_reads if read.node is node]
         lacking = next(filter(None, map(lost.why, reads)), None)
-        lacking = lacking or next((why for read in reads if (why := lost.why_perhaps(read, outcome))), None)
+        lacking = lacking or next((why for read in reads if (why := lost.possible_cause(read, outcome))), None)
         # Of a parameter that is missing another rule says more, as a warning.
         reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
@@ -85,7 +85,7 @@ class _LostParams:
                 return f"'{read.name}', which has no value: {reason}"
         return None
 
-    def why_perhaps(self, read: ParamRead, outcome: Outcome) -> str | None:
+    def possible_cause(self, read: ParamRead, outcome: Outcome) -> str | None:
         """The same of one that nobody sets and of which the node complained at its end, where not all of the launch is
         known: an include of a package that is not here may set it."""
         if self._complete or read.name in self._set or read.use.has_default:

@@ -91,7 +91,7 @@ def _by_holder(
 
 def reports_params(interface: Interface) -> bool:
     """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
-    return interface.told and (not interface.declared or bool(interface.params))
+    return interface.known_in_full and (not interface.declared or bool(interface.params))
 
 
 def fits(value: object, read: ParamRead) -> bool:

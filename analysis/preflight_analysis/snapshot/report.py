@@ -33,8 +33,8 @@ def to_json(found: Difference) -> dict[str, Any]:
     """The contract's object."""
     return {
         "schema": SCHEMA,
-        "before": _side(found.before),
-        "after": _side(found.after),
+        "before": _operand(found.before),
+        "after": _operand(found.after),
         "same": found.same,
         "changes": [
             {
@@ -127,7 +127,7 @@ def _counted(noun: str, counts: Mapping[str, int]) -> Iterator[str]:
     return (f"{count} {noun}{'' if count == 1 else 's'} {word}" for word, count in counts.items() if count)
 
 
-def _side(snapshot: Snapshot) -> dict[str, Any]:
+def _operand(snapshot: Snapshot) -> dict[str, Any]:
     return {"launch": snapshot.launch, "generation": snapshot.generation, "args": dict(snapshot.args)}
 
 

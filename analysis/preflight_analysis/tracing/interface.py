@@ -258,7 +258,7 @@ class Interface:
         return self.declared or spins
 
     @property
-    def told(self) -> bool:
+    def known_in_full(self) -> bool:
         """Whether it was seen to do all that it does, or its source tells: what is not there is likely not there."""
         return self.complete or (self.source == "source" and self.whole)
 
@@ -270,7 +270,7 @@ class Interface:
         if self.looks and not self.declared:
             return False
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
-        return self.told or (self.known and done)
+        return self.known_in_full or (self.known and done)
 
     def own_name(self, namespace: str) -> str | None:
         """ROS 2: the full name of the node, where its own code gives it one, in a namespace of the launch file (`/` for

@@ -189,8 +189,8 @@ class Workspace:
         return _static(self.sources.db, self, root.path, root.args)
 
     def analysed(self, path: str, args: Mapping[str, str] | None = None) -> Analysis:
-        """All that is known of `path` launched with `args`, by what was told of its runs (`tell`). The disk is looked
-        at as for `static`. While the first runs are under way it says nothing of the graph."""
+        """All that is known of `path` launched with `args`, by what is known of its runs (`set_results`). The disk is
+        looked at as for `static`. While the first runs are under way it says nothing of the graph."""
         root = self._looked_at(path, args)
         return _analysed(self.sources.db, self, root.path, root.args)
 
@@ -199,14 +199,14 @@ class Workspace:
         root = self._looked_at(path, args)
         return _evaluated(self.sources.db, self, root.path, root.args)
 
-    def tell(self, root: Root, results: RunResults) -> None:
+    def set_results(self, root: Root, results: RunResults) -> None:
         """What is known now of the runs of the nodes of a root."""
         db = self.sources.db
         if RESULTS(db, self, root) != results:
             with db.writing() as write:
                 write.set(RESULTS, results, self, root)
 
-    def tell_branches(self, root: Root, branches: Branches) -> bool:
+    def set_branches(self, root: Root, branches: Branches) -> bool:
         """What is known now of the tags that a root leaves out; whether that is something else than before."""
         db = self.sources.db
         if BRANCHES(db, self, root) == branches:

@@ -136,7 +136,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                 settings = os.path.join(launch.home, SETTINGS_FILE)
                 if not changed or touched(project.analysis, changed[launch.home], settings):
                     branches = launch.workspace.branches(project.analysis)
-                    launch.workspace.workspace.tell_branches(project.analysis.launch, branches)
+                    launch.workspace.workspace.set_branches(project.analysis.launch, branches)
                     found.append(_Launched.of(root, run_nodes(project, args, report=progress.part), branches.untried))
     finally:
         progress.end()

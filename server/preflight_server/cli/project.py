@@ -175,7 +175,7 @@ def run_nodes(
         except KeyboardInterrupt:
             cancel.set()
             raise
-    workspace.tell(analysis.launch, RunResults(found, why))
+    workspace.set_results(analysis.launch, RunResults(found, why))
     return workspace.analysed(analysis.root, dict(analysis.args))
 
 

@@ -53,7 +53,7 @@ class Analyses:
         self._settled = asyncio.Event()
         self.calm = threading.Event()
         """Whether all that is shown is up to date: what runs in the background waits for that, thread or not."""
-        self._settle()
+        self._mark_settled()
 
     # When
 
@@ -134,7 +134,7 @@ class Analyses:
 
     # How a change becomes findings
 
-    def _settle(self) -> None:
+    def _mark_settled(self) -> None:
         self._settled.set()
         self.calm.set()
 
@@ -146,10 +146,10 @@ class Analyses:
                 self._news.clear()
                 workspace = await self._session.workspace()
                 shown = self._shown()
-                if not await self._turn(workspace, shown) or shown != self._shown():
+                if not await self._ask(workspace, shown) or shown != self._shown():
                     continue
-                self._settle()
-                if not await self._pauses() or not await self._turns(workspace, shown):
+                self._mark_settled()
+                if not await self._pauses() or not await self._ask_others(workspace, shown):
                     continue
                 if has_looked:
                     break
@@ -160,7 +160,7 @@ class Analyses:
                 elif not self._news.is_set():
                     break
         finally:
-            self._settle()
+            self._mark_settled()
         self._session.runs.wake()
         if self._branching is None or self._branching.done():
             self._branching = self._server.spawn(self._look_into_branches(workspace))
@@ -183,7 +183,7 @@ class Analyses:
                         found = Branches()
                     if not self._settled.is_set() or not self._session.uses(workspace):
                         return  # likewise
-                if await self._session.in_pool(partial(workspace.tell_branches, root, found)):
+                if await self._session.in_pool(partial(workspace.set_branches, root, found)):
                     self.ask_again()
                     return  # likewise
 
@@ -194,14 +194,14 @@ class Analyses:
                 await asyncio.wait_for(self._news.wait(), pause)
         return not self._news.is_set()
 
-    async def _turns(self, workspace: Workspace, shown: Collection[Root]) -> bool:
+    async def _ask_others(self, workspace: Workspace, shown: Collection[Root]) -> bool:
         """Ask for the roots that no file is shown in, one after another; whether nothing came before that."""
         for root in self._wanted():
-            if root not in shown and not await self._turn(workspace, [root], only_news=True):
+            if root not in shown and not await self._ask(workspace, [root], only_news=True):
                 return False
         return True
 
-    async def _turn(self, workspace: Workspace, asked: Collection[Root], *, only_news: bool = False) -> bool:
+    async def _ask(self, workspace: Workspace, asked: Collection[Root], *, only_news: bool = False) -> bool:
         """Ask for some roots, and put the findings of all of them together; whether that is the last word."""
         snapshot = self._snapshot(asked, only_news)
         try:

@@ -1,6 +1,6 @@
 """What runs told of the nodes of each root, as far as it was not taken back: where the database has it from.
 
-Like a file it lies outside, and is read with each snapshot (`Workspace.tell`). Which request a result is of says
+Like a file it lies outside, and is read with each snapshot (`Workspace.set_results`). Which request a result is of says
 whether a node has to be run again, and nothing else: no value depends on it.
 """
 

@@ -75,7 +75,7 @@ class Snapshot:
     def round(self, workspace: Workspace) -> Round | None:
         """What follows from it; None where an edit came first. Call it in a thread."""
         for root, results in self.results.items():
-            workspace.tell(root, results)
+            workspace.set_results(root, results)
         workspace.look_at(self.asked)
         with suppress(Cancelled), workspace.sources.db.reading():
             return self._asked(workspace)

@@ -32,8 +32,8 @@ sys.path.insert(0, str(Path(__file__).parents[2]))  # tests/, as pytest has it
 
 from tools.endurance import materials, table
 from tools.endurance.conditions import Row, conditions
-from tools.endurance.desk import Step
 from tools.endurance.lsp_process import Failure
+from tools.endurance.scripted_editor import Step
 from tools.endurance.shrink import shrunk
 from tools.endurance.sitting import Figures, Runner
 
@@ -62,7 +62,7 @@ def edits(
         runner = Runner(packages, Path(scratch), seeds, trusted=trusted)
         began = time.monotonic()
         for each in seeds[1:]:
-            if (left := wanted - runner.desk.edits) <= 0 or time.monotonic() - began > 60 * minutes:
+            if (left := wanted - runner.editor.edits) <= 0 or time.monotonic() - began > 60 * minutes:
                 break
             try:
                 runner.sit(each, min(SITTING, left), compare_every)

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tools.endurance import materials
-from tools.endurance.desk import AT_PLACE, OF_FILE, Desk, Step, question, readable
 from tools.endurance.lsp_process import Failure, LspProcess, descendants
+from tools.endurance.scripted_editor import AT_PLACE, OF_FILE, ScriptedEditor, Step, question, readable
 from tools.endurance.typist import Typist
 
 EQUAL_SECONDS = 90.0
@@ -92,7 +92,7 @@ def environments(root: Path, seeds: Sequence[int]) -> dict[Path, Mapping[str, st
 
 
 class Runner:
-    """One long-lived server below `scratch`, and the desk in front of it."""
+    """One long-lived server below `scratch`, and the editor in front of it."""
 
     def __init__(
         self,
@@ -121,7 +121,7 @@ class Runner:
         self._open_folders(self._base)
         self._rest()
         self.figures.megabytes[0] = self.server.megabytes()
-        self.desk = Desk(self.root, self.server)
+        self.editor = ScriptedEditor(self.root, self.server)
 
     def _start(self, name: str, folders: Sequence[Path]) -> LspProcess:
         home = self.root / "home"
@@ -145,8 +145,8 @@ class Runner:
         """Edit files of the workspaces, now and then of two more, compare, and close all of it."""
         chance = random.Random(seed)
         typist = self._begin(seed, chance)
-        before = self.desk.edits
-        while (left := before + edits - self.desk.edits) > 0:
+        before = self.editor.edits
+        while (left := before + edits - self.editor.edits) > 0:
             for step in typist.steps(min(compare_every, left)):
                 self._do(step)
             if self.trusted:
@@ -171,15 +171,15 @@ class Runner:
             self._rooms[seed] = make_room(self._packages, self.root, seed, _SMALL)
             self._open_folders(self._rooms[seed])
         names, pool = self._names(chance)
-        return Typist(self.desk, chance, names, pool, pauses=self.trusted)
+        return Typist(self.editor, chance, names, pool, pauses=self.trusted)
 
     def _do(self, step: Step) -> None:
         self.steps.append(step)
-        self.desk.do(step)
+        self.editor.do(step)
 
     def _end(self, seed: int) -> None:
         """Leave the server with the first workspaces alone, nothing open, and measure what it uses."""
-        self.desk.do(["wait"])
+        self.editor.do(["wait"])
         guest = self._rooms.pop(seed) if seed != self._seeds[0] and seed in self._rooms else None
         if guest is not None:
             self._open_folders(guest, close=True)
@@ -200,7 +200,7 @@ class Runner:
 
     def _take_over(self) -> None:
         for what in ("edits", "requests", "cancelled", "changes_on_disk"):
-            setattr(self.figures, what, getattr(self.desk, what))
+            setattr(self.figures, what, getattr(self.editor, what))
 
     def _names(self, chance: random.Random) -> tuple[list[str], list[str]]:
         """Files to be edited, of all formats, and texts to take pieces from."""
@@ -219,15 +219,15 @@ class Runner:
 
     def compare(self, chance: random.Random) -> None:
         """Raises `Failure` if a server that has just read the same has other findings or other answers."""
-        self.desk.do(["wait"])
+        self.editor.do(["wait"])
         self.check_faults()
         folders = [folder for room in self._rooms.values() for folder in room.folders]
         fresh = self._start("fresh", folders)
         try:
-            self.desk.reopen_in(fresh)
+            self.editor.reopen_in(fresh)
             fresh.rest(len(folders), STILL_SECONDS, EQUAL_SECONDS)
             self._until_equal(fresh)
-            for _ in range(QUESTIONS if self.desk.texts else 0):
+            for _ in range(QUESTIONS if self.editor.texts else 0):
                 self._ask_both(fresh, chance)
             if faults := fresh.faults():
                 raise Failure(f"the fresh server: {faults[0]}")
@@ -249,10 +249,10 @@ class Runner:
         raise Failure(f"other diagnostics than those of a fresh server: {_difference(self.server, fresh)}")
 
     def _ask_both(self, fresh: LspProcess, chance: random.Random) -> None:
-        name = chance.choice(list(self.desk.texts))
-        text = self.desk.texts[name]
+        name = chance.choice(list(self.editor.texts))
+        text = self.editor.texts[name]
         method = chance.choice((*AT_PLACE, *OF_FILE))
-        asked = question(method, self.desk.uri(name), text, chance.randrange(len(text) + 1))
+        asked = question(method, self.editor.uri(name), text, chance.randrange(len(text) + 1))
         answers = [each.request(f"textDocument/{method}", asked) for each in (self.server, fresh)]
         mine, other = (json.dumps({**each, "id": 0}, sort_keys=True) for each in answers)
         if mine != other:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from tools.endurance.desk import AT_PLACE, OF_FILE, Desk, Step, readable
+from tools.endurance.scripted_editor import AT_PLACE, OF_FILE, ScriptedEditor, Step, readable
 
 LONGEST = 12_000
 """Of a text, in characters; a longer one is taken back to what it was."""
@@ -98,33 +98,39 @@ NO_TEXT = ("fffe3c006c00", "80818283", "00" * 40, "3c6c61756e63683ee9")
 
 
 class Typist:
-    """Steps for the files of a desk. `names` are those that it opens, `pool` the texts that it takes pieces from."""
+    """Steps for the files of an editor. `names` are those that it opens, `pool` the texts that it takes pieces from."""
 
     def __init__(
-        self, desk: Desk, chance: random.Random, names: Sequence[str], pool: Sequence[str], *, pauses: bool = False
+        self,
+        editor: ScriptedEditor,
+        chance: random.Random,
+        names: Sequence[str],
+        pool: Sequence[str],
+        *,
+        pauses: bool = False,
     ) -> None:
-        self._desk = desk
+        self._editor = editor
         self._pauses = pauses
         self._chance = chance
         self._names = list(names)
-        self._originals = {name: readable(desk.path(name)) or "" for name in names}
+        self._originals = {name: readable(editor.path(name)) or "" for name in names}
         folders = sorted({os.path.dirname(name) for name in names})
         self._extra = [f"{folder}/new{suffix}" for folder in folders for suffix in (".launch", ".launch.xml")]
         self._manifests = sorted(
-            {str(p.relative_to(desk.root)) for name in names for p in _above(desk, name) if p.is_file()}
+            {str(p.relative_to(editor.root)) for name in names for p in _above(editor, name) if p.is_file()}
         )
         self._pool = pool
 
     def steps(self, edits: int) -> Iterator[Step]:
         """Until so many edits were made. Each step has been carried out when the next one is asked for."""
-        end = self._desk.edits + edits
-        while self._desk.edits < end:
+        end = self._editor.edits + edits
+        while self._editor.edits < end:
             yield from self._one()
 
     def _one(self) -> Iterator[Step]:
         """One thing that somebody does."""
-        desk, chance = self._desk, self._chance
-        opened = list(desk.texts)
+        editor, chance = self._editor, self._chance
+        opened = list(editor.texts)
         kinds = ["type", "erase", "paste", "cut", "word", "value", "undo", "revert", "many", "open", "close", "save"]
         weights = [10, 4, 8, 6, 6, 8, 6, 2, 3, 4, 2, 2, 3, 12 if self._pauses else 3]
         kind = chance.choices([*kinds, "disk", "wait"], weights)[0]
@@ -148,7 +154,7 @@ class Typist:
                     yield self._question(name, edit[-1][0], chance.random() < 0.5)
 
     def _edits(self, kind: str, name: str) -> Iterator[list[tuple[int, int, str]]]:
-        chance, text = self._chance, self._desk.texts[name]
+        chance, text = self._chance, self._editor.texts[name]
         if len(text) > LONGEST or kind == "revert" or not text:
             yield [(0, len(text), self._originals.get(name) or NEW[0])]
             return
@@ -168,7 +174,7 @@ class Typist:
         elif kind == "value":
             yield from self._value(name, text)
         elif kind == "undo":
-            before = self._desk.undo[name]
+            before = self._editor.undo[name]
             if before:
                 yield [(0, len(text), before[-chance.randrange(1, len(before) + 1)])]
         else:  # many cursors
@@ -221,7 +227,7 @@ class Typist:
         other = chance.choice(self._names)
         kinds = ["write", "write", "delete", "rename", "folder", "link", "ring", "pipe", "bytes", "package", "restore"]
         kind = chance.choices(kinds, [3, 3, 3, 2, 1, 2, 2, 1, 1, 1, 8])[0]
-        beside = os.path.relpath(self._desk.path(other), self._desk.path(name).parent)
+        beside = os.path.relpath(self._editor.path(other), self._editor.path(name).parent)
         if kind == "write":
             own = os.path.basename(name)
             yield ["write", name, chance.choice(NEW).format(self=f"$(dirname)/{own}", other=f"$(dirname)/{beside}")]
@@ -235,7 +241,7 @@ class Typist:
             yield ["link", name, chance.choice([beside, "missing.launch", ".", ".."])]
         elif kind == "ring":
             yield ["link", name, chance.choice([os.path.basename(name), beside])]
-            yield ["link", other, os.path.relpath(self._desk.path(name), self._desk.path(other).parent)]
+            yield ["link", other, os.path.relpath(self._editor.path(name), self._editor.path(other).parent)]
         elif kind == "pipe":
             yield ["pipe", name]
         elif kind == "bytes":
@@ -254,18 +260,18 @@ class Typist:
 
     def _odd(self) -> list[str]:
         """Some of the files that are not what they were."""
-        odd = [name for name in self._names if readable(self._desk.path(name)) is None]
-        odd += [name for name in self._extra if os.path.lexists(self._desk.path(name))]
+        odd = [name for name in self._names if readable(self._editor.path(name)) is None]
+        odd += [name for name in self._extra if os.path.lexists(self._editor.path(name))]
         return self._chance.sample(odd, min(len(odd), 2))
 
     def restored(self, suffix: str = "") -> Iterator[Step]:
         """Everything with that suffix closed and as it was."""
-        for name in [name for name in self._desk.texts if name.endswith(suffix)]:
+        for name in [name for name in self._editor.texts if name.endswith(suffix)]:
             yield ["close", name]
         for name, text in self._originals.items():
             if not name.endswith(suffix):
                 continue
-            if self._desk.path(name).is_symlink() or readable(self._desk.path(name)) != text:
+            if self._editor.path(name).is_symlink() or readable(self._editor.path(name)) != text:
                 yield ["write", name, text]
         for name in [*self._extra, *(name + ".launch" for name in self._names)]:
             if name.endswith(suffix):
@@ -277,5 +283,5 @@ def _typed(at: int, text: str) -> Iterator[list[tuple[int, int, str]]]:
         yield [(at + count, at + count, char)]
 
 
-def _above(desk: Desk, name: str) -> list[Path]:
-    return [parent / "package.xml" for parent in desk.path(name).parents if desk.root in parent.parents]
+def _above(editor: ScriptedEditor, name: str) -> list[Path]:
+    return [parent / "package.xml" for parent in editor.path(name).parents if editor.root in parent.parents]

@@ -53,8 +53,8 @@ class Events:
         """What it was told so far."""
         return tuple(self._noted)
 
-    def tell(self, noted: Iterable[Noted]) -> None:
-        """What another one was told."""
+    def repeat(self, noted: Iterable[Noted]) -> None:
+        """Note what another one did."""
         for what, place, told in noted:
             what(self, place, told)
 

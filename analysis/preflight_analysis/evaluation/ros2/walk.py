@@ -208,7 +208,7 @@ class Walk:
             return
         self.state.absorb(record.added, MAX_INCLUDES)
         self.context.change(record.changes)
-        self.events.tell(record.events)
+        self.events.repeat(record.events)
         self._add_names(record.names)
         self.recorded.update(record.recorded)
         self.missing_below += record.missing_below

@@ -71,7 +71,7 @@ def question(method: str, uri: str, text: str, at: int) -> dict[str, Any]:
 
 
 @dataclass
-class Desk:
+class ScriptedEditor:
     """An editor with some files of a folder open, connected to a server."""
 
     root: Path
