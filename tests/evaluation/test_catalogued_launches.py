@@ -10,11 +10,9 @@ from typing import Any
 import pytest
 from preflight_analysis.catalogue import launches
 from preflight_analysis.documents.reading import Text
-from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.launch.catalogued import read_catalogued
-from preflight_analysis.tracing.interface import NOT_RUN
-from preflight_analysis.workspace.sources import Sources
-from preflight_analysis.workspace.workspace import Analysis, Workspace
+from preflight_analysis.workspace.workspace import Analysis
+from support.package_elsewhere import analysed
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
 ROS1: list[list[Any]] = [
@@ -65,19 +63,6 @@ def catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]
     launches.launch_files_of.cache_clear()
     yield folder
     launches.launch_files_of.cache_clear()
-
-
-def analysed(tmp_path: Path, text: str, name: str = "a.launch", distro: str | None = None, **files: str) -> Analysis:
-    folder = tmp_path / "ws" / "src" / "robot"
-    manifest = "<package><name>robot</name><exec_depend>scanner</exec_depend></package>"
-    for path, content in {"package.xml": manifest, name: text, **files}.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(content)
-    variables = {"ROS_DISTRO": distro} if distro else {}
-    environment = detect_environment(str(tmp_path / "ws"), variables, root=str(tmp_path / "nowhere"))
-    workspace = Workspace(environment, Sources(), str(tmp_path / "ws"))
-    analysis = workspace.static(str(folder / name))
-    return workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), None)
 
 
 def include(file: str, *arguments: str, ros2: bool = False) -> str:

@@ -353,19 +353,19 @@ def look(generation: int, texts: Mapping[str, str], root: str, answers: str | No
     index = build_index(workspace, str(there.folder), ())
     if index is None:
         return
-    scene = QueryContext(path, (analysis,), index, workspace)
-    for target in definition(scene, offset, analysis.findings):
+    context = QueryContext(path, (analysis,), index, workspace)
+    for target in definition(context, offset, analysis.findings):
         check_spans(target, text) if target.__class__ is Span else None
-    for reference in references(scene, offset):
+    for reference in references(context, offset):
         check_location(reference.location, documents)
-    lenses(scene)
-    for item in items_at(scene, offset):
+    lenses(context)
+    for item in items_at(context, offset):
         str(item)
-    incoming(scene)
-    outgoing(scene)
+    incoming(context)
+    outgoing(context)
     with contextlib.suppress(RenameRefusedError):
-        prepare(scene, offset)
-        for edit in rename(scene, offset, "new_name"):
+        prepare(context, offset)
+        for edit in rename(context, offset, "new_name"):
             check_location(edit.location, documents)
 
 

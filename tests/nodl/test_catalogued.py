@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 from preflight_analysis.catalogue import packages
-from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.nodl import catalogued
-from preflight_analysis.tracing.interface import NOT_RUN, ParamUse, Range
-from preflight_analysis.workspace.sources import Sources
-from preflight_analysis.workspace.workspace import Analysis, Workspace
+from preflight_analysis.tracing.interface import ParamUse, Range
+from support import package_elsewhere
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
 SCANNER = {
@@ -44,25 +43,13 @@ def catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     catalogued.catalogued.cache_clear()
 
 
+analysed = partial(package_elsewhere.analysed, distro="noetic")
+
+
 def graph_of(tmp_path: Path, text: str, name: str = "a.launch", **files: str) -> Graph:
     graph = analysed(tmp_path, text, name, **files).graph
     assert graph is not None
     return graph
-
-
-def analysed(
-    tmp_path: Path, text: str, name: str = "a.launch", distro: str | None = "noetic", **files: str
-) -> Analysis:
-    folder = tmp_path / "ws" / "src" / "robot"
-    folder.mkdir(parents=True)
-    for path, content in {"package.xml": "<package><name>robot</name></package>", name: text, **files}.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(content)
-    variables = {"ROS_DISTRO": distro} if distro else {}
-    environment = detect_environment(str(tmp_path / "ws"), variables, root=str(tmp_path / "nowhere"))
-    workspace = Workspace(environment, Sources(), str(tmp_path / "ws"))
-    analysis = workspace.static(str(folder / name))
-    return workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), None)
 
 
 def known(graph: Graph) -> list[tuple[Any, ...]]:

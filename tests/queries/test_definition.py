@@ -11,7 +11,7 @@ from support.workspace_harness import create_workspace
 
 def gone_to(tmp_path: Path, text: str) -> list[str]:
     workspace = create_workspace(tmp_path, text)
-    return [workspace.shown(target.location) for target in definition(workspace.scene, workspace.offset, ())]
+    return [workspace.shown(target.location) for target in definition(workspace.context, workspace.offset, ())]
 
 
 def test_an_argument_that_is_passed_leads_into_the_included_file(tmp_path: Path) -> None:

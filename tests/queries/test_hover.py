@@ -23,7 +23,7 @@ INCLUDES = """
 def hovered(tmp_path: Path, text: str, *, named: tuple[Root, ...] = (), unseen: int = 0) -> list[str]:
     """The lines of the hover at the cursor, without the empty ones."""
     workspace = create_workspace(tmp_path, text, named=named)
-    found = hover(workspace.scene.analyses, workspace.scene.path, workspace.offset, unseen)
+    found = hover(workspace.context.analyses, workspace.context.path, workspace.offset, unseen)
     return [line for line in found.markdown.split("\n") if line] if found else []
 
 
@@ -104,7 +104,7 @@ def test_many_roots(tmp_path: Path) -> None:
     )
     text = '    <launch><arg name="rate"/><param name="a" value="$(arg $0rate)"/></launch>' + roots
     workspace = create_workspace(tmp_path, text, analysed=12)
-    found = hover(workspace.scene.analyses, workspace.scene.path, workspace.offset, 3)
+    found = hover(workspace.context.analyses, workspace.context.path, workspace.offset, 3)
     assert found is not None
     lines = found.markdown.split("\n")
     assert len([word for line in lines for word in line.split() if word.startswith("`r")]) == 8 + 1

@@ -53,7 +53,7 @@ def named(items: tuple[Item, ...], name: str) -> Item:
 
 def test_namespaces_nodes_includes_and_what_is_left_out(tmp_path: Path) -> None:
     workspace = create_workspace(tmp_path, ROBOT)
-    analysis = workspace.scene.analyses[0]
+    analysis = workspace.context.analyses[0]
     items = treed(workspace, analysis)
     assert outline(items) == [
         "node base p/t",
@@ -75,7 +75,7 @@ def test_namespaces_nodes_includes_and_what_is_left_out(tmp_path: Path) -> None:
 
 def test_a_node_has_its_place_its_file_and_what_is_wrong_with_it(tmp_path: Path) -> None:
     workspace = create_workspace(tmp_path, ROBOT)
-    items = treed(workspace, workspace.scene.analyses[0])
+    items = treed(workspace, workspace.context.analyses[0])
     base, camera = named(items, "/base"), named(items, "/arm/left/camera")
     assert base.location is not None
     assert workspace.shown(base.location).startswith('main.launch:4 <node pkg="p" type="t" name="base"')
@@ -100,7 +100,7 @@ def test_a_file_included_twice_has_its_own_conditions_each_time(tmp_path: Path) 
         #!/bin/sh
         """,
     )
-    assert outline(treed(workspace, workspace.scene.analyses[0])) == [
+    assert outline(treed(workspace, workspace.context.analyses[0])) == [
         "namespace a/",
         "  node n p/t",
         "section Includes 2",
@@ -115,12 +115,12 @@ def test_what_a_node_was_seen_to_do_is_said_where_it_is_not_all(tmp_path: Path) 
     workspace = create_workspace(
         tmp_path, ROBOT + '//- interfaces\n    {"/base": {"publishers": {"odom": "nav_msgs/Odometry"}}}'
     )
-    items = treed(workspace, workspace.scene.analyses[0])
+    items = treed(workspace, workspace.context.analyses[0])
     assert named(items, "/base").note == ""
     unknown = create_workspace(
         tmp_path / "other", '$0<launch><node pkg="p" type="t" name="n" args="$(env NO_SUCH_ONE)"/></launch>'
     )
-    assert node_tree(unknown.scene.analyses[0], {}).items[0].note != ""
+    assert node_tree(unknown.context.analyses[0], {}).items[0].note != ""
 
 
 @pytest.mark.ros

@@ -116,7 +116,7 @@ def test_to_the_declaration_in_the_source(tmp_path: Path) -> None:
         f"//- p.yaml\npump:\n  ros__parameters:\n    ra$0te: 5.0\n//- interfaces\n{made}\n"
     )
     workspace = create_workspace(tmp_path, text)
-    assert [workspace.shown(t.location) for t in definition(workspace.scene, workspace.offset, ())] == [
+    assert [workspace.shown(t.location) for t in definition(workspace.context, workspace.offset, ())] == [
         "pump.py:2 declare('rate')"
     ]
 
@@ -142,7 +142,7 @@ def test_from_a_param_tag_to_the_declaration(tmp_path: Path) -> None:
         f"</launch>\n//- pump.py\nimport rclpy\ndeclare('rate')\n//- interfaces\n{made}\n"
     )
     workspace = create_workspace(tmp_path, text)
-    assert [workspace.shown(t.location) for t in definition(workspace.scene, workspace.offset, ())] == [
+    assert [workspace.shown(t.location) for t in definition(workspace.context, workspace.offset, ())] == [
         "pump.py:2 declare('rate')"
     ]
 
@@ -179,7 +179,7 @@ left:
 
 def test_a_renamed_node_keeps_its_parameters(tmp_path: Path) -> None:
     workspace = create_workspace(tmp_path, RENAMED % "fan")
-    edited = workspace.edited(rename(workspace.scene, workspace.offset, "motor"))
+    edited = workspace.edited(rename(workspace.context, workspace.offset, "motor"))
     assert "name: motor\n" in edited["main.launch.yaml"]
     keys = [line for line in edited["p.yaml"].split("\n") if "motor" in line or "pump" in line]
     assert keys == ["/left/motor:", "  motor:", "/*/motor:"]
@@ -188,4 +188,4 @@ def test_a_renamed_node_keeps_its_parameters(tmp_path: Path) -> None:
 def test_a_node_is_not_renamed_if_a_section_means_others_too(tmp_path: Path) -> None:
     workspace = create_workspace(tmp_path, RENAMED % "pump")
     with pytest.raises(RenameRefusedError, match="rename it by hand"):
-        rename(workspace.scene, workspace.offset, "motor")
+        rename(workspace.context, workspace.offset, "motor")

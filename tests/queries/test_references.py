@@ -12,7 +12,8 @@ def referred(tmp_path: Path, text: str) -> list[str]:
     """Where the thing at the cursor is named; declarations have a star."""
     workspace = create_workspace(tmp_path, text)
     return [
-        workspace.shown(r.location) + ("*" if r.declares else "") for r in references(workspace.scene, workspace.offset)
+        workspace.shown(r.location) + ("*" if r.declares else "")
+        for r in references(workspace.context, workspace.offset)
     ]
 
 

@@ -14,14 +14,14 @@ from support.workspace_harness import create_workspace
 def renamed(tmp_path: Path, text: str, new: str) -> dict[str, str]:
     """The files that a rename changes, after it; line ends as blanks."""
     workspace = create_workspace(tmp_path, text)
-    texts = workspace.edited(rename(workspace.scene, workspace.offset, new))
+    texts = workspace.edited(rename(workspace.context, workspace.offset, new))
     return {name: text.replace(str(tmp_path), "") for name, text in texts.items()}
 
 
 def refused(tmp_path: Path, text: str, new: str = "other", *, named: tuple[Root, ...] = ()) -> str:
     workspace = create_workspace(tmp_path, text, named=named)
     with pytest.raises(RenameRefusedError) as refusal:
-        rename(workspace.scene, workspace.offset, new)
+        rename(workspace.context, workspace.offset, new)
     return str(refusal.value)
 
 
@@ -149,7 +149,7 @@ def test_what_cannot_be_renamed(tmp_path: Path, tag: str, message: str) -> None:
 
 def test_nothing_to_rename(tmp_path: Path) -> None:
     workspace = create_workspace(tmp_path, "<launch>\n $0\n</launch>")
-    assert prepare(workspace.scene, workspace.offset) is None
+    assert prepare(workspace.context, workspace.offset) is None
 
 
 NODES = """
@@ -236,8 +236,8 @@ def test_roots_that_were_not_analysed_are_looked_at(tmp_path: Path) -> None:
         <launch><node pkg="p" type="t" name="$0talker"/></launch>
         """
     workspace = create_workspace(tmp_path, text, analysed=1)
-    assert len(workspace.scene.trees) == 1
-    assert sorted(workspace.edited(rename(workspace.scene, workspace.offset, "speaker"))) == [
+    assert len(workspace.context.trees) == 1
+    assert sorted(workspace.edited(rename(workspace.context, workspace.offset, "speaker"))) == [
         "inc.launch",
         "second.launch",
     ]

@@ -53,12 +53,12 @@ Filter::Filter(const rclcpp::NodeOptions & options) : Node("filter", options) {}
 
 def gone_to(tmp_path: Path, text: str, build_type: str = "ament_python", *, runs: bool = False) -> list[str]:
     workspace = create_workspace(tmp_path, text, build_type=build_type, runs=runs)
-    return [workspace.shown(target.location) for target in definition(workspace.scene, workspace.offset, ())]
+    return [workspace.shown(target.location) for target in definition(workspace.context, workspace.offset, ())]
 
 
 def named_at(tmp_path: Path, text: str, *, runs: bool = False) -> list[str]:
     workspace = create_workspace(tmp_path, text, build_type="ament_python", runs=runs)
-    return [workspace.shown(reference.location) for reference in references(workspace.scene, workspace.offset)]
+    return [workspace.shown(reference.location) for reference in references(workspace.context, workspace.offset)]
 
 
 def test_an_entry_point_leads_to_its_function(tmp_path: Path) -> None:
@@ -88,7 +88,7 @@ def test_a_component_leads_to_its_class(tmp_path: Path) -> None:
         "p/src/filter.hpp:3 class Filter : public rclcpp::Node {"
     ]
     workspace = create_workspace(tmp_path / "b", text + CPP, build_type="ament_cmake")
-    assert [workspace.shown(each.location) for each in references(workspace.scene, workspace.offset)] == [
+    assert [workspace.shown(each.location) for each in references(workspace.context, workspace.offset)] == [
         "main.launch.xml:3 p::Filter",
         "main.launch.xml:6 p::Filter",
         "p/src/filter.hpp:3 class Filter : public rclcpp::Node {",

@@ -14,6 +14,7 @@ async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(harness.launch_file)
         found = await editor.misspelling(harness.launch_file)
+        assert found.severity == types.DiagnosticSeverity.Warning
         assert found.source == "ros-preflight"
         assert "'/chatter'" in found.message
         assert "/talker" in found.message

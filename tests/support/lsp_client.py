@@ -233,21 +233,18 @@ class Editor:
         found = self.diagnostics(path)
         return None if found is None else sorted(str(d.code) for d in found)
 
-    async def having(
-        self, path: Path, rule: str, seconds: float = PATIENCE, *, severity: types.DiagnosticSeverity | None = None
-    ) -> types.Diagnostic:
-        """The diagnostic of that rule and, if one is given, that severity, as soon as it is there."""
+    async def having(self, path: Path, rule: str, seconds: float = PATIENCE, *, saying: str = "") -> types.Diagnostic:
+        """The diagnostic of that rule that says this, as soon as it is there."""
 
         def found() -> types.Diagnostic | None:
-            of_rule = (d for d in self.diagnostics(path) or () if d.code == rule)
-            return next((d for d in of_rule if severity in (None, d.severity)), None)
+            return next((d for d in self.diagnostics(path) or () if d.code == rule and saying in d.message), None)
 
         return await self.until(found, seconds)
 
     async def misspelling(self, path: Path) -> types.Diagnostic:
-        """The warning about the demo's misspelt topic, once all its nodes were run: while one of them still runs, there
-        is but a hint."""
-        return await self.having(path, "TOP001", severity=types.DiagnosticSeverity.Warning)
+        """What is said of the demo's misspelt topic once both of its nodes were run: while one of them still runs, there
+        is but a hint that knows no other name."""
+        return await self.having(path, "TOP001", saying="did you mean")
 
     async def without(self, path: Path, rule: str, seconds: float = PATIENCE) -> None:
         """Wait until the rule is silent on the file's present version."""

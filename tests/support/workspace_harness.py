@@ -40,21 +40,21 @@ _FILE = re.compile(r"//- (\S+)\s*\Z")
 
 @dataclass(frozen=True)
 class TestWorkspace:
-    """A scene, the cursor in it, and how to speak of what is in it."""
+    """Files on the disk, the cursor in it, and how to speak of what is in it."""
 
     __test__ = False  # pytest: no class of tests
 
     folder: Path
-    scene: QueryContext
+    context: QueryContext
     offset: int
 
     def shown(self, location: Location) -> str:
         """`inc.launch:3 what is written there`."""
-        document = self.scene.document(location.file)
+        document = self.context.document(location.file)
         line = document.lines.position(location.span.start)[0] + 1 if document else 1
         path = Path(location.file)
         name = path.relative_to(self.folder) if path.is_relative_to(self.folder) else path
-        return f"{name}:{line} {self.scene.text(location)}".strip()
+        return f"{name}:{line} {self.context.text(location)}".strip()
 
     def edited(self, edits: tuple[Edit, ...]) -> dict[str, str]:
         """The texts of the files that the edits change, after them."""

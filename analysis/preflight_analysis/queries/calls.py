@@ -42,12 +42,12 @@ def items_at(context: QueryContext, offset: int) -> tuple[Item, ...]:
 
 
 def incoming(context: QueryContext) -> tuple[Call, ...]:
-    """Who includes the scene's file, in the order of their paths."""
+    """Who includes the file of the context, in the order of their paths."""
     return _calls(context, ((i.includer, i) for i in context.current.includers(context.path)))
 
 
 def outgoing(context: QueryContext) -> tuple[Call, ...]:
-    """What the scene's file includes, in the order of its text."""
+    """What the file of the context includes, in the order of its text."""
     return _calls(context, ((i.target, i) for i in context.current.included_from(context.path)))
 
 

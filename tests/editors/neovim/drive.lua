@@ -129,7 +129,7 @@ function scenarios.fix()
   local remap = line_with('to="chater"')
   local diagnostic = wait_for("the listener's diagnostic", function()
     for _, d in ipairs(diagnostics_with('chatter')) do
-      if d.lnum == remap and d.severity == vim.diagnostic.severity.WARN then -- a hint while a node still runs
+      if d.lnum == remap then
         return d
       end
     end
