@@ -8,7 +8,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-INVARIANTS = re.findall(r"\*\*Invariant: (.*?)(?=\n\n)", (ROOT / "docs/architecture.md").read_text(), re.DOTALL)
+PAGE = (ROOT / "docs/architecture.md").read_text()
+INVARIANTS = re.findall(r"\*\*Invariant: (.*?)(?=\n\n)", PAGE, re.DOTALL)
+_FOLDERS = ("analysis", "server", "tests", "docs", "bench", "vscode-client/src")
+_NAMED = re.compile(r"`([\w./-]+\.(?:py|cpp|hpp|lua|ts|md))")
 _HOLDER = re.compile(r"`(tests/[\w/.]+|pyproject\.toml|analysis/ruff\.toml)(?:::(\w+))?`")
 
 
@@ -19,6 +22,13 @@ def test_an_invariant_names_what_holds_it(invariant: str) -> None:
     for path, name in named:
         assert (ROOT / path).exists(), path
         assert not name or re.search(rf"def {name}\(", (ROOT / path).read_text()), name
+
+
+def test_what_the_page_names_is_there() -> None:
+    named = {name for name in _NAMED.findall(PAGE) if not name.startswith("bench/out/")}
+    assert len(named) > 100
+    there = [f"/{path.relative_to(ROOT).as_posix()}" for folder in _FOLDERS for path in (ROOT / folder).rglob("*.*")]
+    assert sorted(name for name in named if not any(path.endswith(f"/{name}") for path in there)) == []
 
 
 def test_there_are_invariants() -> None:

@@ -242,7 +242,7 @@ class Editor:
         return await self.until(found, seconds)
 
     async def misspelling(self, path: Path) -> types.Diagnostic:
-        """What is said of the demo's misspelt topic once both of its nodes were run: while one of them still runs, there
+        """What is said of the misspelt topic of the demo once both of its nodes were run: while one still runs, there
         is but a hint that knows no other name."""
         return await self.having(path, "TOP001", saying="did you mean")
 
