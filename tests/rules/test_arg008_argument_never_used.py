@@ -174,3 +174,50 @@ def test_arguments_that_launch_itself_reads_are_used() -> None:
           <node pkg="p" exec="e" name="n"/>
         </launch>
     """)
+
+
+def test_an_argument_that_is_passed_to_a_file_which_never_uses_it_in_ros_2() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="speed" default="1.0"/>
+          <arg name="rate" default="10"/>
+          <include file="/inner.launch.xml">
+            <arg name="rate" value="$(var rate)"/>
+            <arg name="speed" value="$(var speed)"/>
+                       ^^^^^ warning[ARG008] 'speed' has no effect: '/inner.launch.xml' declares it and never uses it
+          </include>
+        </launch>
+        //- /inner.launch.xml
+        <launch>
+          <arg name="rate"/>
+          <arg name="speed"/>
+          <node pkg="p" exec="x" name="x"><param name="rate" value="$(var rate)"/></node>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_an_argument_that_is_passed_and_may_be_used_further_on_in_ros_2() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <include file="/inner.launch.xml">
+            <arg name="speed" value="1"/>
+            <arg name="rate" value="2"/>
+            <arg name="name" value="x"/>
+          </include>
+          <include file="/other.launch.xml"/>
+          <node pkg="p" exec="x" name="x"/>
+        </launch>
+        //- /inner.launch.xml
+        <launch>
+          <arg name="speed"/>
+          <arg name="rate"/>
+          <arg name="name"/>
+          <let name="which" value="$(var name)"/>
+          <!-- rate: for those that include this file -->
+        </launch>
+        //- /other.launch.xml
+        <launch><log message="$(var speed)"/></launch>
+    """)

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import ArgumentNeeded
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.finding import Finding, Fix, Related
@@ -31,7 +31,7 @@ _WITHOUT_NAMES = sys.stdlib_module_names | {
 }  # fmt: skip
 """Modules that take arguments by no name of their own."""
 _FALSE = ("false", "0", "")
-_FIXED = ("find", "dirname")
+_FIXED = ("find", "find-pkg-share", "dirname", "path-join")
 """Substitutions that give the same in every launch."""
 
 
@@ -47,6 +47,7 @@ class _Arguments:
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.tree.ros.shared_configurations:
         yield from _check_ros2(rule, context)
+        yield from _passed_in_vain_ros2(rule, context)
         return
     for launch_file, unused, substituted in filter(None, context.kept.each(_unused, context.launch_files.values())):
         path, declared = launch_file.path, declarations(launch_file)
@@ -176,6 +177,38 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _passed_in_vain_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
+    """What is passed to files that include nothing themselves. As an argument is known in all that comes after, no file
+    may name it which does not pass it."""
+    for path, includers in context.once(_includers).items():
+        launch_file = context.launch_files.get(path)
+        if launch_file is None or path in context.once(_includes):
+            continue
+        for name, span in _named_once(launch_file):
+            givers = {each.origin[-1]: each for each in includers if name in each.args}
+            passing = {path, *(place.file for place in givers)}
+            others = (document.text for file, document in context.documents.items() if file not in passing)
+            if givers and not any(name in other for other in others):
+                for include in givers.values():
+                    yield from _given_in_vain(rule, context, include, name, context.location(path, span))
+
+
+@memoize_by_file
+def _named_once(launch_file: LaunchFile) -> tuple[tuple[str, Span], ...]:
+    """The arguments that a file declares and names nowhere else, not even in a comment."""
+    python, text = launch_file.path.endswith(".py"), launch_file.document.text
+    if launch_file.document.problems or (python and _uses_others(text)):
+        return ()
+    if (_ANY_IN_PYTHON if python else _ANY).search(text):
+        return ()
+    values = ((name, tags[0].value("name")) for name, tags in declarations(launch_file).items())
+    return tuple(
+        (name, value.span)
+        for name, value in values
+        if value is not None and value.is_literal and len(re.findall(rf"(?<!\w){re.escape(name)}(?!\w)", text)) == 1
+    )
+
+
 def _uses_others(text: str) -> bool:
     return not set(_IMPORT.findall(text)) <= _WITHOUT_NAMES
 
@@ -240,7 +273,8 @@ RULE = Rule(
     what="Points out an `<arg>` that its own file does not use: in no `$(arg ...)`, no `$(eval ...)`, no text or file "
     'with `subst_value="true"`, under whatever conditions, and by no include with `pass_all_args`. One that an '
     "include passes is left alone: without the declaration that include would fail. In ROS 2, where all that is "
-    "included knows it, only in a launch of one file.",
+    "included knows it, only in a launch of one file. An include that passes an argument which the included file "
+    "declares and never uses is a warning.",
     why="Whoever sets it on the command line believes that it has an effect. An argument is known only in the file "
     "that declares it; what that file includes gets it only if it is passed.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',

@@ -11,6 +11,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.rules.installed import lack_of_file
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
@@ -56,7 +57,10 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     wanted = Path(path)
     siblings = {entry.name: entry for entry in map(Path, files_in(disk, str(wanted.parent), deep=False))}
     alike = [name for name in siblings if Path(name).suffix == wanted.suffix]
-    near = nearest(wanted.name, alike, key=_stem) or next((n for n in siblings if _stem(n) == wanted.stem), None)
+    # A launch file is meant by no name but that of one.
+    launches = () if wanted.name.endswith(LAUNCH_SUFFIXES) else LAUNCH_SUFFIXES
+    other = (name for name in siblings if _stem(name) == wanted.stem and not name.endswith(launches))
+    near = nearest(wanted.name, alike, key=_stem) or next(other, None)
     if near is not None:
         return str(siblings[near])
     share = package_folder(path, environment)
