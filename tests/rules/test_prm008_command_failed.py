@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from support.check import apply, check, findings_of
 
@@ -110,6 +111,45 @@ def test_a_command_that_lacks_a_package_or_a_module_of_this_machine() -> None:
         """)
         assert (finding.severity, finding.lack) == ("hint" if lack else "error", lack)
         assert said in finding.message
+
+
+def _of_xacro(said: str, more: str = "") -> Finding:
+    commands = {"xacro a": {"status": "failed", "reason": "exit code 2", "stderr_tail": [said]}}
+    (finding,) = [
+        each
+        for each in findings_of(f"""
+            <launch>{more}<param name="a" command="xacro a"/></launch>
+            //- /p/.gitignore
+            *.urdf
+            //- commands
+            {json.dumps(commands)}
+        """)
+        if each.rule == "PRM008"
+    ]
+    return finding
+
+
+def test_a_file_that_is_made_on_each_machine_is_for_information() -> None:
+    missing = "error: No such file or directory: /p/arm.{} [Errno 2] No such file or directory: '/p/arm.{}'"
+    assert _of_xacro(missing.format("urdf", "urdf")).severity == "info"
+    assert _of_xacro(missing.format("xacro", "xacro")).severity == "error"
+
+
+def test_a_path_that_is_made_of_a_variable_that_is_not_set() -> None:
+    missing = "error: No such file or directory: /p/None.xacro"
+    finding = _of_xacro(missing, "<!-- os.getenv('ROBOT_BASE') -->")
+    assert finding.lack == Lack("variable", "ROBOT_BASE")
+    for source in ("<!-- os.getenv('ROBOT_BASE', 'x') -->", "<!-- getenv('PATH_OF') -->", ""):
+        found = _of_xacro(missing.replace("None", "Nones" if source else "None"), source)
+        assert (found.lack, found.severity) == (None, "error")
+
+
+def test_an_argument_that_is_empty_has_to_be_given() -> None:
+    said = "xacro: error: expected exactly one input file as argument"
+    finding = _of_xacro(said, '<arg name="model" default=""/><arg name="rate" default="1"/>')
+    assert finding.severity == "info"
+    assert finding.message.endswith("; 'model' may have to be given")
+    assert _of_xacro(said).severity == "error"
 
 
 def test_a_program_that_is_missing_in_its_package_is_found_without_running_anything(tmp_path: Path) -> None:

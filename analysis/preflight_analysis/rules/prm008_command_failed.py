@@ -6,16 +6,30 @@ import shlex
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Origin
-from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand
-from preflight_analysis.findings.finding import Confidence, Finding
-from preflight_analysis.rules.installed import lack_of_build, lack_of_file, lack_of_program, lack_said
+from preflight_analysis.environment.git_ignored import is_ignored
+from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand, Problem
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.findings.lack import Lack
+from preflight_analysis.launch.problems import ProblemKind
+from preflight_analysis.rules.installed import (
+    lack_of_build,
+    lack_of_file,
+    lack_of_program,
+    lack_of_variable,
+    lack_said,
+)
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, quoted, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 _TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
 _ERROR = re.compile(r"\berror\b", re.IGNORECASE)
 _STDERR_LINES = 3
+_NO_FILE = re.compile(r"No such file or directory:? '?(/[^'\s]+)")
+_NO_INPUT = "xacro: error: expected exactly one input file"
+_NONE = re.compile(r"(?<![A-Za-z])None(?![A-Za-z])")
+_GETENV = re.compile(r"(?:getenv|environ\.get)\(\s*['\"](\w+)['\"]\s*\)")
+"""A variable that is read without a default."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -26,8 +40,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case MalformedCommand(message):
                 yield problem_finding(rule, problem, f"the command cannot be split into words: {message}")
             case CommandFailed() as failed:
-                lack = lack_said(context, reversed(failed.stderr))
-                yield problem_finding(rule, problem, _message(failed), lack=lack)
+                yield _failed(rule, context, problem, failed)
     # A program that is named with its folder is looked for without running anything.
     for command in context.tree.commands:
         if command.launch_file:
@@ -36,6 +49,33 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             program = next(iter(shlex.split(command.line)), "")
             if os.path.isabs(program) and not context.disk.is_program(program):
                 yield _missing(rule, context, command.line, command.origin, stops=False)
+
+
+def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed: CommandFailed) -> Finding:
+    lack = lack_said(context, reversed(failed.stderr))
+    message = _message(failed)
+    severity: Severity | None = None
+    if lack is None and (found := next(filter(None, map(_NO_FILE.search, failed.stderr)), None)) is not None:
+        lack = _variable_in(context, found[1], problem.origin)
+        if lack is None and is_ignored(context.disk, found[1]):
+            severity, message = "info", f"{message}; git ignores the file, so it may be made on each machine"
+    elif any(_NO_INPUT in line for line in failed.stderr):
+        # An argument whose default is empty is how Python launch files say that it has to be given.
+        empty = [name for name, arg in context.tree.args.items() if not arg.value]
+        severity = "info" if empty else None
+        message += f"; {quoted(empty)} may have to be given" if empty else ""
+    return problem_finding(rule, problem, message, severity=severity, lack=lack)
+
+
+def _variable_in(context: Context, path: str, origin: Origin) -> Lack | None:
+    """The variable that is not set, and that a launch file in Python made a path of all the same: `None.urdf`."""
+    if _NONE.search(path) is None:
+        return None
+    files = dict.fromkeys(place.file for place in reversed(origin))
+    texts = (document.text for file in files if (document := context.documents.get(file)) is not None)
+    names = (name for text in texts for name in _GETENV.findall(text))
+    unset = next((name for name in names if name not in context.environment.variables), None)
+    return lack_of_variable(context, unset) if unset is not None else None
 
 
 def _message(failed: CommandFailed) -> str:
@@ -107,7 +147,8 @@ RULE = Rule(
     severity="error",
     what="Reports a `<param command=...>` whose command ended with an error, with the last lines that it printed, or "
     "whose program does not exist. The command is run in the sandbox, if the workspace is trusted, and again when a "
-    "file that it read has changed. `ros-preflight check --no-run` runs nothing and finds missing programs only.",
+    "file that it read has changed. A file that git ignores, or an argument that is empty, is for information. "
+    "`ros-preflight check --no-run` runs nothing and finds missing programs only.",
     why="`roslaunch` runs the command before it starts the first node, and stops and starts nothing if it fails.",
     example='<param name="robot_description" command="$(find xacro)/xacro.py $(find arm)/urdf/arm.xacro"/>',
     instead='<param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro"/>',
