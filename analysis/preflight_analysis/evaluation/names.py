@@ -51,11 +51,11 @@ def leaf(name: str) -> str:
 def with_namespaces(full_names: Iterable[str]) -> set[str]:
     """The names and the namespaces that they are in, up to but without the root: `/a` and `/a/b` of `/a/b`."""
     found: set[str] = set()
-    for each in full_names:
-        name = each
-        while name and name not in found:
-            found.add(name)
-            name = name.rpartition("/")[0]
+    new = {*full_names}
+    while new:
+        found |= new
+        new = {name.rpartition("/")[0] for name in new} - found
+    found.discard("")
     return found
 
 

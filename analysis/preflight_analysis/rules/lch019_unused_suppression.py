@@ -13,8 +13,7 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     """Comments that cannot silence anything; those that merely did not are reported after all rules have run."""
     known = {r.id for r in registry.all_rules()}
-    for document in context.documents.values():
-        suppressions, malformed = read_suppressions(document)
+    for suppressions, malformed in context.kept.each(read_suppressions, context.documents.values()):
         for each in malformed:
             yield rule.finding("'preflight: ignore' names no rule; write ignore[TOP001]", each.location)
         for each_rule in suppressions:

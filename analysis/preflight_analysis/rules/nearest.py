@@ -73,6 +73,7 @@ def did_you_mean(candidate: str | None) -> str:
     return f"; did you mean '{candidate}'?" if candidate else ""
 
 
+@lru_cache(maxsize=_NAMES)
 def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
     """How alike two graph names are, and their edit distance; None if they are not.
 

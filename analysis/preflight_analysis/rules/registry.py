@@ -60,8 +60,8 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     for finding in context.of_branches:
         if (finding.rule, finding.location) not in said:
             by_file.setdefault(finding.location.file, []).append(finding)
-    of_documents = context.kept.each(_suppressions, context.documents.values())
-    suppressions = {path: found for path, found in zip(context.documents, of_documents, strict=True) if found}
+    of_documents = context.kept.each(read_suppressions, context.documents.values())
+    suppressions = {path: found for path, (found, _) in zip(context.documents, of_documents, strict=True) if found}
     chains = _first_chains(context)
     guessed = {unknown.location.file for unknown in context.tree.unknowns if unknown.decides}
     sorted_findings: list[Finding] = []
@@ -152,10 +152,6 @@ def _alike(before: Before[tuple[Finding, ...]] | None, findings: tuple[Finding, 
 def _is_alike(one: Finding, other: Finding) -> bool:
     # What is not compared has to be the same, too.
     return one.launch_order == other.launch_order and one.endpoints == other.endpoints
-
-
-def _suppressions(document: Document) -> tuple[Suppression, ...]:
-    return read_suppressions(document)[0]
 
 
 def _of_file(
