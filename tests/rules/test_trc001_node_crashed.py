@@ -1,10 +1,12 @@
 """TRC001: a node crashed when it was run."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from preflight_analysis.findings.lack import Lack
-from support.check import check, findings_of
+from preflight_analysis.rules.installed import lack_of_build
+from support.check import analyse, check, findings_of, read_fixture
 
 
 def test_where_a_node_is_not_known_a_global_parameter_may_be_its() -> None:
@@ -248,3 +250,10 @@ def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | No
     (finding,) = [each for each in found if each.rule == "TRC001"]
     assert (finding.lack and (finding.lack.kind, finding.lack.name)) == lack
     assert finding.severity == ("hint" if lack else "warning")
+
+
+def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None:
+    context = analyse(read_fixture("<launch/>\n//- /usr/share/tf/package.xml\n<package/>"))
+    installed = replace(context, environment=replace(context.environment, system_prefixes=("/usr",)))
+    assert lack_of_build(installed, "tf") == Lack("package", "tf", "apt install ros-noetic-tf")
+    assert lack_of_build(installed, "p") == Lack("build", "p", "catkin build p")

@@ -239,6 +239,20 @@ def test_tags_of_opposite_conditions_are_never_taken_together() -> None:
     )
 
 
+def test_declarations_of_which_one_is_taken_are_no_two() -> None:
+    check(
+        """
+        <launch>
+          <arg name="name" default=""/>
+          <arg name="ns" value="$(arg name)" if="$(eval name == '' and len(name) == 0)"/>
+          <arg name="ns" value="/$(arg name)" if="$(eval name != '' and len(name) == 1)"/>
+          <param name="a" value="$(arg ns)"/>
+        </launch>
+        """,
+        branches=True,
+    )
+
+
 def test_what_may_be_another_value_where_a_tag_is_taken_is_left_alone() -> None:
     check(
         """

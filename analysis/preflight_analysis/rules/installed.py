@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
+from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
 from preflight_analysis.rules.rule import Context
@@ -56,6 +57,12 @@ def lack_of_package(context: Context, name: str) -> Lack:
     return Lack("package", name, f"apt install {package}" if package is not None else None)
 
 
+def is_installed(context: Context, package: Package) -> bool:
+    """Whether a package lies where ROS is installed, and not in the workspace."""
+    prefixes = (*context.environment.system_prefixes, *context.environment.ament_prefixes)
+    return package.share.startswith(tuple(f"{prefix}/" for prefix in prefixes))
+
+
 def debian_package_of(context: Context, name: str) -> str | None:
     """What a package of ROS is installed as, where the distribution that is used here has released it."""
     known, used = DISTRIBUTIONS[context.tree.generation], context.environment.distro
@@ -85,7 +92,11 @@ def _differ_in_long_words(name: str, other: str) -> bool:
 
 
 def lack_of_build(context: Context, package: str) -> Lack:
-    """A package of the workspace that is not built."""
+    """A package that is there without what its build makes: one of the workspace is not built, of an installed one a
+    part is not installed."""
+    known = context.environment.packages.get(package)
+    if known is not None and is_installed(context, known):
+        return lack_of_package(context, package)
     build = "colcon build --packages-select" if context.tree.ros.ament else "catkin build"
     return Lack("build", package, f"{build} {package}")
 

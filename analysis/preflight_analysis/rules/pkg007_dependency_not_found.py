@@ -11,7 +11,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
-from preflight_analysis.rules.installed import near_package
+from preflight_analysis.rules.installed import is_installed, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -39,10 +39,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _packages(context: Context) -> Iterator[Package]:
     """Those of the workspace that the launch files are in."""
     environment = context.environment
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     found = {path: package_around(environment, path) for path in context.launch_files}
     for package in dict.fromkeys(found.values()):
-        if package is not None and not package.share.startswith(installed):
+        if package is not None and not is_installed(context, package):
             yield package
 
 

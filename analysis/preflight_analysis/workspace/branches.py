@@ -35,6 +35,8 @@ _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _Key = tuple[tuple[str, str], ...]
 _OF_ARGUMENTS = ("ARG001", "ARG002", "ARG004", "ARG006", "ARG007")
 """Rules that ask whether arguments are there, and not what they are."""
+_OF_TWO = "ARG005"
+"""A rule that speaks of two tags, which mostly exclude each other: what is assumed is taken beside all the others."""
 _ARGUMENT = re.compile(r"\$\((?:arg|var|eval)\b")
 _ONE_ARGUMENT = re.compile(r"\s*\$\((?:arg|var)\s[^()]*\)\s*")
 _LONGEST = 60
@@ -168,7 +170,11 @@ class _Search:
             what_if = self._ask(args, frozenset(taken))
             for each in todo.values():
                 found = (found for found in what_if.found if _stands_in(found, each))
-                doubted = (_doubted(found) for found in found if not _depends(found, each, what_if.documents))
+                doubted = (
+                    _doubted(found)
+                    for found in found
+                    if found.rule != _OF_TWO and not _depends(found, each, what_if.documents)
+                )
                 self._note(doubted, _in_words(each), what_if.documents)
             inside = (
                 each for each in _open(what_if.tree) if any(_holds(outer, each.origin) for outer in todo.values())
