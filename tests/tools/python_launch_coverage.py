@@ -64,6 +64,8 @@ def main() -> int:
             for _, why in failed:
                 reasons[why] += 1
                 examples.setdefault(why, path)
+                with (options.out / "failed.tsv").open("a") as table:
+                    table.write(f"{os.path.relpath(path, options.out / 'src')}\t{kind}\t{why}\n")
             unknown.update({re.sub(r"'[^']*'|/\S+", "...", each.reason) for each in tree.unknowns})
         total = counts["whole"] + counts["partly"] + counts["not"]
         if total:

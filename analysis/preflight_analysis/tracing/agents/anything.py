@@ -22,22 +22,23 @@ _EXCEPTIONS = ("Error", "Exception", "Warning", "Interrupt", "Failure", "Timeout
 _FUNCTIONS = (types.FunctionType, types.MethodType, type)
 
 
-on_condition: list[Callable[[str, Any], None]] = []
+on_condition: list[Callable[[str, Any, bool], bool]] = []
 """Called where a program asks whether something holds that is not known, and goes on in one way of several: with the
-name of what that is, and the frame that asks."""
+name of what that is, the frame that asks, and the answer that it would get; gives the answer that it gets."""
 
 
-def asked(name: str, frame: Any) -> None:
-    """A program asks whether something of that name holds."""
+def asked(name: str, frame: Any, answer: bool = True) -> bool:
+    """A program asks whether something of that name holds: what it is answered."""
     for each in on_condition:
-        each(name, frame)
+        answer = each(name, frame, answer)
+    return not answer if _too_often(frame) else answer
 
 
 _asked: dict[Any, int] = {}
 
 
 def _too_often(frame: Any) -> bool:
-    """Whether a place of a program asks again and again."""
+    """Whether a place of a program asks again and again: it waits for an answer that pleases."""
     place = (frame.f_code, frame.f_lasti)
     _asked[place] = _asked.get(place, 0) + 1
     return _asked[place] > MAX_ASKED
@@ -73,9 +74,7 @@ class UnknownText(str):
         return marked(str.__add__(other, self)) if isinstance(other, str) else NotImplemented
 
     def __bool__(self) -> bool:
-        frame = sys._getframe(1)
-        asked(self, frame)
-        return not _too_often(frame)
+        return asked(self, sys._getframe(1))
 
 
 _TEXTS = (
@@ -120,11 +119,8 @@ def _of_text(method: Any, result: Callable[[Any], Any]) -> Any:
 
 def _truth_of_text(method: Any) -> Any:
     def called(self: Any, *args: Any) -> Any:
-        frame = sys._getframe(1)
-        asked(self, frame)
         result = method(self, *args)
-        # Who waits for an answer that pleases gets one.
-        return not result if isinstance(result, bool) and _too_often(frame) else result
+        return asked(self, sys._getframe(1), result) if isinstance(result, bool) else result
 
     return called
 
@@ -219,9 +215,7 @@ class Anything:
 
     def __bool__(self) -> bool:
         used()
-        frame = sys._getframe(1)
-        asked(self._preflight_name, frame)
-        return not _too_often(frame)
+        return asked(self._preflight_name, sys._getframe(1))
 
     def __int__(self) -> int:
         used()
@@ -241,14 +235,12 @@ class Anything:
 
     def __lt__(self, other: Any) -> bool:
         used()
-        asked(self._preflight_name, sys._getframe(1))
-        return False
+        return asked(self._preflight_name, sys._getframe(1), False)
 
     __le__ = __gt__ = __ge__ = __lt__
 
     def __eq__(self, other: Any) -> bool:
-        asked(self._preflight_name, sys._getframe(1))
-        return self is other
+        return asked(self._preflight_name, sys._getframe(1), self is other)
 
     __hash__ = object.__hash__
 
@@ -278,8 +270,7 @@ class Anything:
 
     def __contains__(self, item: Any) -> bool:
         used()
-        asked(self._preflight_name, sys._getframe(1))
-        return False
+        return asked(self._preflight_name, sys._getframe(1), False)
 
     def keys(self) -> list[str]:
         """None for the arguments of a call; where a dictionary takes it in, one that stands for those not known."""

@@ -9,6 +9,7 @@ import sys
 from typing import Any, Iterable, Optional
 
 from ..anything import Anything, marked
+from .answers import Answers
 
 OURS = os.path.dirname(os.path.abspath(__file__))
 _AGENTS = os.path.dirname(OURS) + os.sep
@@ -37,6 +38,7 @@ class Recorder:
         """Where the file asks whether something holds that is not known, by what that is and the line."""
         self.unmatched: list[list[Any]] = []
         """What `RewrittenYaml` and the like are to replace and did not find, each with its line."""
+        self.answers = Answers()
         self.own_xacro = ""
         """The folder of the module that is used where ROS has none."""
         self.unknown = False
@@ -50,18 +52,21 @@ class Recorder:
         self.missed.clear()
         self.guessed.clear()
         self.unmatched.clear()
+        self.answers.begin_part()
 
     def miss(self, what: str, name: str) -> None:
         """Note a module or package that is not here, where it is asked for first."""
         self.missed.setdefault((what, name), self.place())
         self.unknown = True
 
-    def guess(self, name: str, frame: Any) -> None:
-        """Note that a program goes on in one way of several, as it asks for something that is not known."""
-        file = frame.f_code.co_filename
-        if not file.startswith((_AGENTS, _STANDARD_LIBRARY, "<frozen")) and "-packages" + os.sep not in file:
-            place = self.place_of(frame)
-            self.guessed.setdefault((str(name), place[0] if place is not None else 0), place)
+    def guess(self, name: str, frame: Any, answer: bool) -> bool:
+        """Note that a program goes on in one way of several, as it asks for something that is not known; the answer
+        that it gets."""
+        if not is_own(frame):
+            return answer
+        place = self.place_of(frame)
+        self.guessed.setdefault((str(name), place[0] if place is not None else 0), place)
+        return self.answers.choose(frame, answer)
 
     def place(self) -> Optional[list[int]]:
         """Line and column (-1: not known) in the launch file of the call that is going on."""
@@ -90,6 +95,12 @@ class Recorder:
 
 
 RECORDER = Recorder()
+
+
+def is_own(frame: Any) -> bool:
+    """Whether a frame is of the launch file or of what belongs to it: not ours, and no library's."""
+    file = frame.f_code.co_filename
+    return not file.startswith((_AGENTS, _STANDARD_LIBRARY, "<frozen")) and "-packages" + os.sep not in file
 
 
 def caller() -> Any:

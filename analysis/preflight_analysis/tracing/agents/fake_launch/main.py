@@ -35,6 +35,8 @@ _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 def main() -> None:
     """Tell what the launch file makes, or what a call of the job's gives, as JSON on standard output."""
     job = json.loads(zlib.decompress(base64.b64decode("".join(sys.argv[1:]))))
+    RECORDER.answers.begin()
+    outside, folder = dict(os.environ), os.getcwd()
     output = os.dup(1)
     os.dup2(2, 1)
     RECORDER.file, RECORDER.packages, RECORDER.own_xacro = job["file"], job["packages"], job["own_xacro"]
@@ -44,20 +46,22 @@ def main() -> None:
     sys.argv = ["ros2", "launch", job["file"]]
     sys.path[:0] = job["paths"]
     branches = job.get("branches")
-    text = _answer(lambda: _run(job))
+    text, error = _answer(lambda: _run(job))
+    if error is not None and RECORDER.answers.may_try(error):
+        _clean()
+        os.chdir(folder)
+        os.dup2(output, 1)
+        RECORDER.answers.try_again(outside)
     if branches is not None:
-        failed = "error" in json.loads(text)
-        text = json.dumps({"branches": [text if failed else _branch(each) for each in branches]})
+        text = json.dumps({"branches": [text if error is not None else _branch(each) for each in branches]})
     with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
         out.write(text)
 
 
-def _answer(work: Callable[[], dict[str, Any]]) -> str:
-    """What some work gives or raises, with the files that were written, as JSON."""
+def _answer(work: Callable[[], dict[str, Any]]) -> tuple[str, Optional[dict[str, Any]]]:
+    """What some work gives or raises, with the files that were written, as JSON; and what it raises."""
     try:
         result = work()
-    except SystemExit as error:
-        result = {"error": {"type": "SystemExit", "message": str(error), "frames": []}}
     except BaseException as error:
         result = {"error": _error_record(error)}
     if RECORDER.last_reads is not None:
@@ -66,12 +70,18 @@ def _answer(work: Callable[[], dict[str, Any]]) -> str:
     result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
     result["unmatched"] = RECORDER.unmatched
     result["files"] = _files()
-    return json.dumps(result)
+    return json.dumps(result), result.get("error")
+
+
+def _clean() -> None:
+    """Remove what was written."""
+    for path in _files():
+        os.unlink(path)
 
 
 def _branch(branch: dict[str, Any]) -> Optional[str]:
     """The answer to one more call, in a process of its own: the next one finds everything as this one did. None where
-    that is not possible, or where it went wrong."""
+    that is not possible, where it went wrong, or where other answers are to be tried."""
     if threading.active_count() > 1 or not hasattr(os, "memfd_create"):
         return None  # other threads are not there in a copy
     before = _files()
@@ -81,9 +91,10 @@ def _branch(branch: dict[str, Any]) -> Optional[str]:
     child = _fork()
     if not child:
         try:
-            text = _answer(lambda: _in_branch(branch))
-            with open(answer, "wb") as out:
-                out.write(text.encode(errors="surrogatepass"))
+            text, error = _answer(lambda: _in_branch(branch))
+            if error is None or not RECORDER.answers.may_try(error):
+                with open(answer, "wb") as out:
+                    out.write(text.encode(errors="surrogatepass"))
             atexit._run_exitfuncs()
             sys.stdout.flush()
             sys.stderr.flush()

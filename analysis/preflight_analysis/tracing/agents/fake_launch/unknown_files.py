@@ -20,7 +20,7 @@ from typing import Any, Callable
 
 from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, unknown_text
 from ..missing_modules import provided_for
-from .base import OURS, RECORDER
+from .base import OURS, RECORDER, is_own
 
 _PARSERS = {
     "json": ("load", "loads"),
@@ -54,7 +54,9 @@ def install() -> None:
         setattr(pathlib.Path, name, _true(getattr(pathlib.Path, name)))
     os.listdir = _empty(os.listdir)
     builtins.input = _asked
-    type(os.environ).__getitem__ = _variable(type(os.environ).__getitem__)  # type: ignore[method-assign]
+    environment: Any = type(os.environ)
+    environment.__getitem__ = _variable(environment.__getitem__)
+    _look_for_variables(environment)
     for name, functions in _PARSERS.items():
         if name in sys.modules:
             _guard(sys.modules[name], functions)
@@ -183,8 +185,8 @@ def _instead(function: Any, value: Callable[[], Any]) -> Any:
     def called(*args: Any, **kwargs: Any) -> Any:
         if not args or not _is_of_unknown(args[0]):
             return function(*args, **kwargs)
-        asked(f"{function.__name__}({args[0]})", sys._getframe(1))
-        return value()
+        frame = sys._getframe(1)
+        return value() if asked(f"{function.__name__}({args[0]})", frame) else function(*args, **kwargs)
 
     return called
 
@@ -210,3 +212,29 @@ def _variable(getitem: Any) -> Any:
         return unknown_text(f"the variable {key}")
 
     return called
+
+
+def _look_for_variables(environment: Any) -> None:
+    """A launch file that asks whether a variable is set, and raises where it is not, has one that is not known."""
+    is_set, get = environment.__contains__, environment.get
+
+    def contains(self: Any, key: Any) -> bool:
+        return bool(is_set(self, key)) or _is_assumed(key, sys._getframe(1))
+
+    def found(self: Any, key: Any, default: Any = None) -> Any:
+        assumed = not default and not is_set(self, key) and _is_assumed(key, sys._getframe(1))
+        return unknown_text(f"the variable {key}") if assumed else get(self, key, default)
+
+    def getenv(key: Any, default: Any = None) -> Any:
+        assumed = not default and not is_set(os.environ, key) and _is_assumed(key, sys._getframe(1))
+        return unknown_text(f"the variable {key}") if assumed else get(os.environ, key, default)
+
+    environment.__contains__, environment.get, os.getenv = contains, found, getenv
+
+
+def _is_assumed(name: Any, frame: Any) -> bool:
+    """Whether a variable that is not set counts as set."""
+    assumed = is_own(frame) and RECORDER.answers.choose(frame, False)
+    if assumed:
+        RECORDER.miss("variable", str(name))
+    return assumed

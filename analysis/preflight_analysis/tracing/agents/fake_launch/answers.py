@@ -1,0 +1,89 @@
+"""Which answers a launch file gets to what is not known, and which it gets in the next run if it raises.
+
+A launch file that raises after a condition that nobody here can know may have taken a branch that no robot takes:
+the last one is answered in the other way, then the one before it, and so on, as in a search through a tree of
+answers. Each try is a run of its own, in the same process: the program is executed anew with its arguments. What a
+function of the file does is searched apart from what came before it.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from typing import Any, Optional
+
+MAX_TRIES = 12
+MAX_SECONDS = 6.0
+MAX_ANSWERS = 2000
+_VARIABLE = "PREFLIGHT_ANSWERS"
+_USUAL = "-"
+_OWN_MISTAKES = ("NameError", "SyntaxError", "IndentationError", "TabError", "ImportError", "ModuleNotFoundError")
+"""What no answer is to blame for."""
+
+
+class Answers:
+    """Of one run. Those that an earlier run has settled come first."""
+
+    def __init__(self) -> None:
+        self._settled: list[tuple[bool, bool]] = []
+        """The answer, and whether the other one has been tried."""
+        self._given: list[tuple[bool, Any]] = []
+        """The answer, and the place that asks."""
+        self._part = 0
+        self._tries = 0
+        self._started = time.monotonic()
+        self._last = False
+
+    def begin(self) -> None:
+        """Take over from the run before this one what it has settled."""
+        said = os.environ.pop(_VARIABLE, None)
+        if said is not None:
+            tries, started, settled = said.split(":")
+            self._tries, self._started, self._last = int(tries), float(started), settled.endswith(_USUAL)
+            self._settled = [(each in "yY", each in "NY") for each in settled.rstrip(_USUAL)]
+
+    def begin_part(self) -> None:
+        """What was asked until now went well: what is made there keeps its answers."""
+        self._part = len(self._given)
+
+    def choose(self, frame: Any, answer: bool) -> bool:
+        """The answer to something that is not known; `answer` is the usual one."""
+        count = len(self._given)
+        if count < len(self._settled):
+            answer = self._settled[count][0]
+        if count < MAX_ANSWERS:
+            self._given.append((answer, (frame.f_code, frame.f_lasti)))
+        return answer
+
+    def may_try(self, error: dict[str, Any]) -> bool:
+        """Whether a run that ended with an error may end in another way with other answers."""
+        return len(self._given) > self._part and not self._last and error.get("type") not in _OWN_MISTAKES
+
+    def try_again(self, environment: dict[str, str]) -> None:
+        """Execute the program anew with the next answers, or, where all that have been tried raise, with the usual
+        ones for the last time. Comes back where that is not possible."""
+        words = getattr(sys, "orig_argv", None)  # an older Python does not have it
+        settled = self._next()
+        if not words or (settled is None and not self._tries):
+            return
+        path = "".join("nyNY"[answer + 2 * both] for answer, both in settled or self._before(self._part))
+        path += _USUAL if settled is None else ""
+        environment = {**environment, _VARIABLE: f"{self._tries + 1}:{self._started}:{path}"}
+        os.execve(sys.executable, [sys.executable, *words[1:]], environment)  # noqa: S606
+
+    def _next(self) -> Optional[list[tuple[bool, bool]]]:
+        """The answers of the next run; None where there is none. Of a place that asks often the last one counts."""
+        if self._tries >= MAX_TRIES or time.monotonic() - self._started > MAX_SECONDS:
+            return None
+        places: set[Any] = set()
+        for at in range(len(self._given) - 1, self._part - 1, -1):
+            answer, place = self._given[at]
+            if place not in places and not (at < len(self._settled) and self._settled[at][1]):
+                return [*self._before(at), (not answer, True)]
+            places.add(place)
+        return None
+
+    def _before(self, end: int) -> list[tuple[bool, bool]]:
+        tried = [both for _, both in self._settled]
+        return [(answer, at < len(tried) and tried[at]) for at, (answer, _) in enumerate(self._given[:end])]

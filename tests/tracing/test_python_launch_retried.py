@@ -1,0 +1,167 @@
+"""Python launch files that raise after a condition that is not known: the other answer is tried."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.evaluation.problems import PythonException, UnsetVariable
+from preflight_analysis.evaluation.tree import LaunchTree
+from support.python_launch_harness import PythonHarness
+
+pytestmark = pytest.mark.ros
+
+HEAD = """\
+import os
+import sys
+from launch import LaunchDescription
+from launch.actions import *
+from launch.substitutions import *
+from launch_ros.actions import *
+from ament_index_python.packages import get_package_share_directory
+
+
+def n(name):
+    return Node(package='p', executable='x', name=name)
+"""
+
+
+@pytest.fixture
+def harness(tmp_path: Path) -> PythonHarness:
+    return PythonHarness(tmp_path)
+
+
+def _tree(harness: PythonHarness, text: str, **options: object) -> LaunchTree:
+    path = harness.write("launch/a.launch.py", HEAD + text)
+    return harness.launch(path, **options).tree  # type: ignore[arg-type]
+
+
+def _raised(tree: LaunchTree) -> list[str]:
+    return [p.kind.error for p in tree.problems if isinstance(p.kind, PythonException)]
+
+
+def test_a_condition_that_is_not_known_gets_the_other_answer(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+import no_such_module
+
+def generate_launch_description():
+    model = no_such_module.model()
+    if not os.path.isdir(get_package_share_directory('not_here')):
+        found = [n('without')]
+    elif model == 'a':
+        found = [n('a')]
+    elif model in ('b', 'c'):
+        found = [n('c')]
+    else:
+        raise ValueError('unknown model')
+    if no_such_module.sides() > 2:
+        found.append(n('more'))
+    else:
+        sys.exit('too few')
+    return LaunchDescription(found)
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/c", "/more"]
+    assert any(unknown.decides for unknown in tree.unknowns)
+    assert not _raised(tree)
+
+
+def test_in_functions_too(harness: PythonHarness) -> None:
+    functions = [
+        f"""
+def start{number}(context):
+    robot = LaunchConfiguration('robot').perform(context)
+    if robot not in ('r{number}', 'r9'):
+        raise RuntimeError('unknown robot ' + robot)
+    return [n('of_{number}')]
+"""
+        for number in range(3)
+    ]
+    tree = _tree(
+        harness,
+        "\n".join(functions)
+        + """
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('robot'), OpaqueFunction(function=start0), OpaqueFunction(function=start1),
+        OpaqueFunction(function=start2), n('last')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/of_0", "/of_1", "/of_2", "/last"]
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        "os.environ.get('ROBOT_MODEL') is None",
+        "os.getenv('ROBOT_MODEL') is None",
+        "not os.getenv('ROBOT_MODEL', '')",
+        "'ROBOT_MODEL' not in os.environ",
+    ],
+)
+def test_a_variable_that_a_file_cannot_do_without(harness: PythonHarness, condition: str) -> None:
+    text = f"""
+def generate_launch_description():
+    if os.environ.get('DEBUGGING') is not None:
+        return LaunchDescription([n('debug')])
+    if {condition}:
+        raise RuntimeError('set ROBOT_MODEL')
+    return LaunchDescription([n('one'), Node(package='p', executable='x', name=os.environ['ROBOT_MODEL'])])
+"""
+    tree = _tree(harness, text)
+    assert [p.kind for p in tree.problems] == [UnsetVariable("ROBOT_MODEL")]
+    assert "/one" in [node.name for node in tree.nodes]
+    tree = _tree(harness, text, variables={"ROBOT_MODEL": "burger"})
+    assert [node.name for node in tree.nodes] == ["/one", "/burger"]
+    assert tree.complete
+
+
+def test_what_raises_in_any_case_is_said_of_the_first_run(harness: PythonHarness) -> None:
+    text = """
+def generate_launch_description():
+    if os.environ.get('ROBOT_MODEL'):
+        raise OSError('with it')
+    raise ValueError('without it')
+"""
+    assert _raised(_tree(harness, text)) == ["ValueError"]
+    text = """
+def generate_launch_description():
+    robot = os.environ.get('ROBOT_MODEL')
+    return LaunchDescription([n('burger') if robot else misspelt('burger')])
+"""
+    assert _raised(_tree(harness, text)) == ["NameError"], "no variable of the environment is to blame"
+
+
+def test_what_does_not_raise_is_run_once(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+def generate_launch_description():
+    robot = os.environ.get('ROBOT_MODEL')
+    return LaunchDescription([n('one') if robot is None else n('two')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
+    assert tree.complete
+
+
+def test_trying_has_an_end(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+import no_such_module
+
+def generate_launch_description():
+    open('/tmp/written', 'w').close()
+    while True:
+        for number in range(2000):
+            if no_such_module.value() == number:
+                raise RuntimeError('it is')
+        if no_such_module.ready():
+            raise SystemError('no')
+""",
+    )
+    assert not tree.complete
+    assert not _raised(tree), "it comes of what is not known"
