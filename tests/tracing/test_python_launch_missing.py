@@ -178,7 +178,7 @@ def generate_launch_description():
 
 def test_an_error_after_something_unknown_is_no_finding_but_one_of_an_action_is(harness: PythonHarness) -> None:
     after = "def generate_launch_description():\n    return LaunchDescription([{}])\n"
-    tree = tree_of(harness, "import robot_helpers\nint(str(robot_helpers.count))\n" + after.format(""))
+    tree = tree_of(harness, "import robot_helpers\n'abc'.index(str(robot_helpers.count))\n" + after.format(""))
     assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
     assert not tree.complete
     node = "Node(package='p', node_executable='x')"
@@ -400,6 +400,129 @@ def generate_launch_description():
 """,
     )
     assert names(tree) == ["/known"]
+
+
+def test_a_module_that_building_compiles_is_unknown_and_a_misspelt_one_is_not_there(harness: PythonHarness) -> None:
+    harness.write("CMakeLists.txt", "project(p)\n# add_library(other)\npybind11_add_module(names src/names.cpp)\n")
+    harness.write("p/__init__.py", "")
+    text = """
+from p.{} import LEVEL
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="p", executable="x", name="one", arguments=[str(LEVEL)])])
+"""
+    tree = tree_of(harness, text.format("names"))
+    assert names(tree) == ["/one"]
+    assert not tree.complete
+    for name in ("name", "other"):
+        tree = tree_of(harness, text.format(name))
+        assert [getattr(p.kind, "stood_in_for", None) for p in tree.problems] == [False]
+
+
+def test_a_class_of_a_missing_module_has_what_is_asked_of_it(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+import abc
+import enum
+from no_such_module import Base, Other
+
+class Payload(Base, abc.ABC):
+    limit = 5
+
+class Kind(Other, enum.Enum):
+    A = 1
+
+Payload.update_forward_refs()
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="p", executable="x", name="one", parameters=[{"a": Payload.limit, "b": Payload.more}])])
+""",
+    )
+    assert names(tree) == ["/one"]
+    assert [(param.name, param.value) for param in tree.nodes[0].params] == [("a", 5)]
+
+
+def test_what_is_made_of_a_text_that_is_not_known_is_not_known(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+FILES = {"a": "file_a"}
+
+def start(context):
+    robot = LaunchConfiguration("robot").perform(context)
+    count = int(LaunchConfiguration("count").perform(context)) + 1
+    known = f"{FILES['a']}_{len('abc'):02d}"
+    if f"of_{robot}" == "of_r1" or robot in FILES or IfCondition(LaunchConfiguration("sim")).evaluate(context):
+        known = "wrong"
+    pairs = dict(each.split(":=") for each in robot.split())
+    return [
+        Node(package="p", executable="x", name=known, parameters=[
+            {"file": FILES[robot], "count": count, "rate": float(robot) * 2, "known": int("7")}]),
+        Node(package="p", executable="x", name=FILES.get(robot, "none"), parameters=[pairs]),
+    ]
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("robot"), DeclareLaunchArgument("count"), DeclareLaunchArgument("sim"),
+        OpaqueFunction(function=start)])
+""",
+    )
+    assert names(tree) == ["/file_a_03", "/none"]
+    assert [(param.name, param.value) for param in tree.nodes[0].params] == [("known", 7)]
+    decided = {unknown.what for unknown in tree.unknowns if unknown.decides}
+    assert len(decided) >= 3
+
+
+def test_what_a_known_collection_does_not_have_is_an_error(harness: PythonHarness) -> None:
+    for expression, error in {
+        "{'a': 1}[name]": "KeyError",
+        "[1][len(name) + 5]": "IndexError",
+        "int(name)": "ValueError",
+        "dict(name)": "ValueError",
+        "{}[[]]": "TypeError",
+        "name in 5": "TypeError",
+    }.items():
+        text = f"""
+def generate_launch_description():
+    name = "known"
+    value = {expression}
+    return LaunchDescription([Node(package="p", executable="x", name="one")])
+"""
+        analysis = harness.launch(harness.write("launch/a.launch.py", HEAD + text))
+        (raised,) = (p for p in analysis.tree.problems if isinstance(p.kind, PythonException))
+        assert raised.kind.error == error
+        span = raised.location.span
+        assert (HEAD + text)[span.start : span.end].strip() == f"value = {expression}"
+
+
+def test_xacro_as_a_program_is_there_without_ros(harness: PythonHarness) -> None:
+    harness.write("urdf/parts.xacro", '<robot><link name="wheel"/></robot>')
+    harness.write("urdf/robot.xacro", ROBOT.format("p"))
+    tree = tree_of(
+        harness,
+        """
+import subprocess
+FILE = os.path.join(get_package_share_directory("p"), "urdf", "robot.xacro")
+LINE = ["xacro", FILE, "side:=front"]
+
+def generate_launch_description():
+    with subprocess.Popen(LINE, stdout=subprocess.PIPE, text=True) as process:
+        texts = [process.communicate()[0]]
+    texts.append(subprocess.check_output(LINE).decode())
+    texts.append(subprocess.run(" ".join(LINE), shell=True, capture_output=True, text=True).stdout)
+    texts.append(subprocess.check_output(["xacro", os.path.join(FILE, "gone")], text=True))
+    process = subprocess.Popen(["no_such_program"], stdout=subprocess.PIPE)
+    texts.append(process.communicate()[0].decode())
+    return LaunchDescription([
+        Node(package="p", executable="x", name=f"n{i}", parameters=[{"robot_description": text}])
+        for i, text in enumerate(texts)])
+""",
+    )
+    values = [str([param.value for param in node.params]) for node in tree.nodes]
+    assert ['"front"' in value and '"wheel"' in value for value in values] == [True, True, True, False, False]
+    assert values[3:] == ["[]", "[]"]
 
 
 def test_what_a_program_that_is_not_here_prints_is_unknown(harness: PythonHarness) -> None:

@@ -7,6 +7,7 @@ in every text that is made of it: the host takes such a text for unknown (`MARK`
 
 from __future__ import annotations
 
+import abc
 import builtins
 import dis
 import sys
@@ -144,6 +145,15 @@ def used() -> None:
         on_use.pop()()
 
 
+class _AnyClass(abc.ABCMeta):
+    """Has whatever is asked of a class; abstract classes can be bases beside it."""
+
+    def __getattr__(cls, name: str) -> Any:
+        if name.startswith("__") or name.startswith("_abc_"):
+            raise AttributeError(name)
+        return Anything(f"{cls.__name__}.{name}")
+
+
 class AnyBase:
     """What a class is derived from whose base is a stand-in."""
 
@@ -186,10 +196,12 @@ class Anything:
 
     def __mro_entries__(self, bases: Any) -> tuple[type, ...]:
         """As the base of a class."""
+        kinds = {type(each) for each in bases if isinstance(each, type)}
+        kind = _AnyClass if kinds <= {type, abc.ABCMeta, _AnyClass} else type
         made = self._preflight_made
-        if "" not in made:
-            made[""] = type(self._preflight_name.rpartition(".")[2], (AnyBase,), {})
-        return (made[""],)
+        if kind not in made:
+            made[kind] = kind(self._preflight_name.rpartition(".")[2], (AnyBase,), {})
+        return (made[kind],)
 
     def __instancecheck__(self, instance: Any) -> bool:
         return False

@@ -99,7 +99,11 @@ RECORDER = Recorder()
 
 def is_own(frame: Any) -> bool:
     """Whether a frame is of the launch file or of what belongs to it: not ours, and no library's."""
-    file = frame.f_code.co_filename
+    return is_own_file(frame.f_code.co_filename)
+
+
+def is_own_file(file: str) -> bool:
+    """Whether code of a file is."""
     return not file.startswith((_AGENTS, _STANDARD_LIBRARY, "<frozen")) and "-packages" + os.sep not in file
 
 

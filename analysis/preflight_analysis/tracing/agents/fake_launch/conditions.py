@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Optional
 
+from ..anything import asked, is_unknown
 from .base import (
     Condition,
     LaunchContext,
     Substitution,
+    caller,
     ensure_argument_type,
     normalize_to_list_of_substitutions,
     perform_substitutions,
@@ -25,6 +27,8 @@ class InvalidConditionExpressionError(ValueError):
 
 def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
     text = perform_substitutions(context, expression).strip().lower()
+    if is_unknown(text):
+        return asked(text, caller(), False)
     if text in VALID_TRUE_EXPRESSIONS:
         return True
     if text in VALID_FALSE_EXPRESSIONS:

@@ -19,7 +19,7 @@ import zlib
 from typing import Any, Callable, Optional
 
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
-from . import installed, reads, rewrites, unknown_files
+from . import installed, programs, reads, rewrites, rewritten, unknown_files
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -27,7 +27,7 @@ from .serialize import Serializer
 MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
-_SKIPPED = ("ros_home", "ros_log")
+_SKIPPED = ("ros_home", "ros_log", programs.PRINTED)
 _fork = os.fork
 _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 
@@ -127,6 +127,7 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     installed.install(job["installed"])
     reads.install()
     unknown_files.install()
+    rewritten.install()
     environment = dict(os.environ)
     with reads.noted():
         actions = _described(job)
@@ -145,8 +146,7 @@ def _described(job: dict[str, Any]) -> list[dict[str, Any]]:
     module = types.ModuleType("python_launch_file")
     module.__file__ = job["file"]
     sys.modules["python_launch_file"] = module
-    code = compile(job["text"], job["file"], "exec", dont_inherit=True)
-    exec(code, vars(module))  # noqa: S102 - what this is for; inside the sandbox
+    exec(rewritten.compiled(job["text"], job["file"]), vars(module))  # noqa: S102 - what this is for; inside the sandbox
     description = _description(module)
     if isinstance(description, (Anything, AnyBase)):
         description = LaunchDescription([description])

@@ -63,6 +63,17 @@ def _anything(name: str) -> Any:
     return importlib.import_module(below) if below in TABLE else _Anything
 
 
+def _below(module: str) -> Any:
+    """The modules of a package, which the real one imports all: `launch.substitution`."""
+
+    def attribute(name: str) -> Any:
+        if name.startswith("__") or _contents(f"{module}.{name}", TABLE) is None:
+            raise AttributeError(f"module '{module}' has no attribute '{name}'")
+        return importlib.import_module(f"{module}.{name}")
+
+    return attribute
+
+
 def _more(module: str) -> Any:
     """What a module has that is not here, and of which not all is known."""
     made: dict[str, Any] = {}
@@ -81,9 +92,28 @@ def _stands_in(name: str) -> bool:
     when its package, of which there is the source alone, is built."""
     top = name.partition(".")[0]
     spec = getattr(sys.modules.get(top), "__spec__", None)
-    if name.rpartition(".")[2].startswith("_") and getattr(spec, "origin", None):
-        return "-packages" + os.sep not in spec.origin  # type: ignore[union-attr]
+    origin = getattr(spec, "origin", None)
+    if origin and "-packages" + os.sep not in origin and _is_compiled(name.rpartition(".")[2], origin):
+        return True
     return top in _FALLBACK_TOP and isinstance(getattr(spec, "loader", None), _Loader)
+
+
+def _is_compiled(name: str, origin: str) -> bool:
+    """Whether a module of a package with the source `origin` is one that building it compiles."""
+    if name.startswith("_"):
+        return True
+    folder = os.path.dirname(origin)
+    while not os.path.isfile(os.path.join(folder, "package.xml")) and folder != os.path.dirname(folder):
+        folder = os.path.dirname(folder)
+    return any(re.search(rule % re.escape(name), _text_of(folder, file)) for file, rule in _COMPILES.items())
+
+
+def _text_of(folder: str, name: str) -> str:
+    try:
+        with open(os.path.join(folder, name), encoding="utf-8", errors="replace") as file:
+            return re.sub(r"#.*", "", file.read())
+    except OSError:
+        return ""
 
 
 def _miss(name: str, *_: Any) -> None:
@@ -97,6 +127,7 @@ class _Loader(importlib.abc.Loader):
 
     def create_module(self, spec: Any) -> Any:
         module = types.ModuleType(spec.name)
+        module.__getattr__ = _below(spec.name)  # type: ignore[method-assign]
         if spec.name.partition(".")[0] == "launch_testing":
             module.__getattr__ = _anything  # type: ignore[method-assign]
         if self._stands_in:
@@ -124,6 +155,11 @@ class _Finder(importlib.abc.MetaPathFinder):
         return spec
 
 
+_COMPILES = {
+    "CMakeLists.txt": r"(?i)add_(?:module|library)\s*\(\s*%s\b",
+    "setup.py": r"Extension\w*\s*\(\s*(?:name\s*=\s*)?['\"][\w.]*\b%s['\"]",
+}
+"""Where a package says which modules it compiles, and how."""
 _INSTALLED = re.compile(r"ament_python_install_package\s*\(([^)]*)\)")
 
 
@@ -151,12 +187,7 @@ class _PackageFinder(importlib.abc.MetaPathFinder):
     @staticmethod
     def _installed(share: str) -> Any:
         """What each `ament_python_install_package` of a package is given."""
-        try:
-            with open(os.path.join(share, "CMakeLists.txt"), encoding="utf-8", errors="replace") as file:
-                text = file.read()
-        except OSError:
-            return
-        for found in _INSTALLED.finditer(re.sub(r"#.*", "", text)):
+        for found in _INSTALLED.finditer(_text_of(share, "CMakeLists.txt")):
             yield found[1].replace('"', "").split()
 
 
@@ -195,6 +226,7 @@ def install() -> None:
 
 def _module(name: str) -> Any:
     module = types.ModuleType(name)
+    module.__getattr__ = _below(name)  # type: ignore[method-assign]
     vars(module).update(TABLE[name])
     module.__path__ = []
     module.__spec__ = importlib.machinery.ModuleSpec(name, None, is_package=True)

@@ -13,13 +13,13 @@ import importlib.util
 import io
 import os
 import pathlib
-import shutil
 import sys
 import xml.dom.minidom
 from typing import Any, Callable
 
 from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, unknown_text
 from ..missing_modules import provided_for
+from . import programs
 from .base import OURS, RECORDER, is_own
 
 _PARSERS = {
@@ -40,7 +40,7 @@ def install() -> None:
     open_file = io.open
 
     def opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
-        if not _is_of_unknown(file):
+        if not is_of_unknown(file):
             return open_file(file, mode, *args, **kwargs)
         text = _Text(str(file)) if "b" not in mode else io.BytesIO(str(file).encode())
         text.name = str(file)
@@ -94,6 +94,8 @@ def _guard(module: Any, names: Any) -> None:
     if module.__name__ == "yaml":
         for representer in (module.representer.SafeRepresenter, module.representer.Representer):
             representer.add_representer(UnknownText, module.representer.SafeRepresenter.represent_str)
+    elif module.__name__ == "subprocess":
+        programs.install(module)
     elif module.__name__ == "json":
         module.JSONEncoder.default = _as_json(module.JSONEncoder.default)
     for name in names:
@@ -110,13 +112,13 @@ def _guarded(function: Any, name: str) -> Any:
     def called(*args: Any, **kwargs: Any) -> Any:
         if sys._getframe(1).f_globals.get("__name__", "").partition(".")[0] == "xacro":
             return function(*args, **kwargs)  # its own functions are guarded as a whole
-        if any(map(_is_of_unknown, args)) or any(map(_is_of_unknown, kwargs.values())):
+        if any(map(is_of_unknown, args)) or any(map(is_of_unknown, kwargs.values())):
             return unknown()
         try:
             return function(*args, **kwargs)
         except FileNotFoundError:
             line = args[0] if args else kwargs.get("args")
-            if not name.startswith("subprocess.") or not _is_missing_program(line, sys._getframe(1)):
+            if not name.startswith("subprocess.") or not programs.is_missing(line, sys._getframe(1)):
                 raise
             RECORDER.unknown = True
             return unknown()
@@ -128,14 +130,6 @@ def _guarded(function: Any, name: str) -> Any:
             return unknown()  # it reads other files, which may be in a folder that is not known
 
     return called
-
-
-def _is_missing_program(line: Any, frame: Any) -> bool:
-    """Whether a command line names a program that is not installed here, and nobody provides for that."""
-    words = line if isinstance(line, (list, tuple)) else [line]
-    program = str(words[0]) if words else ""
-    missing = bool(program) and os.sep not in program and shutil.which(program) is None
-    return missing and not provided_for(frame, ("FileNotFoundError", "OSError", "CalledProcessError"))
 
 
 def _as_json(default: Any) -> Any:
@@ -159,14 +153,14 @@ class _Document(xml.dom.minidom.Document):
     toprettyxml = toxml
 
 
-def _is_of_unknown(value: Any) -> bool:
+def is_of_unknown(value: Any) -> bool:
     """Whether it is a path, a text, a file or a command line in which something is unknown."""
     if isinstance(value, (str, Anything)):
         return isinstance(value, Anything) or BEGIN in value
     if isinstance(value, bytes):
         return BEGIN.encode() in value
     if isinstance(value, (list, tuple)):
-        return any(map(_is_of_unknown, value))
+        return any(map(is_of_unknown, value))
     if isinstance(value, os.PathLike):
         return is_unknown(os.fspath(value))
     return is_unknown(getattr(value, "name", None))
@@ -183,7 +177,7 @@ def _empty(function: Any) -> Any:
 def _instead(function: Any, value: Callable[[], Any]) -> Any:
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
-        if not args or not _is_of_unknown(args[0]):
+        if not args or not is_of_unknown(args[0]):
             return function(*args, **kwargs)
         frame = sys._getframe(1)
         return value() if asked(f"{function.__name__}({args[0]})", frame) else function(*args, **kwargs)
