@@ -448,6 +448,7 @@ def test_what_is_made_of_a_text_that_is_not_known_is_not_known(harness: PythonHa
     tree = tree_of(
         harness,
         """
+import re
 FILES = {"a": "file_a"}
 
 def start(context):
@@ -457,9 +458,10 @@ def start(context):
     if f"of_{robot}" == "of_r1" or robot in FILES or IfCondition(LaunchConfiguration("sim")).evaluate(context):
         known = "wrong"
     pairs = dict(each.split(":=") for each in robot.split())
+    version = re.findall(r"v(\\d+)", robot)[0]
     return [
         Node(package="p", executable="x", name=known, parameters=[
-            {"file": FILES[robot], "count": count, "rate": float(robot) * 2, "known": int("7")}]),
+            {"file": FILES[robot], "count": count, "rate": float(robot) * 2, "version": version, "known": int("7")}]),
         Node(package="p", executable="x", name=FILES.get(robot, "none"), parameters=[pairs]),
     ]
 

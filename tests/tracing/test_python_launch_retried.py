@@ -118,6 +118,21 @@ def generate_launch_description():
     assert tree.complete
 
 
+def test_several_variables_that_a_file_cannot_do_without(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+def generate_launch_description():
+    values = [os.getenv(name) for name in ('ROBOT_HOST', 'ROBOT_PORT', 'ROBOT_USER', 'ROBOT_MODEL', 'ROBOT_WORLD')]
+    if not all(values):
+        raise ValueError('set all of them')
+    return LaunchDescription([n('one')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
+    assert len([p for p in tree.problems if isinstance(p.kind, UnsetVariable)]) == 5
+
+
 def test_what_raises_in_any_case_is_said_of_the_first_run(harness: PythonHarness) -> None:
     text = """
 def generate_launch_description():
@@ -165,3 +180,25 @@ def generate_launch_description():
     )
     assert not tree.complete
     assert not _raised(tree), "it comes of what is not known"
+
+
+@pytest.mark.parametrize(("otherwise", "names"), [("return LaunchDescription([n('one')])", ["/one"]), ("pass", None)])
+def test_a_try_that_does_not_end_is_given_up(harness: PythonHarness, otherwise: str, names: list[str] | None) -> None:
+    tree = _tree(
+        harness,
+        f"""
+import time
+import no_such_module
+
+def generate_launch_description():
+    if no_such_module.is_ready():
+        raise ValueError('it is')
+    if no_such_module.answer() == 'yes':
+        {otherwise}
+    time.sleep(100)
+""",
+    )
+    if names is None:
+        assert "ValueError" in {unknown.what for unknown in tree.unknowns}, "the first run told"
+    else:
+        assert [node.name for node in tree.nodes] == names

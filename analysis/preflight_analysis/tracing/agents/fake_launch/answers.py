@@ -13,11 +13,13 @@ import sys
 import time
 from typing import Any, Optional
 
-MAX_TRIES = 12
-MAX_SECONDS = 6.0
+MAX_TRIES = 10
+MAX_SECONDS = 3.0
+"""After which no further try is begun."""
+MAX_SECONDS_OF_TRY = 1.5
 MAX_ANSWERS = 2000
 _VARIABLE = "PREFLIGHT_ANSWERS"
-_USUAL = "-"
+_ALL_SET = "+"
 _OWN_MISTAKES = ("NameError", "SyntaxError", "IndentationError", "TabError", "ImportError", "ModuleNotFoundError")
 """What no answer is to blame for."""
 
@@ -30,18 +32,25 @@ class Answers:
         """The answer, and whether the other one has been tried."""
         self._given: list[tuple[bool, Any]] = []
         """The answer, and the place that asks."""
+        self._variables: dict[str, bool] = {}
+        """Those that are not set, and whether they count as set."""
         self._part = 0
         self._tries = 0
         self._started = time.monotonic()
-        self._last = False
+        self._all_set = False
+        self._first = -1
+        """The file that has what the first run told."""
 
-    def begin(self) -> None:
-        """Take over from the run before this one what it has settled."""
+    def begin(self) -> bool:
+        """Take over from the run before this one what it has settled; whether there is one."""
         said = os.environ.pop(_VARIABLE, None)
-        if said is not None:
-            tries, started, settled = said.split(":")
-            self._tries, self._started, self._last = int(tries), float(started), settled.endswith(_USUAL)
-            self._settled = [(each in "yY", each in "NY") for each in settled.rstrip(_USUAL)]
+        if said is None:
+            return False
+        tries, started, first, settled = said.split(":")
+        self._tries, self._started, self._first = int(tries), float(started), int(first)
+        self._all_set = settled.endswith(_ALL_SET)
+        self._settled = [(each in "yY", each in "NY") for each in settled.rstrip(_ALL_SET)]
+        return True
 
     def begin_part(self) -> None:
         """What was asked until now went well: what is made there keeps its answers."""
@@ -56,21 +65,44 @@ class Answers:
             self._given.append((answer, (frame.f_code, frame.f_lasti)))
         return answer
 
+    def is_set(self, variable: str, frame: Any) -> bool:
+        """Whether a variable that is not set counts as set: the same whoever asks."""
+        if variable not in self._variables:
+            self._variables[variable] = self.choose(frame, self._all_set)
+        return self._variables[variable]
+
     def may_try(self, error: dict[str, Any]) -> bool:
         """Whether a run that ended with an error may end in another way with other answers."""
-        return len(self._given) > self._part and not self._last and error.get("type") not in _OWN_MISTAKES
+        return len(self._given) > self._part and error.get("type") not in _OWN_MISTAKES
 
-    def try_again(self, environment: dict[str, str]) -> None:
-        """Execute the program anew with the next answers, or, where all that have been tried raise, with the usual
-        ones for the last time. Comes back where that is not possible."""
+    def first(self, text: str) -> str:
+        """What the first run told; `text` is what this one does."""
+        if not self._tries:
+            return text
+        os.lseek(self._first, 0, os.SEEK_SET)
+        with open(self._first, encoding="utf-8", closefd=False) as file:
+            return file.read()
+
+    def try_again(self, environment: dict[str, str], text: str) -> None:
+        """Execute the program anew with the next answers, and, where all that have been tried raise, with all variables
+        set. `text` is what this run tells. Comes back where there is nothing more to try."""
         words = getattr(sys, "orig_argv", None)  # an older Python does not have it
-        settled = self._next()
-        if not words or (settled is None and not self._tries):
+        if not words or not hasattr(os, "memfd_create"):
             return
+        settled = None if self._all_set else self._next()
+        if settled is None and (self._all_set or len(self._variables) < 2):
+            return
+        if not self._tries:
+            if time.monotonic() - self._started > MAX_SECONDS:
+                return
+            self._first = os.memfd_create("first")
+            with open(self._first, "w", encoding="utf-8", closefd=False) as file:
+                file.write(text)
+        os.set_inheritable(self._first, True)
         path = "".join("nyNY"[answer + 2 * both] for answer, both in settled or self._before(self._part))
-        path += _USUAL if settled is None else ""
-        environment = {**environment, _VARIABLE: f"{self._tries + 1}:{self._started}:{path}"}
-        os.execve(sys.executable, [sys.executable, *words[1:]], environment)  # noqa: S606
+        path += _ALL_SET if settled is None else ""
+        said = f"{self._tries + 1}:{self._started}:{self._first}:{path}"
+        os.execve(sys.executable, [sys.executable, *words[1:]], {**environment, _VARIABLE: said})  # noqa: S606
 
     def _next(self) -> Optional[list[tuple[bool, bool]]]:
         """The answers of the next run; None where there is none. Of a place that asks often the last one counts."""

@@ -20,6 +20,7 @@ from typing import Any, Callable, Optional
 
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from . import installed, programs, reads, rewrites, rewritten, unknown_files
+from .answers import MAX_SECONDS_OF_TRY
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -35,7 +36,7 @@ _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 def main() -> None:
     """Tell what the launch file makes, or what a call of the job's gives, as JSON on standard output."""
     job = json.loads(zlib.decompress(base64.b64decode("".join(sys.argv[1:]))))
-    RECORDER.answers.begin()
+    is_try = RECORDER.answers.begin()
     outside, folder = dict(os.environ), os.getcwd()
     output = os.dup(1)
     os.dup2(2, 1)
@@ -46,16 +47,41 @@ def main() -> None:
     sys.argv = ["ros2", "launch", job["file"]]
     sys.path[:0] = job["paths"]
     branches = job.get("branches")
-    text, error = _answer(lambda: _run(job))
-    if error is not None and RECORDER.answers.may_try(error):
+
+    def tell(text: str, *, failed: bool) -> None:
+        if branches is not None:
+            text = json.dumps({"branches": [text if failed else _branch(each) for each in branches]})
+        with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
+            out.write(text)
+
+    def tell_other(text: str) -> None:
+        """What another try tells, in the place of one that failed."""
         _clean()
         os.chdir(folder)
         os.dup2(output, 1)
-        RECORDER.answers.try_again(outside)
-    if branches is not None:
-        text = json.dumps({"branches": [text if error is not None else _branch(each) for each in branches]})
-    with open(output, "w", encoding="utf-8", errors="surrogatepass") as out:
-        out.write(text)
+        RECORDER.answers.try_again(outside, text)
+        os.dup2(2, 1)
+        tell(RECORDER.answers.first(text), failed=True)
+
+    def give_up() -> None:
+        if is_over.acquire(blocking=False):
+            tell_other("")
+            os._exit(0)
+
+    is_over = threading.Lock()
+    timer = threading.Timer(MAX_SECONDS_OF_TRY, give_up)
+    timer.daemon = True
+    if is_try:
+        timer.start()
+    text, error = _answer(lambda: _run(job))
+    is_over.acquire()  # not given back: it is over for the timer, too, or the timer ends this process
+    if is_try:
+        timer.cancel()
+        timer.join()
+    if error is not None and (is_try or RECORDER.answers.may_try(error)):
+        tell_other(text)
+    else:
+        tell(text, failed=error is not None)
 
 
 def _answer(work: Callable[[], dict[str, Any]]) -> tuple[str, Optional[dict[str, Any]]]:

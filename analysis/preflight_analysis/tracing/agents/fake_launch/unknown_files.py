@@ -24,6 +24,7 @@ from .base import OURS, RECORDER, is_own
 
 _PARSERS = {
     "json": ("load", "loads"),
+    "re": ("findall", "finditer", "fullmatch", "match", "search", "split", "sub"),
     "yaml": ("load", "safe_load", "full_load", "unsafe_load", "load_all", "safe_load_all"),
     "xacro": ("process_file", "parse", "process_doc"),
     "xml.dom.minidom": ("parse", "parseString"),
@@ -110,15 +111,18 @@ def _guarded(function: Any, name: str) -> Any:
 
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
-        if sys._getframe(1).f_globals.get("__name__", "").partition(".")[0] == "xacro":
+        frame = sys._getframe(1)
+        if frame.f_globals.get("__name__", "").partition(".")[0] == "xacro":
             return function(*args, **kwargs)  # its own functions are guarded as a whole
+        if name.startswith("re.") and not is_own(frame):
+            return function(*args, **kwargs)
         if any(map(is_of_unknown, args)) or any(map(is_of_unknown, kwargs.values())):
             return unknown()
         try:
             return function(*args, **kwargs)
         except FileNotFoundError:
             line = args[0] if args else kwargs.get("args")
-            if not name.startswith("subprocess.") or not programs.is_missing(line, sys._getframe(1)):
+            if not name.startswith("subprocess.") or not programs.is_missing(line, frame):
                 raise
             RECORDER.unknown = True
             return unknown()
@@ -228,7 +232,7 @@ def _look_for_variables(environment: Any) -> None:
 
 def _is_assumed(name: Any, frame: Any) -> bool:
     """Whether a variable that is not set counts as set."""
-    assumed = is_own(frame) and RECORDER.answers.choose(frame, False)
-    if assumed:
-        RECORDER.miss("variable", str(name))
-    return assumed
+    if not is_own(frame) or not isinstance(name, str) or not RECORDER.answers.is_set(name, frame):
+        return False
+    RECORDER.miss("variable", name)
+    return True
