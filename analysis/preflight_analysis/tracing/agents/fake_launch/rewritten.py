@@ -18,8 +18,8 @@ from .base import RECORDER, is_own_file
 
 _TEXT, _OF, _IN = "__preflight_text__", "__preflight_of__", "__preflight_in__"
 _NUMBERS_AND_PAIRS = ("int", "float", "dict")
-_COLLECTIONS = (dict, list, tuple)
-_SETS = (dict, set, frozenset, str, type({}.keys()))
+_COLLECTIONS: tuple[type, ...] = (dict, list, tuple)
+_SETS: tuple[type, ...] = (dict, set, frozenset, str, type({}.keys()))
 """Which tell whether something is in them without asking it."""
 
 
