@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -172,11 +173,25 @@ def test_written_and_read_again_is_the_same(
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[", "5", "schema: 5", "\x00", "schema: ros-preflight/snapshot/1\nnodes: {/a: 5}", "a: b"]
+    "text",
+    [
+        *("", "[", "5", "schema: 5", "\x00", "a: b", "schema: ros-preflight/snapshot/1\nnodes: {/a: 5}"),
+        "schema: ros-preflight/snapshot/1\nparameters: &a {/a: *a}",
+    ],
 )
 def test_what_is_no_snapshot(text: str) -> None:
     with pytest.raises(NotASnapshotError):
         from_yaml(text)
+
+
+def test_values_of_yaml_that_json_does_not_have_are_told() -> None:
+    read = from_yaml(
+        "schema: ros-preflight/snapshot/1\n"
+        "nodes: {/n: {interface: trace, reads: {/n/b: {default: .nan, 1: 2024-01-02}}}}\n"
+        "parameters: {/x: {1: a, b: !!binary aGk=}}\n"
+    )
+    assert read.nodes["/n"].reads == {"/n/b": {"default": "nan", "1": "2024-01-02"}}
+    assert json.dumps(to_json(difference(ROBOT, read)), sort_keys=True, allow_nan=False)
 
 
 def test_a_launch_file_is_no_snapshot() -> None:

@@ -71,10 +71,10 @@ def refuse_deep(text: str) -> None:
                 raise RecursionError("nested too deeply")
 
 
-def load_plain(text: str) -> Any:
+def load_plain(text: str, kind: type[PlainLoader] = PlainLoader) -> Any:
     """What `yaml.safe_load` gives. Raises one of `CONSTRUCTION_ERRORS`."""
     refuse_deep(text)
-    loader = PlainLoader(text)
+    loader = kind(text)
     try:
         return loader.get_single_data()
     finally:

@@ -8,7 +8,8 @@ from typing import Any
 
 import yaml
 
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, load_plain
+from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.snapshot.model import GROUPS, SCHEMA, EndpointSnapshot, NodeSnapshot, Snapshot
 
 _INTRODUCTION = """\
@@ -21,6 +22,16 @@ _NODE_KEYS = {"interface", "outcome", "from", "parameters", "reads", "remaps", "
 
 class NotASnapshotError(Exception):
     """The text is no snapshot; says why in a sentence without a subject."""
+
+
+class _Loader(PlainLoader):
+    """Without aliases, which `_Dumper` does not write: what they stand for may hold itself, or unfold without end."""
+
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        if self.check_event(yaml.AliasEvent):
+            line = self.peek_event().start_mark.line + 1  # type: ignore[no-untyped-call]
+            raise NotASnapshotError(f"has an alias (line {line}); write what it stands for")
+        return super().compose_node(parent, index)
 
 
 class _Line(dict[str, Any]):
@@ -82,7 +93,7 @@ def to_yaml(snapshot: Snapshot) -> str:
 def from_yaml(text: str) -> Snapshot:
     """The snapshot of a file's text; JSON is read too. Raises `NotASnapshotError`."""
     try:
-        data = yaml.safe_load(text)
+        data = json_value(load_plain(text, _Loader))
     except CONSTRUCTION_ERRORS as error:
         mark = getattr(error, "problem_mark", None)
         where = f" (line {mark.line + 1})" if mark is not None else ""
