@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 from functools import partial
 
@@ -15,17 +15,16 @@ from preflight_analysis.evaluation.catalogued import in_catalogue
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.problems import (
-    IncludeArgumentWithoutValue,
     IncludeCycle,
     MalformedXml,
     NestedTooDeeply,
     NoLaunchElement,
-    RedeclaredArgument,
     UndefinedMachine,
     UnexpandedEntity,
     UnknownIncludeArgument,
 )
 from preflight_analysis.evaluation.root_args import report_undeclared
+from preflight_analysis.evaluation.ros1.arguments import are_those_of, declared_args, names_asked_for, passed_args
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.included import (
     Passed,
@@ -47,7 +46,7 @@ from preflight_analysis.evaluation.ros1.tags import (
     namespace_of,
 )
 from preflight_analysis.evaluation.surroundings import Surroundings
-from preflight_analysis.evaluation.tree import Arg, Include, LaunchTree, Use
+from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.hashed import Hashed
 from preflight_analysis.incremental.query import query
@@ -95,8 +94,8 @@ def evaluate(
         scope = Scope(path, found.document.lines, (), names.as_namespace(ns))
         scope.args = {name: ArgValue(value, None) for name, value in args.items()}
         _file(state, scope, found, None)
-        state.args = _root_args(scope, found)
-        if (asked_for := _asked_for(found)) is not None:
+        state.args = declared_args(scope, found)
+        if (asked_for := names_asked_for(found)) is not None:
             report_undeclared(state, found, args, asked_for)
     _check_machines(state)
     if not outline:
@@ -297,7 +296,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
         return default_machine
     inside = scope.child(ns.text)
     clear_params(state, scope, action, attributes, inside, ns.text)
-    passed, tags = _passed_args(state, scope, inside, action, pass_all)
+    passed, tags = passed_args(state, scope, inside, action, pass_all)
     place = scope.location(file_attribute.value.span)
     origin = scope.origin(action.head_span)
     shown = {name: value.text for name, value in passed.items()}
@@ -397,57 +396,6 @@ def _too_deep(state: State, scope: Scope, action: Action) -> bool:
     return True
 
 
-def _passed_args(
-    state: State, scope: Scope, inside: Scope, action: Action, pass_all: bool
-) -> tuple[dict[str, ArgValue], dict[str, Location]]:
-    """The arguments given to an included file, and where those are written that have a value in the `<include>`.
-
-    They are evaluated in the includer's file and do not see each other.
-    """
-    passed: dict[str, ArgValue] = {}
-    seen: dict[str, Location] = {}
-    if pass_all:
-        passed = dict(scope.args)
-    without: list[tuple[str, Span]] = []
-    for child in action.children:
-        kind = child.kind.lower()
-        if kind == "env":
-            evaluate_env(state, inside, child)
-            continue
-        if kind != "arg" or not applies(state, inside, child):
-            continue
-        attributes = Attributes(state, inside, child)
-        required = attributes.require("name")
-        if required is None:
-            continue
-        name = required[0].text
-        name_attribute = child.attribute("name")
-        span = name_attribute.value.span if name_attribute else child.kind_span
-        value, default = attributes.get("value"), attributes.get("default")
-        attributes.get("doc")
-        if value is not None and default is not None:
-            state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(child.kind_span))
-            continue
-        if name in seen and not pass_all:
-            state.problem(RedeclaredArgument(name, seen[name], passed=True), scope.origin(span))
-            continue
-        seen.setdefault(name, scope.location(span))
-        given = value if value is not None else default
-        if given is None:
-            if name not in passed:
-                without.append((name, span))
-                passed[name] = ArgValue(None, scope.origin(span))
-        elif value is not None or name not in passed:
-            passed[name] = ArgValue(given.text if given.known else None, scope.origin(span))
-        now = passed.get(name)
-        state.uses.append(Use("argument", scope.location(span), name, now.text if now else None))
-    # roslaunch looks at all of them first.
-    for name, span in without:
-        state.problem(IncludeArgumentWithoutValue(name), scope.origin(span))
-        del seen[name]
-    return passed, seen
-
-
 def _included(
     state: State, scope: Scope, path: str, passed: Mapping[str, ArgValue], origin: tuple[Location, ...]
 ) -> LaunchFile | None:
@@ -457,7 +405,7 @@ def _included(
         state.depends_on_outside = True
         if state.is_included:
             return None  # what is above that it is compared with is not known here: all of this is for nothing
-    if path in above and _same_args(scope, path, passed):
+    if path in above and are_those_of(scope, path, passed):
         state.problem(IncludeCycle(path, (*above[above.index(path) :], path)), origin)
         return None
     found = state.read_launch_file(path)
@@ -465,56 +413,6 @@ def _included(
         state.unreadable_include(path, found, origin)
         return None
     return found
-
-
-def _same_args(scope: Scope, path: str, passed: Mapping[str, ArgValue]) -> bool:
-    """Whether the file is being evaluated already with these very arguments: then it would never end."""
-    at: Scope | None = scope
-    wanted = {name: value.text for name, value in passed.items()}
-    while at is not None:
-        if at.file == path and all(at.args.get(n) is not None and at.args[n].text == t for n, t in wanted.items()):
-            return True
-        at = at.parent
-    return False
-
-
-def _root_args(scope: Scope, launch_file: LaunchFile) -> dict[str, Arg]:
-    found: dict[str, Arg] = {}
-    tags = [a for a in (launch_file.root.children if launch_file.root else ()) if a.kind == "arg"]
-    for name, location in scope.declared.items():
-        tag = next((t for t in tags if (n := t.attribute("name")) and n.value.span == location.span), None)
-        default = tag.value("default") if tag else None
-        fixed = tag.value("value") if tag else None
-        doc = tag.value("doc") if tag else None
-        given = scope.args.get(name)
-        found[name] = Arg(
-            name,
-            given.text if given else None,
-            default.text if default else None,
-            default is None and fixed is None,
-            (location,),
-            location,
-            given.origin if given else None,
-            doc.text if doc else None,
-        )
-    return found
-
-
-def _asked_for(launch_file: LaunchFile) -> set[str] | None:
-    """The names of all `<arg>`s of a file, taken or not; None if an include may hand on what it does not declare, or a
-    name is made up, or half typed."""
-    if launch_file.document.problems:
-        return None
-    asked_for = launch_file.root.gather(_asked_by) if launch_file.root is not None else []
-    return None if None in asked_for else {*filter(None, asked_for)}
-
-
-def _asked_by(action: Action) -> Iterator[str | None]:
-    """The name of an `<arg>`; None where it is made up, and for an include that hands on what it does not declare."""
-    if action.kind == "include" and action.attribute("pass_all_args") is not None:
-        yield None
-    elif action.kind == "arg" and (value := action.value("name")) is not None:
-        yield value.text if value.is_literal else None
 
 
 def _check_machines(state: State) -> None:

@@ -18,7 +18,8 @@ from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.actions.registry import actions, parts, python_classes, tags
 from preflight_analysis.evaluation.ros2.check_language import check_language_ros2
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
-from preflight_analysis.evaluation.ros2.context import Context, NotByPartsError, Place
+from preflight_analysis.evaluation.ros2.context import Context, NotByPartsError
+from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.required import check_required, report_missing_below
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk

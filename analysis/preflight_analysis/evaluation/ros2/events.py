@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 from preflight_analysis.documents.span import Origin
-from preflight_analysis.evaluation.ros2.context import Place
+from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.launch.model import Action
 
 _Key = tuple[str, Origin, str]

@@ -6,7 +6,8 @@ import re
 
 from preflight_analysis.catalogue.launches import CataloguedFile
 from preflight_analysis.evaluation.catalogued import folder_of_missing, in_catalogue
-from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.ros2.context import Context
+from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.launch.model import Substitution, Value

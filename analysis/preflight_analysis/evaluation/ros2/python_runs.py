@@ -32,7 +32,8 @@ from preflight_analysis.evaluation.problems import (
     UndeclaredArgument,
     UnsetVariable,
 )
-from preflight_analysis.evaluation.ros2.context import Configuration, Context, Place, PythonRun
+from preflight_analysis.evaluation.ros2.context import Configuration, Context
+from preflight_analysis.evaluation.ros2.place import Place, PythonRun
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable, unknown_text
 from preflight_analysis.evaluation.tree import Command, Edited
 from preflight_analysis.launch.configurations import substitutions_of

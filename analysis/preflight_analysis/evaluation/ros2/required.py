@@ -8,9 +8,10 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation.catalogued import data_of
 from preflight_analysis.evaluation.problems import ArgumentNeeded, MissingArgument, Problem
-from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.ros2.context import Context
 from preflight_analysis.evaluation.ros2.declared import required_arguments
 from preflight_analysis.evaluation.ros2.missing_packages import named_in_catalogue
+from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.python_runs import recorded
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.substitute import Performer

@@ -26,7 +26,8 @@ from preflight_analysis.evaluation.problems import (
 )
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2 import expressions
-from preflight_analysis.evaluation.ros2.context import Context, Place
+from preflight_analysis.evaluation.ros2.context import Context
+from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.types import loaded

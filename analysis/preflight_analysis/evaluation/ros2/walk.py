@@ -27,13 +27,12 @@ from preflight_analysis.evaluation.ros2.context import (
     Changes,
     Context,
     NotByPartsError,
-    Place,
-    PythonRun,
     Question,
 )
 from preflight_analysis.evaluation.ros2.declared import Declared
 from preflight_analysis.evaluation.ros2.entity import Entity, Part
 from preflight_analysis.evaluation.ros2.events import Events, Noted
+from preflight_analysis.evaluation.ros2.place import Place, PythonRun
 from preflight_analysis.evaluation.ros2.python_runs import calls_own_code, recorded
 from preflight_analysis.evaluation.ros2.state import Added, State
 from preflight_analysis.evaluation.ros2.substitute import Performer

@@ -14,10 +14,10 @@ from preflight_analysis.evaluation.problems import (
     UnknownIncludeArgument,
 )
 from preflight_analysis.evaluation.resolved import Resolved
-from preflight_analysis.evaluation.ros2.context import Place
 from preflight_analysis.evaluation.ros2.declared import PASSED
 from preflight_analysis.evaluation.ros2.entity import Part, action_tag
 from preflight_analysis.evaluation.ros2.missing_packages import named_in_catalogue
+from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.python_runs import calls_own_code
 from preflight_analysis.evaluation.ros2.required import check_required
 from preflight_analysis.evaluation.ros2.substitute import Performer
