@@ -1,6 +1,12 @@
 """LCH034: components for a container that the launch does not start (ROS 2)."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check
 
 
@@ -98,3 +104,37 @@ def test_nodelets_whose_manager_is_there_or_that_need_none() -> None:
         //- /nodelet/package.xml
         <package/>
     """)
+
+
+def _beside(folder: Path, name: str, *others: str) -> list[Finding]:
+    """What is said of a launch file that loads into a manager of this name, beside files that load into others."""
+    (folder / "package.xml").write_text("<package><name>p</name></package>")
+    load = '<launch><node pkg="nodelet" type="nodelet" name="n" args="load p/Crop {}"/></launch>'
+    for number, other in enumerate(others):
+        (folder / f"{number}.launch").write_text(load.format(other))
+    path = folder / "main.launch"
+    path.write_text(load.format(name))
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "1"}, (str(folder),)), Sources())
+    return [each for each in workspace.static(str(path)).findings if each.rule == "LCH034"]
+
+
+def test_a_manager_that_other_launch_files_call_differently(tmp_path: Path) -> None:
+    (finding,) = _beside(tmp_path, "camera_mangaer", "camera_manager", "/camera_manager")
+    assert (finding.severity, finding.confidence) == ("info", "possible")
+    assert "other launch files of the package load into 'camera_manager'" in finding.message
+    assert [edit.text for edit in finding.fixes[0].edits] == ["camera_manager"]
+
+
+@pytest.mark.parametrize(
+    ("name", "others"),
+    [
+        ("camera_mangaer", ["camera_manager"]),
+        ("camera_mangaer", ["camera_manager", "camera_manager", "camera_mangaer"]),
+        ("camera1", ["camera2", "camera2"]),
+        ("laser", ["camera_manager", "camera_manager"]),
+        ("camera_mangaer", ["$(arg camera_manager)", "$(arg camera_manager)"]),
+    ],
+)
+def test_other_names_than_slips_are_no_news(tmp_path: Path, name: str, others: list[str]) -> None:
+    (finding,) = _beside(tmp_path, name, *others)
+    assert (finding.severity, finding.fixes) == ("hint", ())

@@ -11,6 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.graph.build import effective_remaps
+from preflight_analysis.rules.containers_elsewhere import called_elsewhere
 from preflight_analysis.rules.nearest import did_you_mean, likeness
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
@@ -54,12 +55,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message = f"no node '{full}' is started by this launch, into which {loaded} are to be loaded"
         if near and names.leaf(near[0]) == leaf and tree.ros.ament and not load.written.startswith("/"):
             message += "; a target without a leading slash is below '/', whatever namespace surrounds it"
+        elsewhere = called_elsewhere(context, full) if not near else None
+        if elsewhere is not None:
+            message += f"; other launch files of the package load into '{elsewhere}'"
         related = tuple(Related(f"the {container} that there is", containers[name].location) for name in near)
         fixes = rename(context, location, load.written, near[0]) if near else ()
+        if elsewhere is not None:
+            fixes = rename(context, location, names.leaf(load.written), elsewhere)
         yield rule.finding(
             message + did_you_mean(near[0] if near else None),
             location,
-            severity="warning" if near and tree.complete and not given else "hint",
+            severity="warning" if near and tree.complete and not given else "info" if elsewhere else "hint",
             confidence="likely" if near else "possible",
             related=(*related, *include_chain(load.node.origin)),
             fixes=fixes,
@@ -127,7 +133,8 @@ RULE = Rule(
     what="Reports a `<load_composable_node>` (`LoadComposableNodes`, ROS 2) whose target is no node of the launch, and "
     "a nodelet that is to be loaded into a manager which is none (ROS 1). Where there is a container of that name in "
     "another namespace, of nearly that name, or a single one that nothing is loaded into, it is a warning; otherwise "
-    "it is but a hint, as the container may be started elsewhere.",
+    "it is but a hint, as the container may be started elsewhere, and for information where at least two other launch "
+    "files of the package load into one of nearly that name.",
     why="The loader waits for the service of the container, without end, and nothing is ever loaded.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'
