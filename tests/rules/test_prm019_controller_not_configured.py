@@ -38,10 +38,23 @@ def test_a_manager_that_the_launch_does_not_name() -> None:
         <launch>
           {_MANAGER.replace(' name="controller_manager"', "")}
           <node pkg="controller_manager" exec="spawner" name="s" args="twist_controller other"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] no parameter 'other.type'
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] 'other.type'
         </launch>
         {_FILES}
     """)  # noqa: E501
+
+
+def test_a_manager_in_a_program_of_the_projects_own() -> None:
+    manager = _MANAGER.replace(' name="controller_manager"', "").replace("ros2_control_node", "own_control_node")
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          {manager.replace('pkg="controller_manager"', 'pkg="p"')}
+          <node pkg="controller_manager" exec="spawner" name="s" args="other"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] 'other.type'
+        </launch>
+        {_FILES}
+    """)
 
 
 @pytest.mark.silent

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
@@ -16,7 +17,7 @@ from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.request import split_args
 
-_PACKAGE = _NAME = "controller_manager"
+_PACKAGE = "controller_manager"
 _SPAWNERS = ("spawner", "spawner.py")
 _MANAGER = ("-c", "--controller-manager")
 _WITH_VALUE = (
@@ -29,39 +30,54 @@ _SHOWN = 3
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    spawners = [node for node in context.tree.nodes if node.package == _PACKAGE and node.executable in _SPAWNERS]
-    if not spawners:
-        return
-    managers = {each.name: each for node in context.tree.nodes for each in _manager(context, node)}
-    for spawner in spawners:
-        asked = _asked(spawner)
-        manager = managers.get(asked[0]) if asked is not None else None
-        if asked is None or manager is None:
+    nodes = context.tree.nodes
+    asked = {at: each for at, node in enumerate(nodes) if _is_spawner(node) and (each := _asked(node)) is not None}
+    managers = {name: _manager(context, name) for name, _ in asked.values()}
+    for at, (name, controllers) in asked.items():
+        manager = managers[name]
+        if manager is None:
             continue
         known = [param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type")]
-        for controller in asked[1] if known else ():
-            if controller in known:
-                continue
-            near = nearest(controller, known)
-            files = [source for source in manager.param_sources if source.path is not None]
-            some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
-            yield rule.finding(
-                f"{manager.name} has no parameter '{controller}.type': the controller is not loaded"
-                + (f"; did you mean '{near}'?" if near is not None else f"; it knows {some}"),
-                spawner.location,
-                confidence="likely",
-                related=(
-                    *(Related(f"{manager.name} gets its parameters here", each.origin[-1]) for each in files[:1]),
-                    *include_chain(spawner.origin),
-                ),
-            )
+        for controller in controllers if known else ():
+            if controller not in known:
+                yield _finding(rule, nodes[at], controller, manager, known)
 
 
-def _manager(context: Context, node: LaunchNode) -> Iterator[LaunchNode]:
-    """A node that loads controllers, with the name that its code gives it where the launch file gives none."""
-    if node.executable == "ros2_control_node" and not node.unknowns:
-        own = node.named or node.name_from_code
-        yield node if own else of_name(node, names.join(node.namespace, _NAME), context.documents, inferred=True)
+def _finding(rule: Rule, spawner: LaunchNode, controller: str, manager: LaunchNode, known: list[str]) -> Finding:
+    near = nearest(controller, known)
+    some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
+    files = [source.origin[-1] for source in manager.param_sources if source.path is not None]
+    return rule.finding(
+        f"{manager.name} has no parameter '{controller}.type': the controller is not loaded; "
+        + (f"did you mean '{near}'?" if near is not None else f"it knows {some}"),
+        spawner.location,
+        confidence="likely",
+        related=(
+            *(Related(f"{manager.name} gets its parameters here", each) for each in files[:1]),
+            *include_chain(spawner.origin),
+        ),
+    )
+
+
+def _is_spawner(node: LaunchNode) -> bool:
+    return node.package == _PACKAGE and node.executable in _SPAWNERS
+
+
+def _manager(context: Context, name: str) -> LaunchNode | None:
+    """The node that is the manager of this name, or makes it: whatever program has one in it, its own code names it,
+    and a parameter file that it gets has something for that name. None where that is not one, or not all known."""
+    found = [node for node in context.tree.nodes if node.name == name]
+    for node in context.tree.nodes if not found else ():
+        if not (node.named or node.name_from_code or _is_spawner(node)) and _has_section(context, node, name):
+            found.append(of_name(node, name, context.documents, inferred=True))
+    return found[0] if len(found) == 1 and not found[0].unknowns else None
+
+
+def _has_section(context: Context, node: LaunchNode, name: str) -> bool:
+    documents = (context.documents.get(each.path) for each in node.param_sources if each.path is not None)
+    return any(
+        section.exact for each in documents if each is not None for section in read_param_file(each.text).reaching(name)
+    )
 
 
 def _asked(spawner: LaunchNode) -> tuple[str, list[str]] | None:
@@ -69,7 +85,7 @@ def _asked(spawner: LaunchNode) -> tuple[str, list[str]] | None:
     parameters, or are not all known."""
     if spawner.unknowns or "$(" in spawner.args:
         return None
-    manager, controllers = _NAME, []
+    manager, controllers = _PACKAGE, []
     words = iter(split_args(spawner.args))
     for word in words:
         option, equals, value = word.partition("=")
@@ -93,7 +109,7 @@ RULE = Rule(
     name="controller-not-configured",
     severity="warning",
     what="Reports a controller among the arguments of ros2_control's `spawner` whose type the parameters of the "
-    "`ros2_control_node` that it asks do not tell (ROS 2). Nothing is said where the manager is part of a simulation, "
+    "node that it asks do not tell (ROS 2). Nothing is said where the manager is part of a simulation, "
     "where its parameters are not all known, or where the spawner brings parameters of its own.",
     why="The manager refuses to load it: `The 'type' param was not defined`. The spawner ends, and what the "
     "controller should do nobody does.",
