@@ -105,3 +105,29 @@ def test_an_installed_package_without_its_executables_is_a_lack(tmp_path: Path) 
         environment = Environment(1, "noetic", {}, (str(tmp_path),), packages, {}, (), prefixes, None)
         (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
         assert (finding.rule, finding.severity, finding.lack is not None) == ("PKG002", severity, severity == "hint")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        (
+            "a.launch.xml",
+            '<launch><arg name="ns"/><node pkg="demo" exec="drivr" namespace="$(var ns)" name="$(var ns)"/></launch>',
+        ),
+        ("a.launch.py", 'from launch_ros.actions import Node\nnode = Node(package="demo", executable="drivr")\n'),
+    ],
+)
+def test_a_node_of_which_no_more_is_known_than_its_program(tmp_path: Path, name: str, text: str) -> None:
+    share = tmp_path / "src" / "demo"
+    share.mkdir(parents=True)
+    (share / "package.xml").write_text("<package><name>demo</name></package>")
+    (share / "CMakeLists.txt").write_text(
+        "add_executable(driver a.cpp)\ninstall(TARGETS driver DESTINATION lib/demo)\n"
+    )
+    (share / name).write_text(text)
+    packages = {"demo": Package("demo", str(share), str(share / "package.xml"))}
+    environment = Environment(2, "jazzy", {}, (str(tmp_path / "src"),), packages, {}, (), (), None)
+    findings = Workspace(environment, Sources(), str(tmp_path)).static(str(share / name)).findings
+    (finding,) = (each for each in findings if each.rule == "PKG002")
+    assert (finding.severity, finding.confidence) == ("error", "likely")
+    assert "did you mean 'driver'?" in finding.message

@@ -14,7 +14,7 @@ from preflight_analysis.findings.finding import Confidence, Finding, Fix, Relate
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.installed import debian_package_of, lack_of_package, near_package
 from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.places import attribute_location, program_known
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, Rule
@@ -38,7 +38,7 @@ def _nodes_without_package(context: Context) -> Iterator[LaunchNode]:
     for node in context.tree.nodes:
         # A plain process is of no package, and a component has no executable in its one.
         there = node.resolved.package_path is not None or node.package in packages
-        if node.package and not there and not node.unknowns and not was_removed(context, node):
+        if node.package and not there and program_known(node) and not was_removed(context, node):
             yield node
 
 

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.installed import lack_of_build, lack_of_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.places import attribute_location, program_known
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
@@ -24,7 +24,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables = context.executables
     for node in context.tree.nodes:
         found = node.resolved
-        if found.path is not None or found.package_path is None or node.unknowns or was_removed(context, node):
+        if found.path is not None or found.package_path is None or not program_known(node):
+            continue
+        if was_removed(context, node):
             continue
         location = attribute_location(context, node, context.tree.ros.executable)
         chain = include_chain(node.origin)
@@ -65,6 +67,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"package '{node.package}' has no executable '{node.executable}'; looked at its {len(names)} executables "
             f"in {found.package_path} and the {_SPACES[context.tree.generation]}{hint}",
             location,
+            confidence="likely" if node.unknowns else "certain",
             related=chain,
             fixes=fixes,
         )

@@ -22,6 +22,10 @@ _KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
     "action_client": "action",
 }
 
+_BESIDE_PROGRAM = frozenset({"name", "namespace", "the node"})
+"""What of a node of ROS 2 may be unknown while it is known what is started; the node itself: its file was not run, and
+its text says this much."""
+
 
 @dataclass(frozen=True, slots=True)
 class Verbs:
@@ -36,6 +40,11 @@ def known_by_source(context: Context) -> frozenset[int]:
     graph = context.graph
     pairs = zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ()
     return frozenset(id(node) for node, interface in pairs if interface.source == "source")
+
+
+def program_known(node: LaunchNode) -> bool:
+    """Whether the package and the executable of a node are known, whatever else is not."""
+    return all(each.what in _BESIDE_PROGRAM for each in node.unknowns)
 
 
 def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:
