@@ -202,3 +202,29 @@ def generate_launch_description():
         assert "ValueError" in {unknown.what for unknown in tree.unknowns}, "the first run told"
     else:
         assert [node.name for node in tree.nodes] == names
+
+
+NASTY = {
+    "it starts other programs": "os.execve = os.memfd_create = None",
+    "it names another program": "sys.orig_argv = ['/no/such/program']; sys.executable = '/no/such/program'",
+    "its folder is gone": "os.makedirs('/tmp/gone'); os.chdir('/tmp/gone'); os.rmdir('/tmp/gone')",
+    "a thread goes on": "import threading; threading.Thread(target=__import__('time').sleep, args=[3]).start()",
+    "it says what was answered": "os.environ['PREFLIGHT_ANSWERS'] = 'x'",
+}
+
+
+@pytest.mark.parametrize("before", NASTY.values(), ids=NASTY.keys())
+def test_whatever_a_file_does_there_is_an_answer(harness: PythonHarness, before: str) -> None:
+    tree = _tree(
+        harness,
+        f"""
+import no_such_module
+{before}
+
+def generate_launch_description():
+    if no_such_module.is_ready():
+        raise ValueError('it is')
+    return LaunchDescription([n('one')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"] or "ValueError" in {each.what for each in tree.unknowns}

@@ -85,7 +85,7 @@ class Answers:
 
     def try_again(self, environment: dict[str, str], text: str) -> None:
         """Execute the program anew with the next answers, and, where all that have been tried raise, with all variables
-        set. `text` is what this run tells. Comes back where there is nothing more to try."""
+        set. `text` is what this run tells. Comes back where there is nothing more to try; raises what `os` does."""
         words = getattr(sys, "orig_argv", None)  # an older Python does not have it
         if not words or not hasattr(os, "memfd_create"):
             return

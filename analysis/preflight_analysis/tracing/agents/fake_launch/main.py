@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import base64
+import contextlib
 import inspect
 import json
 import linecache
@@ -29,7 +30,7 @@ MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log", programs.PRINTED)
-_fork = os.fork
+_fork, _dup2 = os.fork, os.dup2
 _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 
 
@@ -56,11 +57,12 @@ def main() -> None:
 
     def tell_other(text: str) -> None:
         """What another try tells, in the place of one that failed."""
-        _clean()
-        os.chdir(folder)
-        os.dup2(output, 1)
-        RECORDER.answers.try_again(outside, text)
-        os.dup2(2, 1)
+        with contextlib.suppress(Exception):  # what the file may have made of `os`
+            _clean()
+            os.chdir(folder)
+            _dup2(output, 1)
+            RECORDER.answers.try_again(outside, text)
+        _dup2(2, 1)
         tell(RECORDER.answers.first(text), failed=True)
 
     def give_up() -> None:

@@ -27,10 +27,9 @@ def compiled(text: Any, file: str) -> types.CodeType:
     """The code of a file; raises what `compile` raises."""
     tree = compile(text, file, "exec", ast.PyCF_ONLY_AST, dont_inherit=True)
     try:
-        tree = ast.fix_missing_locations(_Rewriter().visit(tree))
+        return compile(ast.fix_missing_locations(_Rewriter().visit(tree)), file, "exec", dont_inherit=True)
     except RecursionError:
         return compile(text, file, "exec", dont_inherit=True)
-    return compile(tree, file, "exec", dont_inherit=True)
 
 
 def install() -> None:

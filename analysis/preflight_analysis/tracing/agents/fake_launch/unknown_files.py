@@ -41,7 +41,7 @@ def install() -> None:
     open_file = io.open
 
     def opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
-        if not is_of_unknown(file):
+        if not _is_of_unknown(file):
             return open_file(file, mode, *args, **kwargs)
         text = _Text(str(file)) if "b" not in mode else io.BytesIO(str(file).encode())
         text.name = str(file)
@@ -116,7 +116,7 @@ def _guarded(function: Any, name: str) -> Any:
             return function(*args, **kwargs)  # its own functions are guarded as a whole
         if name.startswith("re.") and not is_own(frame):
             return function(*args, **kwargs)
-        if any(map(is_of_unknown, args)) or any(map(is_of_unknown, kwargs.values())):
+        if any(map(_is_of_unknown, args)) or any(map(_is_of_unknown, kwargs.values())):
             return unknown()
         try:
             return function(*args, **kwargs)
@@ -157,14 +157,14 @@ class _Document(xml.dom.minidom.Document):
     toprettyxml = toxml
 
 
-def is_of_unknown(value: Any) -> bool:
+def _is_of_unknown(value: Any) -> bool:
     """Whether it is a path, a text, a file or a command line in which something is unknown."""
     if isinstance(value, (str, Anything)):
         return isinstance(value, Anything) or BEGIN in value
     if isinstance(value, bytes):
         return BEGIN.encode() in value
     if isinstance(value, (list, tuple)):
-        return any(map(is_of_unknown, value))
+        return any(map(_is_of_unknown, value))
     if isinstance(value, os.PathLike):
         return is_unknown(os.fspath(value))
     return is_unknown(getattr(value, "name", None))
@@ -181,7 +181,7 @@ def _empty(function: Any) -> Any:
 def _instead(function: Any, value: Callable[[], Any]) -> Any:
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
-        if not args or not is_of_unknown(args[0]):
+        if not args or not _is_of_unknown(args[0]):
             return function(*args, **kwargs)
         frame = sys._getframe(1)
         return value() if asked(f"{function.__name__}({args[0]})", frame) else function(*args, **kwargs)
