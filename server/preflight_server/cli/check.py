@@ -27,6 +27,7 @@ from preflight_analysis.workspace.workspace import Analysis
 from preflight_server.cli import options
 from preflight_server.cli.changes import changed_since, touched
 from preflight_server.cli.errors import CLEAN, CannotDoError
+from preflight_server.cli.garbage import uncollected
 from preflight_server.cli.launches import Launches, launches
 from preflight_server.cli.output import colours, print_json, print_text, say
 from preflight_server.cli.progress import Progress
@@ -119,6 +120,7 @@ def run(args: argparse.Namespace) -> int:
     return int(bool(failing) or (args.require_complete and not report.complete))
 
 
+@uncollected()
 def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Report, tuple[str, ...]]:
     """The findings of all that is launched, each once, and the launch files that were looked at."""
     changed = {each.home: changed_since(args.changed_since, each.home) for each in chosen} if args.changed_since else {}
