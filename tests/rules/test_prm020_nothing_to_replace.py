@@ -91,6 +91,15 @@ def test_what_is_like_nothing_in_the_file_is_but_a_hint(tmp_path: Path) -> None:
     assert (finding.severity, finding.confidence) == ("hint", "possible")
 
 
+def test_a_class_of_that_name_which_is_another_one(tmp_path: Path) -> None:
+    made = """type("RewrittenYaml", (__import__("launch").Substitution,), {
+        "__init__": lambda self: self.__dict__.update(source_file="/x", param_rewrites={"a": 1}),
+        "perform": lambda self, context: file})()"""
+    harness = PythonHarness(tmp_path)
+    assert not _found(tmp_path, made)
+    assert harness.launch(harness.package / "launch/a.launch.py").tree.complete
+
+
 @pytest.mark.silent
 def test_what_is_in_the_file_or_added_to_it_or_not_replaced_now(tmp_path: Path) -> None:
     made = """RewrittenYaml(

@@ -102,7 +102,7 @@ def _variable(node: ast.expr, names: Mapping[str, str] | None) -> str | None:
         case ast.Call(func=ast.Name(id="arg"), args=[ast.Constant(value=str(name))]) if names is None:
             return name
         case ast.Call(func=ast.Name(id="env" | "optenv"), args=[ast.Constant(value=str(name)), *_]) if names is None:
-            return VARIABLE + name
+            return VARIABLE + name if name.isidentifier() else None
         case ast.Name(id=name):
             return names.get(name) if names is not None else name if name not in NOT_ARGUMENTS else None
         case ast.Constant(value=str(text)) if names is not None:
@@ -130,7 +130,9 @@ def name_in(part: Literal | Substitution) -> str | None:
     if any(not isinstance(piece, Literal) for word in part.words[:1] for piece in word):
         return None
     name = first_word(part)[0]
-    return VARIABLE + name if part.command in ("env", "optenv") else name
+    if part.command in ("arg", "var"):
+        return name
+    return VARIABLE + name if name.isidentifier() else None
 
 
 def default_of(part: Substitution) -> str | None:

@@ -14,11 +14,19 @@ _MARK = "ros__parameters"
 _MOST = 20_000
 
 
-def unmatched(thing: Any, context: LaunchContext) -> Iterator[list[str]]:
+def unmatched(thing: Any, context: LaunchContext) -> list[list[str]]:
     """What each is to replace that is not in the file, with the file: `["RewrittenYaml", "use_sim_time", "/a.yaml"]`.
 
-    The real classes, where they are installed, have what they were given in attributes of these names, too.
+    The real classes, where they are installed, have what they were given in attributes of these names, too. What else
+    has that name is the user's own, and may have anything there.
     """
+    try:
+        return list(_unmatched(thing, context))
+    except Exception:
+        return []
+
+
+def _unmatched(thing: Any, context: LaunchContext) -> Iterator[list[str]]:
     wanted = _WANTED.get(type(thing).__name__)
     if wanted is None:
         return
