@@ -1,8 +1,9 @@
-"""What holds for each test: it asserts something, and it waits for conditions."""
+"""What holds for all tests: each asserts something and waits for conditions, and what there is can be found."""
 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -68,6 +69,19 @@ def test_each_test_asserts_something() -> None:
     tests = [each for each in functions() if each.name.startswith("test_")]
     assert len(tests) > 1000
     assert [each.place for each in tests if not each.asserts and not each.called & asserting] == []
+
+
+def test_each_rule_has_a_file_of_cases_named_as_it() -> None:
+    rules = TESTS.parent / "analysis/preflight_analysis/rules"
+    named = {path.stem for path in rules.glob("*_*.py") if re.match(r"[a-z]{3}\d{3}_", path.name)}
+    assert len(named) > 90
+    assert sorted(named - {path.stem.removeprefix("test_") for path in (TESTS / "rules").glob("test_*.py")}) == []
+
+
+def test_the_page_of_the_helpers_has_them_all() -> None:
+    page = (TESTS / "support/README.md").read_text()
+    helpers = {path.stem for path in (TESTS / "support").glob("*.py")} - {"__init__"}
+    assert sorted(name for name in helpers if f"`{name}" not in page and f".{name}" not in page) == []
 
 
 def test_a_sleep_says_what_it_is_for() -> None:
