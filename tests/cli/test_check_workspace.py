@@ -96,6 +96,12 @@ def test_a_workspace_of_ros2(tmp_path: Path, preflight: Run) -> None:
     assert preflight("check", "--format", "sarif", "inner.launch.xml", cwd=folder).out.count('"ARG003"') == 2
 
 
+def test_processes_are_no_nodes(tmp_path: Path, preflight: Run) -> None:
+    launch = tmp_path / "a.launch.xml"
+    launch.write_text('<launch><executable cmd="sleep 1"/><node pkg="nothing_here" exec="x"/></launch>')
+    assert "1 node: 1 unknown" in preflight("check", launch, "--no-run").out
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -287,3 +287,8 @@ def test_folders_of_headers_are_those_of_the_package_that_are_there(harness: Har
         """
     )
     assert build.include_folders == (str(harness.folder / "a/include"), str(harness.folder / "b/include"))
+
+
+def test_descriptions_of_plugins(harness: Harness) -> None:
+    build = harness.build("pluginlib_export_plugin_description_file(controller_interface plugins/a.xml)")
+    assert build.plugin_files == (str(harness.folder / "plugins/a.xml"),)

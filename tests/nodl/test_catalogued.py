@@ -93,6 +93,49 @@ def test_nodelets_and_components(tmp_path: Path) -> None:
     assert [[made.name for made in interface.nodes] for interface in found] == [["scanner"]]
 
 
+MANAGER = {
+    "source": ["makers/control", COMMIT, "2024-01-01"],
+    "executables": {"manager_node": {"nodes": [["manager", "", True]]}},
+    "controllers": {
+        "control/Drive": {
+            "subscriptions": [{"name": "~/cmd_vel", "type": "geometry_msgs/msg/Twist"}],
+            "publishers": [{"name": "odom", "type": "nav_msgs/msg/Odometry"}],
+            "parameters": {"~wheel": {"type": "string"}},
+        }
+    },
+}
+
+
+@pytest.mark.parametrize("name", ["", 'name="manager"'])
+def test_controllers_have_nodes_beside_their_manager(tmp_path: Path, name: str) -> None:
+    (packages.INTERFACES / "jazzy" / "control.json").write_text(json.dumps(MANAGER))
+    graph = graph_of(
+        tmp_path,
+        f"""
+        <launch><node pkg="control" exec="manager_node" namespace="left" {name}>
+          <param from="$(dirname)/c.yaml"/><remap from="/left/base/cmd_vel" to="/cmd_vel"/>
+        </node></launch>
+        """,
+        "a.launch.xml",
+        **{
+            "c.yaml": """
+            /**/manager: {ros__parameters: {base: {type: control/Drive}, own: {type: robot/Own}, other: {type: 3}}}
+            /**/base: {ros__parameters: {wheel: front}}
+            """
+        },
+    )
+    assert [node.name for node in graph.tree.nodes] == ["/left/manager", "/left/base"]
+    assert {"/cmd_vel", "/left/odom"} <= graph.topics.keys()
+    (heard,) = graph.topics["/cmd_vel"].consumers
+    assert (heard.node.name, heard.endpoint.uncertain, heard.endpoint.catalogued[:22]) == (
+        "/left/base",
+        True,
+        "the catalogue of jazzy",
+    )
+    assert {use.name for use in graph.interfaces[1].params} == {"~wheel"}
+    assert [param.name for param in graph.tree.nodes[1].params] == ["wheel"]
+
+
 @pytest.mark.parametrize(("listener", "said"), [("scanner", []), ("hearer", ["TOP003"])])
 def test_types_that_differ_within_one_node_are_its_own_affair(tmp_path: Path, listener: str, said: list[str]) -> None:
     other = {"subscriptions": [{"name": "scan", "type": "sensor_msgs/Image"}]}
@@ -168,12 +211,28 @@ def test_an_annotation_is_the_user_s_word_for_all_of_it(tmp_path: Path) -> None:
     assert [(i.source, [e.name for e in i.endpoints]) for i in graph.interfaces] == [("annotation", ["x"])]
 
 
+@pytest.mark.parametrize(
+    "data",
+    [
+        "", "[" * 100_000, "[]", "NaN", '"\\ud800"', "\xff", '{"executables": []}', '{"executables": {"scan_node": 1}}',
+        '{"source": 1, "executables": {"scan_node": {}}}',
+        '{"source": ["a", "b", "c"], "executables": {"scan_node": {"publishers": [{}]}}}',
+        '{"source": ["a", "b", "c"], "executables": {"scan_node": {"parameters": {"~a": 1}}}}',
+        '{"source": ["a", "b", "c"], "executables": {"scan_node": {"nodes": [["a"]]}}}',
+    ],
+)  # fmt: skip
+def test_broken_data_says_nothing(tmp_path: Path, data: str) -> None:
+    (packages.INTERFACES / "noetic" / "scanner.json").write_bytes(data.encode("latin-1"))
+    graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>')
+    assert known(graph) == [("none", 0, 0)]
+
+
 def test_the_real_data_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(packages, "INTERFACES", packages.DATA / "interfaces")
     files = sorted(packages.INTERFACES.rglob("*.json"), key=lambda path: path.stat().st_size)
     assert len(files) > 100
     for path in files:
-        for kind in ("executables", "components", "nodelets"):
+        for kind in ("executables", "components", "nodelets", "controllers"):
             for name in packages.interfaces_of(path.stem, path.parent.name).get(kind, {}):
                 assert catalogued.catalogued(path.stem, kind, name, path.parent.name) is not None
 

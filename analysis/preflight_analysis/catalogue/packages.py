@@ -32,12 +32,11 @@ def is_name(package: str) -> bool:
 @lru_cache(maxsize=_KEPT)
 def interfaces_of(package: str, distro: str) -> Mapping[str, Any]:
     """What is known of the nodes of a package: `source` (repository, commit, date), and by name `executables`,
-    `components` and `nodelets`; empty where nothing is."""
+    `components`, `nodelets` and `controllers`; empty where nothing is, or the file is broken."""
     if not is_name(package):
         return {}
     try:
-        text = (INTERFACES / distro / f"{package}.json").read_text()
-    except OSError:
+        found = json.loads((INTERFACES / distro / f"{package}.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
         return {}
-    found: Mapping[str, Any] = json.loads(text)
-    return found
+    return found if isinstance(found, dict) else {}

@@ -65,6 +65,8 @@ class Build:
     """The YAML file of each library of generate_parameter_library, by the name that its header has."""
     component_programs: Mapping[str, str] = field(default_factory=dict)
     """The class of the one component that an executable is made to run, by the name of the executable."""
+    plugin_files: tuple[str, ...] = ()
+    """The descriptions of plugins that it exports, as ROS 2 has them; those of ROS 1 stand in the manifest."""
     include_folders: tuple[str, ...] = ()
     """Where the headers of its targets lie."""
     complete: bool = False

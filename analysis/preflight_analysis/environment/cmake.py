@@ -92,6 +92,7 @@ class _Lists:
         self._components: dict[str, str] = {}
         self._component_programs: dict[str, str] = {}
         self._parameter_libraries: dict[str, str] = {}
+        self._plugin_files: dict[str, None] = {}
         self._include_folders: dict[str, None] = {}
         self._macros: dict[str, Command] = {}
         self._left = _MAX_COMMANDS
@@ -109,6 +110,7 @@ class _Lists:
             self._components,
             self._parameter_libraries,
             self._component_programs,
+            tuple(self._plugin_files),
             tuple(self._include_folders),
         )
 
@@ -226,6 +228,8 @@ class _Lists:
                 self._component(target, rest)
             case "rclcpp_components_register_nodes", [target, *plugins]:
                 self._components.update(dict.fromkeys(plugins, target))
+            case "pluginlib_export_plugin_description_file", [_, file, *_]:
+                self._plugin_files[os.path.normpath(os.path.join(folder, file))] = None
             case "generate_parameter_library", [library, file, *_]:
                 self._parameter_libraries[library] = os.path.normpath(os.path.join(folder, file))
             case "add_subdirectory", [below, *_]:

@@ -6,13 +6,14 @@ on the robot may be another, and do what those that are given to it decide.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
@@ -20,6 +21,7 @@ from preflight_analysis.nodl.groups import GROUPS
 from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range
 
 _KEPT = 1024
+_TYPE = ".type"
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,13 +52,46 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     here, workspace = environment.packages.get(package), environment.workspace
     if here is not None and workspace is not None and here.share.startswith(f"{workspace.rstrip('/')}/"):
         return interface
-    found = catalogued(package, kind, name, distro, is_used=environment.distro == distro)
+    is_used = environment.distro == distro
+    found = catalogued(package, kind, name, distro, is_used=is_used)
     if found is None:
         return interface
-    whole = interface.with_more("catalogue", found.endpoints, found.params, found.nodes)
+    does = (found, *_controllers(node, distro, is_used=is_used))
+    whole = interface.with_more(
+        "catalogue",
+        tuple(end for each in does for end in each.endpoints),
+        tuple(use for each in does for use in each.params),
+        tuple(made for each in does for made in each.nodes) if len(does) == 1 else _beside(node, does),
+    )
     not_here = "its package is not installed here" if here is None else None
     reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
     return replace(whole, outcome=replace(whole.outcome, reason=reason))
+
+
+def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Catalogued]:
+    """The nodes of the controllers that a controller manager has the types of (`NAME.type`). It has them once a spawner
+    asks for them."""
+    for param in node.params:
+        if not param.name.endswith(_TYPE) or not isinstance(param.value, str):
+            continue
+        found = catalogued(param.value.partition("/")[0], "controllers", param.value, distro, is_used=is_used)
+        if found is not None:
+            name = param.name.removesuffix(_TYPE)
+            full = names.join(node.namespace, name)
+            yield replace(
+                found,
+                endpoints=tuple(replace(end, node=full, conditional=True) for end in found.endpoints),
+                params=tuple(replace(use, node=full, conditional=True) for use in found.params),
+                nodes=(MadeNode(name, name, inferred=True, full=full),),
+            )
+
+
+def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...]:
+    """The nodes of a process, of which the first are those that the launch file knows."""
+    own, *others = (each.nodes for each in does)
+    name = node.name.rpartition("/")[2]
+    first = own or (MadeNode(name, name, inferred=True),)
+    return (*(replace(made, full=node.name) for made in first), *(made for each in others for made in each))
 
 
 def _place(node: LaunchNode) -> tuple[str, str, str]:
@@ -73,8 +108,17 @@ def _place(node: LaunchNode) -> tuple[str, str, str]:
 
 @lru_cache(maxsize=_KEPT)
 def catalogued(package: str, kind: str, name: str, distro: str, *, is_used: bool = True) -> Catalogued | None:
-    """What is known of a node; None where nothing is. `is_used`: whether that distribution is the one that is used."""
-    of_package = interfaces_of(package, distro)
+    """What is known of a node; None where nothing is, or the data is broken. `is_used`: whether that distribution is
+    the one that is used."""
+    try:
+        return _catalogued(interfaces_of(package, distro), kind, name, distro, is_used=is_used)
+    except (KeyError, TypeError, ValueError, AttributeError):
+        return None
+
+
+def _catalogued(
+    of_package: Mapping[str, Any], kind: str, name: str, distro: str, *, is_used: bool
+) -> Catalogued | None:
     found = of_package.get(kind, {}).get(name)
     if found is None:
         return None

@@ -94,6 +94,10 @@ class SourceAnalysis:
         found = _read.answered_each(self._disk.db, params, [(self._environment, key) for key in keys])
         return [each if each is not _NOTHING else None for each in found]
 
+    def controllers(self, package: str) -> tuple[str, ...]:
+        """The controllers of ros2_control that a package exports; as the `plugin` of a `SourceKey` they are read."""
+        return _cpp(self._environment, self._disk).controllers(package)
+
     def component(self, package: str, cls: str) -> Place | None:
         """Where the C++ class of a component is defined, None where its source is not there."""
         return _cpp(self._environment, self._disk).component(package, cls)

@@ -15,6 +15,7 @@ from preflight_analysis.source.cpp_interpreter import interpret_class, interpret
 from preflight_analysis.source.cpp_libraries import may_hide_ends
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.rclcpp_api import CONTROLLERS
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
 from preflight_analysis.source.roscpp_api import LIBRARIES
@@ -22,7 +23,7 @@ from preflight_analysis.source.roscpp_calls import RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
 from preflight_analysis.tracing.nodelets import nodelet_of
 
-_NODELET = "nodelet::Nodelet"
+_NODELETS = frozenset({"nodelet::Nodelet"})
 
 
 class CppAnalysis:
@@ -67,12 +68,16 @@ class CppAnalysis:
         params: KnownParams,
         plugin: str | None,
     ) -> Collector:
-        """What a node of ROS 2 makes, `plugin` if it is a component that is loaded into a container."""
+        """What a node of ROS 2 makes, `plugin` if it is a component that is loaded into a container, or a controller
+        (`package/Name`) that a controller manager loads."""
         name, package, executable = node
         files = CppFiles(self._packages, self._disk, RCLCPP_LIBRARIES)
         calls = RclcppCalls(name, params, self._has_type, partial(files.parameter_library, package))
         cls = plugin or files.build(package).component_programs.get(executable)
-        program = files.component(package, cls) if cls is not None else files.executable(package, executable)
+        if plugin is not None and "/" in plugin:
+            program, cls = files.plugin(plugin, CONTROLLERS, package) or (None, None)
+        else:
+            program = files.component(package, cls) if cls is not None else files.executable(package, executable)
         if program is not None:
             calls.includes = program.includes
             _judge(program, calls)
@@ -83,6 +88,10 @@ class CppAnalysis:
         calls.finish()
         return calls.collected
 
+    def controllers(self, package: str) -> tuple[str, ...]:
+        """The controllers of ros2_control that a package exports."""
+        return CppFiles(self._packages, self._disk).plugins(package, CONTROLLERS)
+
     def component(self, package: str, cls: str) -> Place | None:
         """Where the class is defined that a package registers as an rclcpp component."""
         files = CppFiles(self._packages, self._disk, LIBRARIES)
@@ -91,7 +100,7 @@ class CppAnalysis:
         return Place(found.file.path, found.line) if found is not None else None
 
     def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:
-        found = files.plugin(plugin, _NODELET)
+        found = files.plugin(plugin, _NODELETS)
         if found is not None:
             program, cls = found
             calls.include(program.includes)

@@ -67,8 +67,10 @@ class CppFiles:
 
     def parameter_library(self, package: str, space: str, includes: Sequence[str]) -> ParameterLibrary | None:
         """What is declared by the library of generate_parameter_library that has a C++ namespace: one of the package,
-        or one whose header is included."""
+        or one whose header is included. Without a namespace it is that of a package that has no other."""
         paths = list(self.build(package).parameter_libraries.values())
+        if not space and len(paths) > 1:
+            return None
         for include in includes:
             other, _, header = include.rpartition("/")
             if other != package and other in self._packages:
@@ -77,7 +79,7 @@ class CppFiles:
         for path in dict.fromkeys(paths):
             text = self._disk.content(path)
             found = read_parameter_library(path, text) if text is not None else None
-            if found is not None and found[0] == space:
+            if found is not None and space in ("", found[0]):
                 return found[1]
         return None
 
@@ -85,14 +87,19 @@ class CppFiles:
         texts = (self._disk.content(source) or "" for source in target.sources)
         return any(found[1] == cls for text in texts for found in _REGISTERED.finditer(text))
 
-    def plugin(self, name: str, base: str) -> tuple[CppProgram, str] | None:
-        """The program with the class that a plugin `package/Name` is, and the name of the class."""
-        for package in self._having_plugins(name.partition("/")[0]):
-            for library, type_, plugin in self._plugins(package, base):
+    def plugin(self, name: str, bases: Collection[str], of: str | None = None) -> tuple[CppProgram, str] | None:
+        """The program with the class that a plugin `package/Name` of one of the base classes is, and the name of the
+        class. `of`: the package that has it, where that is known."""
+        for package in self._having_plugins(name.partition("/")[0] if of is None else of):
+            for library, type_, plugin in self._plugins(package, bases):
                 if plugin == name or type_ == name.replace("/", "::"):
                     target = self.build(package).library(PurePath(library).name)
                     return (self._program(package, target), type_) if target is not None else None
         return None
+
+    def plugins(self, package: str, bases: Collection[str]) -> tuple[str, ...]:
+        """The names of the plugins of these base classes that a package exports."""
+        return tuple(dict.fromkeys(name for _, _, name in self._plugins(package, bases)))
 
     def _having_plugins(self, likely: str) -> Iterator[str]:
         """Packages in source form that may have a plugin: the one that its name begins with by convention, first."""
@@ -104,7 +111,7 @@ class CppFiles:
             if needs and self._disk.is_file(os.path.join(package.share, LISTS)):
                 yield name
 
-    def _plugins(self, package: str, base: str) -> Iterator[tuple[str, str, str]]:
+    def _plugins(self, package: str, bases: Collection[str]) -> Iterator[tuple[str, str, str]]:
         """Library, class and name of each plugin that a package exports."""
         found = self._packages.get(package)
         if found is None:
@@ -117,11 +124,12 @@ class CppFiles:
             for value in (element.get("plugin"),)
             if value and isinstance(element.tag, str)
         ]
+        paths += self.build(package).plugin_files
         for path in paths[:_PLUGIN_FILES]:
             described = _xml(self._disk.content(os.path.normpath(os.path.join(found.share, path))))
             for library in described.iter("library") if described is not None else ():
                 for cls in library.iter("class"):
-                    if cls.get("base_class_type") == base and (type_ := cls.get("type")):
+                    if cls.get("base_class_type") in bases and (type_ := cls.get("type")):
                         yield library.get("path") or "", type_, cls.get("name") or type_.replace("::", "/")
 
     def _program(self, package: str, target: Target) -> CppProgram:

@@ -10,6 +10,7 @@ LIBRARIES = frozenset(
     {
         "camera_info_manager",
         "class_loader",
+        "controller_interface",
         "diagnostic_updater",
         "image_transport",
         "message_filters",
@@ -24,6 +25,10 @@ LIBRARIES = frozenset(
 )
 """The packages whose calls are known here."""
 
+CONTROLLERS = frozenset(
+    f"controller_interface::{name}" for name in ("ControllerInterface", "ChainableControllerInterface")
+)
+"""Of ros2_control: each has a node of its own with a lifecycle, and stands for it here."""
 CONTAINER = "rclcpp_components::ComponentManager"
 NODES: Mapping[str, bool] = {
     "rclcpp::Node": False,
@@ -31,9 +36,11 @@ NODES: Mapping[str, bool] = {
     "rclcpp_lifecycle::LifecycleNode": True,
     "nav2_util::LifecycleNode": True,
     "nav2::LifecycleNode": True,
+    **dict.fromkeys(CONTROLLERS, True),
 }
 """The classes of nodes, and whether they have a lifecycle."""
-TRANSITIONS = ("on_configure", "on_activate")
+TRANSITIONS = ("on_init", "on_configure", "on_activate")
+"""What a node with a lifecycle does until it works; `on_init` is that of controllers."""
 HARMLESS = frozenset({"autoware_utils", "bond", "std", *LIBRARIES})
 """Namespaces of libraries that may get a node and declare none of its parameters in a way not known here."""
 LOADERS = frozenset({"pluginlib::ClassLoader"})
@@ -108,4 +115,4 @@ DECLARE = DECLARE_FUNCTIONS | {"declare_parameter"}
 CONSTANTS = {"bond::msg::Constants::DISABLE_HEARTBEAT_TIMEOUT_PARAM": "bond_disable_heartbeat_timeout"}
 ADD_ARGUMENT = "replaceOrAddArgument"
 """Of nav2_util and nav2_ros_common: the arguments of a node in the node's process."""
-ITSELF = frozenset({"shared_from_this", "weak_from_this"})
+ITSELF = frozenset({"shared_from_this", "weak_from_this", "get_node"})

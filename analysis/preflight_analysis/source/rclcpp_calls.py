@@ -151,7 +151,7 @@ class RclcppCalls(Parameters):
                 return self._hints(given, place)
             case "image_transport::SubscriberFilter":
                 self._image("subscriber", False, args, place)
-        if name.endswith("::ParamListener") and self._listener(name, given):
+        if name.rpartition("::")[2] == "ParamListener" and self._listener(name, given):
             return Unmade(type_)
         if name in LOADERS:
             self._any_parameter(place)  # what it loads declares its own

@@ -54,7 +54,7 @@ class _Launched:
     findings: tuple[Finding, ...]
     documents: Mapping[str, Document]
     nodes: tuple[str, ...]
-    """How it is known what each node does."""
+    """How it is known what each node does; other processes have no interface to be known."""
     untried: int
     """How many tags that it leaves out were not looked into."""
     left_out: frozenset[str]
@@ -71,7 +71,11 @@ class _Launched:
             tuple(analysis.tree.inputs),
             analysis.findings,
             analysis.all_documents,
-            nodes=tuple(interface.source for interface in interfaces),
+            nodes=tuple(
+                interface.source
+                for node, interface in zip(tree.nodes, interfaces, strict=True)
+                if node.kind != "process"
+            ),
             untried=untried,
             left_out=frozenset(problem.location.file for problem in tree.problems if problem.kind.leaves_out),
         )
