@@ -95,8 +95,9 @@ catalogue: SOURCES = $(realpath ../.mirror)
 catalogue: $(READY) ## what is known of packages that are not installed, written anew from SOURCES=FOLDER, snapshots of public repositories
 	$(BIN)/python tests/tools/catalogue --sources "$(SOURCES)"
 
-catalogue-truth: setup ## the catalogue beside runs of Debian's nodes, as far as they are installed: docs/catalogue.md
-	$(BIN)/python tests/tools/catalogue_truth.py --write
+catalogue-truth: SOURCES = $(realpath ../.mirror)
+catalogue-truth: setup ## the catalogue beside runs of Debian's nodes, as far as they are installed, and of those in Python in SOURCES=FOLDER: docs/catalogue.md
+	$(BIN)/python tests/tools/catalogue_truth.py --sources "$(SOURCES)" --write
 
 fuzz: SECONDS = 600
 fuzz: $(READY) ## every parser with made-up inputs, SECONDS=600 for all together; what was found lies in out/fuzz

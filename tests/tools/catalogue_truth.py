@@ -1,10 +1,11 @@
-"""What the catalogue says of nodes beside what a run of the installed ones shows: `make catalogue-truth`.
+"""What the catalogue says of nodes beside what runs of them show: `make catalogue-truth`.
 
-  python tests/tools/catalogue_truth.py [--write] [LAUNCH ...]
+  python tests/tools/catalogue_truth.py [--sources FOLDER] [--write] [LAUNCH ...]
 
-Runs the nodes of the launch files (all of `fixtures/ros1/real_nodes/launch` without any) in the sandbox, and compares
-those that come to their event loop with the catalogue's word for them, which knows neither their arguments nor
-their parameters. `--write` writes docs/catalogue.md. Only what is installed is compared; the page says what was.
+Runs the nodes of the launch files (all of `fixtures/ros1/real_nodes/launch` without any) in the sandbox, as far as
+they are installed, and with `--sources`, the folder that `make catalogue` has, the nodes in Python of ROS 2 from their
+source with the rclpy of PyPI. Those that come to their event loop are compared with the catalogue's word for them,
+which knows neither arguments nor parameters. `--write` writes docs/catalogue.md.
 """
 
 from __future__ import annotations
@@ -15,20 +16,40 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+import threading
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
+
 from preflight_analysis.catalogue import launches as launch_files
 from preflight_analysis.catalogue.packages import INTERFACES, interfaces_of
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.nodl.catalogued import Catalogued, catalogued
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
+from support.ros2_harness import ros2_prefix
+
+from tools.catalogue.interfaces import lay_out
 
 ROOT = Path(__file__).parents[2]
 LAUNCHES = sorted((ROOT / "fixtures" / "ros1" / "real_nodes" / "launch").glob("*.launch"))
 PAGE = ROOT / "docs" / "catalogue.md"
 _OF_ALL = frozenset({"/rosout", "/clock"})
+_ROS2 = "jazzy"
+_NODE = "/node"
+_KINDS = ("executables", "components", "nodelets", "controllers")
+
+
+Ends = set[tuple[str, str, str | None]]
+"""Role, name and type of each."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,52 +92,108 @@ def rows(launch: Path) -> Iterable[Row]:
         package, name = node["package"], node["executable"]
         said = catalogued(package, "executables", name, "noetic")
         if node["interface_source"] == "trace" and node["outcome"]["status"] == "spinning" and said is not None:
-            yield _row(f"{package}/{name}", node, said)
+            ends = {(e["role"], e["name"], e["type"]) for e in node["endpoints"] if not e["builtin"]}
+            params = {use["name"] for use in node["params"] if not use["builtin"]}
+            yield _row(f"{package}/{name}", node["name"], ends, params, said)
 
 
-def _row(name: str, node: dict[str, Any], said: Catalogued) -> Row:
+def _row(name: str, node: str, ends: Ends, params: set[str], said: Catalogued) -> Row:
     # Programs in C++ tell names that are resolved already.
     def full(each: str) -> str:
-        return names.resolve(each, node["name"])
+        return names.resolve(each, node)
 
-    seen = {(e["role"], full(e["name"]), e["type"]) for e in node["endpoints"] if not e["builtin"]}
+    seen = {(role, full(end), type_) for role, end, type_ in ends if full(end) not in _OF_ALL}
     known = {(e.role, full(e.name), e.type) for e in said.endpoints}
-    read = {full(use["name"]) for use in node["params"] if not use["builtin"]}
-    of_own = {end for end in seen if end[1] not in _OF_ALL}
-    return Row(name, Share.of(of_own, known), Share.of(read, {full(use.name) for use in said.params}))
+    return Row(name, Share.of(seen, known), Share.of(set(map(full, params)), {full(use.name) for use in said.params}))
 
 
-def page(found: Iterable[Row]) -> str:
+def rclpy_rows(sources: Path) -> Iterator[Row]:
+    """The nodes in Python of the catalogue's packages of ROS 2 that ran with the rclpy of PyPI."""
+    prefix = ros2_prefix(f"{_ROS2}-messages")
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
+        lay_out(sources, _ROS2, Path(folder))
+        variables = {"PATH": f"{prefix / 'bin'}:/usr/bin:/bin", "HOME": folder, "ROS_DISTRO": _ROS2}
+        environment = detect_environment(folder, variables)
+        requests = list(_python_nodes(environment))
+        tracer = Tracer(environment, None)
+        runs = pool.map(lambda request: tracer.trace(request[2], threading.Event()), requests)
+        for (package, name, _), ran in zip(requests, runs, strict=True):
+            said = catalogued(package, "executables", name, _ROS2)
+            if ran.outcome.status == "spinning" and "rclpy" not in ran.stand_ins and said is not None:
+                ends: Ends = {(e.role, e.name, e.type) for e in ran.endpoints if not e.builtin}
+                params = {use.name for use in ran.params if not use.builtin}
+                yield _row(f"{package}/{name}", _NODE, ends, params, said)
+
+
+def _python_nodes(environment: Environment) -> Iterator[tuple[str, str, TraceRequest]]:
+    index = ExecutableIndex(environment, Disk())
+    for package in sorted(environment.packages):
+        for name in interfaces_of(package, _ROS2).get("executables", ()):
+            found = index.find(package, name)
+            if found.path is not None and (found.entry_point or found.path.endswith(".py")):
+                entry = found.entry_point
+                yield (
+                    package,
+                    name,
+                    TraceRequest(_NODE, package, found.path, generation=2, entry_point=entry, named=False),
+                )
+
+
+def page(found: Iterable[Row], of_ros2: Iterable[Row]) -> str:
     """The page of the documentation."""
-    found = sorted(set(found), key=lambda row: row.node)
     lines = [
         "<!-- Written by `make catalogue-truth`. Do not edit. -->",
         "# The catalogue",
         "What common packages do is known where they are not installed: read from their source by this project's own",
         "analysis, at the commit that each file names, with no argument and no parameter set.",
         "",
-        "| distribution | packages | executables | components | nodelets | launch files |",
-        "| --- | --- | --- | --- | --- | --- |",
+        f"| distribution | packages | {' | '.join(_KINDS)} | launch files |",
+        f"| --- | --- |{' --- |' * len(_KINDS)} --- |",
     ]
     for folder in sorted(INTERFACES.iterdir()):
         of = [interfaces_of(path.stem, folder.name) for path in sorted(folder.glob("*.json"))]
-        counts = (sum(len(each.get(kind, ())) for each in of) for kind in ("executables", "components", "nodelets"))
+        counts = (sum(len(each.get(kind, ())) for each in of) for kind in _KINDS)
         files = sum(1 for _ in (launch_files.LAUNCHES / folder.name).rglob("*.json"))
         lines.append(f"| {folder.name} | {len(of)} | {' | '.join(map(str, counts))} | {files} |")
-    ends, params = _share(row.ends for row in found), _share(row.params for row in found)
+    ros1, ros2 = _measured(found), _measured(of_ros2)
     lines += [
         "",
         "## Measured",
         "Debian's nodes of ROS 1 that were installed where this was written, run in the sandbox, beside the word of",
-        f"the catalogue. Of {len(found)} nodes the catalogue knows {ends} of the topics, services and actions that",
-        f"they were seen to make, by kind, name and type, and {params} of the parameters that they read. What only the",
-        "run has depends on the arguments and parameters of its launch file, as all topics of a relay do.",
+        "the catalogue.",
+        ros1.summary,
+        "What only the run has depends on arguments and parameters of its launch file, as all topics of a relay do.",
         "",
-        "| node | ends: both | run only | catalogue only | parameters: both | run only | catalogue only |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
-        *(f"| {row.node} | {row.ends} | {row.params} |" for row in found),
+        *ros1.table,
+        "",
+        "The nodes in Python of ROS 2, run from their unchanged source, without arguments and parameters, with the",
+        "rclpy of PyPI's wheels, none of which has nodes. Those count that came to their event loop with that rclpy; a",
+        "few of them import modules that were stood in for.",
+        ros2.summary,
+        "",
+        *ros2.table,
     ]
     return "\n".join(lines) + "\n"
+
+
+@dataclass(frozen=True, slots=True)
+class _Measured:
+    summary: str
+    table: tuple[str, ...]
+
+
+def _measured(found: Iterable[Row]) -> _Measured:
+    rows = sorted(set(found), key=lambda row: row.node)
+    ends, params = _share(row.ends for row in rows), _share(row.params for row in rows)
+    return _Measured(
+        f"Of {len(rows)} nodes the catalogue knows {ends} of the topics, services and actions that they were seen to\n"
+        f"make, by kind, name and type, and {params} of the parameters that they read.",
+        (
+            "| node | ends: both | run only | catalogue only | parameters: both | run only | catalogue only |",
+            "| --- | --- | --- | --- | --- | --- | --- |",
+            *(f"| {row.node} | {row.ends} | {row.params} |" for row in rows),
+        ),
+    )
 
 
 def _share(shares: Iterable[Share]) -> str:
@@ -128,10 +205,12 @@ def _share(shares: Iterable[Share]) -> str:
 def main() -> None:
     """Print the page, or write it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sources", type=Path)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("launches", nargs="*", type=Path)
     options = parser.parse_args()
-    text = page([row for launch in options.launches or LAUNCHES for row in rows(launch)])
+    of_ros2 = list(rclpy_rows(options.sources)) if options.sources is not None else []
+    text = page([row for launch in options.launches or LAUNCHES for row in rows(launch)], of_ros2)
     if options.write:
         PAGE.write_text(text)
     else:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs rclpy of ROS 2 Kilted, or with the argument `jazzy` of Jazzy, with a middleware and a few messages, from PyPI
-# alone, in out/ros2-kilted or out/ros2-jazzy. Does nothing where it is there. Tests that run ROS 2 nodes call this
+# alone, in out/ros2-kilted or out/ros2-jazzy, with `jazzy-messages` all common messages. Does nothing where it is there. Tests that run ROS 2 nodes call this
 # themselves.
 set -euo pipefail
 
@@ -12,7 +12,8 @@ case $distribution in
   kilted) packages=(ros-rclpy==9.1.2 ros-rmw-fastrtps-cpp==9.3.3 ros-std-msgs==5.5.1 ros-std-srvs==5.5.1
     ros-geometry-msgs==5.5.1) ;;
   jazzy) packages=(ros-rclpy==7.1.6 ros-rmw-fastrtps-cpp==8.4.3 ros-std-msgs==5.3.6 ros-std-srvs==5.3.6) ;;
-  *) echo "usage: $0 [kilted|jazzy]" >&2; exit 2 ;;
+  jazzy-messages) packages=(ros-rclpy==7.1.6 ros-rmw-fastrtps-cpp==8.4.3 ros-common-interfaces==5.3.6) ;;
+  *) echo "usage: $0 [kilted|jazzy|jazzy-messages]" >&2; exit 2 ;;
 esac
 
 mkdir -p "$root/out"

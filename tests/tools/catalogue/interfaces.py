@@ -1,4 +1,4 @@
-"""What the executables, components and nodelets of packages do, as this project's analysis reads their source."""
+"""What executables, components, nodelets and controllers do, as this project's analysis reads their source."""
 
 from __future__ import annotations
 
@@ -31,6 +31,9 @@ from tools.catalogue.sources import GENERATIONS, NAMED, OF_TESTS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
+_NAME = "preflight_controller"
+_GIVEN = {"string": _ARGUMENTS[0], "string array": [_ARGUMENTS[0]]}
+_NOTHING_SET = LaunchParams({})
 _OF_ALL = ("/rosout", "/clock", "~get_loggers", "~set_logger_level")
 _SPACE = "/preflight_space/"
 _IN_TESTS = re.compile(r"/(?:tests?|examples?/tests?)/")
@@ -109,7 +112,7 @@ def _of_repository(laid: Laid, name: str) -> list[tuple[Package, dict[str, dict[
 
 def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[str, dict[str, Any]]:
     analysis, index = SourceAnalysis(environment, disk), ExecutableIndex(environment, disk)
-    executables, components, nodelets = {}, {}, {}
+    executables, components, nodelets, controllers = {}, {}, {}, {}
     for name in index.names(package.name):
         found = index.find(package.name, name)
         path = found.path or next(iter(found.not_executable), None)
@@ -131,7 +134,32 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
         said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, "/node", f"standalone {plugin}", ())])
         if said is not None:
             nodelets[plugin] = said
-    return {"executables": executables, "components": components, "nodelets": nodelets}
+    for controller in analysis.controllers(package.name) if package.is_ament else ():
+        said = _controller(analysis, SourceKey(None, None, package.name, "", controller, f"/{_NAME}", "", ()))
+        if said is not None:
+            controllers[controller] = said
+    return {"executables": executables, "components": components, "nodelets": nodelets, "controllers": controllers}
+
+
+def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | None:
+    """The facts of a controller. Many give up where a parameter that has to name something is empty: it is read with
+    these set as well, and what they name is nobody's fact."""
+    said = _read(analysis, [key])
+    if said is None:
+        return None
+    given = {
+        f"{key.name}/{name.removeprefix('~')}": _GIVEN[about["type"]]
+        for name, about in said.get("parameters", {}).items()
+        if about.get("type") in _GIVEN and not about.get("default_value")
+    }
+    more = _read(analysis, [key], LaunchParams(given)) or said
+    facts = max(said, more, key=lambda each: sum(len(each.get(group, ())) for group in GROUPS.values()))
+    for group in GROUPS.values():
+        for row in facts.get(group, ()):
+            # What is made of the node's own name stands below it.
+            if row["name"].startswith(f"{_NAME}/"):
+                row["name"] = f"~{row['name'].removeprefix(_NAME)}"
+    return facts
 
 
 def _nodelets(package: Package) -> Iterator[str]:
@@ -152,9 +180,11 @@ def _nodelets(package: Package) -> Iterator[str]:
                 yield str(each.get("name") or (each.get("type") or "").replace("::", "/"))
 
 
-def _read(analysis: SourceAnalysis, keys: Sequence[SourceKey]) -> dict[str, Any] | None:
+def _read(
+    analysis: SourceAnalysis, keys: Sequence[SourceKey], params: LaunchParams = _NOTHING_SET
+) -> dict[str, Any] | None:
     """The facts of the first that has any: a program may need arguments. What is named by them is nobody's fact."""
-    for said in analysis.read_each(keys, LaunchParams({})):
+    for said in analysis.read_each(keys, params):
         if said is not None:
             facts = _facts(said)
             if not facts.keys() <= {"nodes"}:

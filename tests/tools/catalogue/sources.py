@@ -110,6 +110,22 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "ROBOTIS-GIT/turtlebot3": {"noetic": "noetic", "jazzy": "jazzy"},
     "ROBOTIS-GIT/turtlebot3_simulations": {"noetic": "noetic", "jazzy": "jazzy"},
     "turtlebot/turtlebot4": {"jazzy": "humble"},
+    "f1tenth/vesc": {"noetic": "main", "jazzy": "ros2"},
+    "f1tenth/ackermann_mux": {"noetic": "melodic-devel", "jazzy": "foxy-devel"},
+    "tier4/ros2_v4l2_camera": {"jazzy": "galactic"},
+    "rt-net/raspimouse2": {"jazzy": "jazzy"},
+    "rt-net/rt_usb_9axisimu_driver": {"noetic": "noetic-devel", "jazzy": "ros2-devel"},
+    "ros-drivers/um7": {"noetic": "indigo-devel", "jazzy": "ros2"},
+    "clearpathrobotics/LMS1xx": {"noetic": "noetic-devel", "jazzy": "humble-devel"},
+    "ldrobotSensorTeam/ldlidar_stl_ros2": {"jazzy": "master"},
+    "Livox-SDK/livox_ros_driver2": {"noetic": "master", "jazzy": "master"},
+    "ros-visualization/interactive_marker_twist_server": {"noetic": "kinetic-devel", "jazzy": "humble-devel"},
+    "christianrauch/camera_ros": {"jazzy": "main"},
+    "flynneva/bno055": {"jazzy": "main"},
+    "MAPIRlab/rf2o_laser_odometry": {"noetic": "ros1", "jazzy": "ros2"},
+    "robo-friends/m-explore-ros2": {"jazzy": "main"},
+    "open-rmf/rmf_ros2": {"jazzy": "jazzy"},
+    "open-rmf/rmf_traffic_editor": {"jazzy": "jazzy"},
 }
 """A branch of another distribution's name is the one that the packages of this are released from, or the nearest."""
 RUN: Mapping[str, Mapping[str, Mapping[str, str]]] = {
