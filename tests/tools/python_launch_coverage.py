@@ -42,7 +42,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("projects", nargs="*", help="<owner>+<name>; all that have Python launch files without")
     parser.add_argument("--sources", type=Path, required=True, help="the folder with the git repositories")
-    parser.add_argument("--out", type=Path, default=Path("out/python-launch"))
+    parser.add_argument("--out", type=Path, default=Path("out/python-launch"), help="failed.tsv there has each failure")
     parser.add_argument("--show", type=int, default=25, help="how many reasons")
     options = parser.parse_args()
     named = options.projects or sorted(path.parent.name for path in options.sources.glob("*/repo"))
@@ -50,6 +50,9 @@ def main() -> int:
     reasons: Counter[str] = Counter()
     unknown: Counter[str] = Counter()
     examples: dict[str, str] = {}
+    options.out.mkdir(parents=True, exist_ok=True)
+    failures = options.out / "failed.tsv"
+    failures.write_text("")
     print(f"{'project':48} files whole partly not complete seconds", flush=True)
     for project in named:
         folder = options.out / "src" / project
@@ -64,7 +67,7 @@ def main() -> int:
             for _, why in failed:
                 reasons[why] += 1
                 examples.setdefault(why, path)
-                with (options.out / "failed.tsv").open("a") as table:
+                with failures.open("a") as table:
                     table.write(f"{os.path.relpath(path, options.out / 'src')}\t{kind}\t{why}\n")
             unknown.update({re.sub(r"'[^']*'|/\S+", "...", each.reason) for each in tree.unknowns})
         total = counts["whole"] + counts["partly"] + counts["not"]

@@ -14,9 +14,9 @@ import time
 from typing import Any, Optional
 
 MAX_TRIES = 10
-MAX_SECONDS = 3.0
-"""After which no further try is begun."""
-MAX_SECONDS_OF_TRY = 1.5
+MAX_SECONDS = 4.0
+"""After which no further try is begun; the last one and that with all variables end before the run's own limit."""
+MAX_SECONDS_OF_TRY = 2.0
 MAX_ANSWERS = 2000
 _VARIABLE = "PREFLIGHT_ANSWERS"
 _ALL_SET = "+"
