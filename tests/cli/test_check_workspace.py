@@ -85,7 +85,7 @@ def test_a_workspace_of_ros2(tmp_path: Path, preflight: Run) -> None:
     (folder / ".git").mkdir(parents=True)
     (folder / "outer.launch.py").write_text(OUTER_PY)
     (folder / "inner.launch.xml").write_text(
-        '<launch>\n  <arg name="x"/>\n  <let name="y" value="$(var gone)"/>\n</launch>\n'
+        '<launch>\n  <arg name="x"/>\n  <let name="y" value="$(var x)$(var gone)"/>\n</launch>\n'
     )
     (folder / "other.launch.yaml").write_text("launch:\n- nod: {pkg: a}\n")
     done = preflight("check", "--format", "json", cwd=folder)

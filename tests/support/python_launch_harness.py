@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 import threading
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
@@ -26,6 +26,8 @@ class PythonHarness:
 
     folder: Path
     name: str = "p"
+    workspace: Workspace | None = field(default=None, init=False)
+    """That of the last launch."""
 
     @property
     def package(self) -> Path:
@@ -57,7 +59,7 @@ class PythonHarness:
         given = {name: value for name, value in {**ros, **(variables or {})}.items() if value}
         environment = detect_environment(None, given, (str(self.folder / "src"),), underlay)
         results = CommandResults(lambda: why_not)
-        workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
+        self.workspace = workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
         if why_not is not None:
             return workspace.static(str(path), args)
         runner = CommandRunner(environment, str(self.folder), CommandCache(self.folder / "cache"))

@@ -186,3 +186,34 @@ def generate_launch_description():
     none = harness.launch(path, variables={"ROS_DISTRO": ""})
     assert [node.name for node in none.tree.nodes] == ["/new"]
     assert _guessed(path, none) == []
+
+
+@pytest.mark.parametrize(
+    ("condition", "value", "rules"),
+    [
+        ("PythonExpression(['\"\" != \"', sensor, '\"'])", "sensor", []),
+        ("LaunchConfiguration('on')", "'s3'", ["ARG009"]),
+    ],
+)
+def test_a_value_may_be_made_of_the_same_as_the_condition(
+    harness: PythonHarness, condition: str, value: str, rules: list[str]
+) -> None:
+    harness.write(
+        "launch/b.launch.xml",
+        '<launch><arg name="sensor"><choice value="a1"/></arg><log message="$(var sensor)"/></launch>',
+    )
+    _, analysis = _launched(
+        harness,
+        f"""\
+def generate_launch_description():
+    sensor = os.environ.get('SENSOR', '')
+    inner = IncludeLaunchDescription(
+        os.path.dirname(__file__) + '/b.launch.xml',
+        condition=IfCondition({condition}),
+        launch_arguments={{'sensor': {value}}}.items(),
+    )
+    return LaunchDescription([DeclareLaunchArgument('on', default_value='false'), inner])
+""",
+    )
+    assert harness.workspace is not None
+    assert [finding.rule for finding, _ in harness.workspace.branches(analysis).findings] == rules

@@ -37,6 +37,8 @@ _OF_ARGUMENTS = ("ARG001", "ARG002", "ARG004", "ARG006", "ARG007")
 """Rules that ask whether arguments are there, and not what they are."""
 _OF_TWO = "ARG005"
 """A rule that speaks of two tags, which mostly exclude each other: what is assumed is taken beside all the others."""
+_OF_VALUES = "ARG009"
+"""A rule that speaks of a value: Python may have made it of the same as a condition that names no argument."""
 _ARGUMENT = re.compile(r"\$\((?:arg|var|eval)\b")
 _ONE_ARGUMENT = re.compile(r"\s*\$\((?:arg|var)\s[^()]*\)\s*")
 _LONGEST = 60
@@ -268,7 +270,10 @@ def _depends(finding: Finding, left_out: NotTaken, documents: Mapping[str, Docum
     the arguments themselves does not."""
     if finding.rule in _OF_ARGUMENTS:
         return False
-    if finding.location.file == left_out.origin[-1].file and not finding.location.file.endswith(PYTHON_SUFFIX):
+    in_python = left_out.origin[-1].file.endswith(PYTHON_SUFFIX)
+    if finding.rule == _OF_VALUES and in_python and not named_arguments(left_out.written):
+        return True
+    if finding.location.file == left_out.origin[-1].file and not in_python:
         return _ARGUMENT.search(_text(finding, documents)) is not None
     return any(
         named_arguments(attribute.value)
