@@ -24,6 +24,7 @@ def test_a_value_that_is_not_among_the_choices() -> None:
               choice:
                 - value: a1
                 - value: s2
+          - log: {message: $(var model)}
     """)
 
 
