@@ -133,12 +133,12 @@ def test_the_stream_tells_of_a_start_a_death_an_extra_node_and_a_new_master(
     os.kill(listener, signal.SIGCONT)
     watch.until_told("/robot/talker is registered and does not answer: connection refused")
 
-    extra = system.start(system.package / "talker.py", "__name:=other")
+    system.start(system.package / "talker.py", "__name:=other")
     watch.until_told(
         "/robot/talker is registered and does not answer: connection refused",
         "/other runs and is not in the launch file",
     )
-    extra.send_signal(signal.SIGINT)
+    system.shut_down("/other")
     watch.until_told("/robot/talker is registered and does not answer: connection refused")
 
     system.stop(launch)

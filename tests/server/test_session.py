@@ -5,13 +5,18 @@ from __future__ import annotations
 import asyncio
 import threading
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from lsprotocol import types
+from preflight_analysis.tracing import sandbox
+from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from preflight_server.lsp.app import PreflightServer
 from preflight_server.lsp.rounds import LARGE
+from preflight_server.lsp.runs import Runs
 from preflight_server.lsp.session import Session
 from preflight_server.lsp.settings import Settings
 from support.waiting import PATIENCE, answered
@@ -121,4 +126,39 @@ async def test_no_edit_waits_for_who_reads(tmp_path: Path, monkeypatch: pytest.M
         assert let_go == [True], "the event loop went on while somebody read"
     finally:
         may_go_on.set()
+        await asyncio.get_running_loop().run_in_executor(None, session.close)
+
+
+async def test_trust_that_is_withdrawn_just_before_a_run_prevents_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done: list[str] = []
+    asked = asyncio.Event()
+    node = TraceRequest("/n", "p", str(tmp_path / "n.py"))
+
+    async def requests(self: Runs, *_: Any) -> dict[tuple[str, int], TraceRequest]:
+        asked.set()
+        session.set_trusted(False)
+        return {("/n", 0): node}
+
+    async def run(self: Runs, *_: Any) -> None:
+        done.append("run")
+
+    monkeypatch.setattr(sandbox, "probe", lambda: SimpleNamespace(works=True, reason=None))
+    monkeypatch.setattr(Tracer, "lookup", lambda *_: None)
+    monkeypatch.setattr(Runs, "_requests", requests)
+    monkeypatch.setattr(Runs, "_run", run)
+    monkeypatch.setattr(PreflightServer, "client_capabilities", types.ClientCapabilities())
+    server = PreflightServer()
+    session = Session(server, str(tmp_path), Settings(), trusted=True)
+    try:
+        document = server.texts.open((tmp_path / "a.launch").as_uri(), "roslaunch", 1, "<launch/>")
+        session.takes(document)
+        session.text_changed(document, own=True, quiet=0)
+        await asyncio.wait_for(asked.wait(), PATIENCE)
+        assert session.runs._loop is not None
+        await asyncio.wait_for(session.runs._loop, PATIENCE)
+        assert not done
+        assert session.runs.not_run_since == "untrusted"
+    finally:
         await asyncio.get_running_loop().run_in_executor(None, session.close)

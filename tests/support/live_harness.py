@@ -124,11 +124,19 @@ class Ros1System:
 
     def pid(self, name: str) -> int:
         """The process of the node that registered under this name."""
+        with self._node(name) as node:
+            answer: Any = node.getPid("/test")
+        return int(answer[2])
+
+    def shut_down(self, name: str) -> None:
+        """Have a node end, as `rosnode kill` does; a signal may come before it has its handler."""
+        with self._node(name) as node:
+            node.shutdown("/test", "the test wants it")
+
+    def _node(self, name: str) -> xmlrpc.client.ServerProxy:
         with xmlrpc.client.ServerProxy(f"http://127.0.0.1:{self.port}/") as master:
             address: Any = master.lookupNode("/test", name)
-            with xmlrpc.client.ServerProxy(address[2]) as node:
-                answer: Any = node.getPid("/test")
-        return int(answer[2])
+        return xmlrpc.client.ServerProxy(address[2])
 
     def close(self) -> None:
         """End all that was started."""

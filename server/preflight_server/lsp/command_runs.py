@@ -38,6 +38,7 @@ class CommandRuns:
 
     def __init__(self, server: PreflightServer, session: Session, why_not_run: Callable[[], str | None]) -> None:
         self.results = CommandResults(why_not_run)
+        self._why_not_run = why_not_run
         self._server = server
         self._session = session
         self._runner: CommandRunner | None = None
@@ -90,7 +91,7 @@ class CommandRuns:
             found = await self._session.in_pool(lambda: {line: runner.lookup(line) for line in lines})
             self._take({line: hit for line, hit in found.items() if hit is not None}, edition)
             missing = [line for line, hit in found.items() if hit is None]
-            if missing:
+            if missing and self._why_not_run() is None:  # trust may have been withdrawn meanwhile
                 self._take(await self._run(runner, missing, pool), edition)
         changed = any(self.results.result(command.line) != command.result for command in analysis.tree.commands)
         if changed:

@@ -219,19 +219,19 @@ class Runs:
 
     async def _round(self, analysis: Analysis) -> None:
         """Look up, then run, what is not known of the nodes of one root."""
-        tracer = self._tracer
+        tracer, results = self._tracer, self._results
         if tracer is None:
             return
+        edition = results.edition
         broken = await self._session.in_pool(lambda: Broken(analysis))
         if await self.commands.round(analysis, self._pool, broken):
             return
         workspace = await self._session.workspace()
         requests = await self._requests(workspace, analysis, broken)
-        root, results = analysis.launch, self._results
+        root = analysis.launch
         if not broken.files:  # else what an error hides comes back
             results.keep(root, requests)
         lacking = results.lacking(root, requests)
-        edition = results.edition
         fresh = frozenset(self._fresh.get(root, ()))
         kept = {k: r for k, r in lacking.items() if k not in fresh}
         hits = await self._session.in_pool(lambda: {k: tracer.lookup(r) for k, r in kept.items()})
@@ -240,7 +240,8 @@ class Runs:
         if any(news):
             self._session.analyses.ask_again()
         remaining = {k: r for k, r in lacking.items() if k not in found}
-        if remaining and not self._closing:
+        # Trust may have been withdrawn meanwhile.
+        if remaining and not self._closing and self.why_not_run is None:
             await self._run(tracer, root, remaining)
 
     async def _requests(self, workspace: Workspace, analysis: Analysis, broken: Broken) -> dict[NodeKey, TraceRequest]:
