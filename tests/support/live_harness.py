@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import json
 import os
@@ -130,7 +131,8 @@ class Ros1System:
 
     def shut_down(self, name: str) -> None:
         """Have a node end, as `rosnode kill` does; a signal may come before it has its handler."""
-        with self._node(name) as node:
+        # It may be gone before it has answered.
+        with self._node(name) as node, contextlib.suppress(ConnectionError):
             node.shutdown("/test", "the test wants it")
 
     def _node(self, name: str) -> xmlrpc.client.ServerProxy:
