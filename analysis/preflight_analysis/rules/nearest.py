@@ -73,6 +73,12 @@ def did_you_mean(candidate: str | None) -> str:
     return f"; did you mean '{candidate}'?" if candidate else ""
 
 
+def nearest_typo(name: str, others: Iterable[str]) -> str | None:
+    """The graph name that differs by a typo, the nearest one first; ties go by alphabet."""
+    found = [(alike[1], each) for each in others if (alike := likeness(name, each)) is not None and alike[0] == "typo"]
+    return min(found)[1] if found else None
+
+
 @lru_cache(maxsize=_NAMES)
 def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
     """How alike two graph names are, and their edit distance; None if they are not.

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.places import argument_location, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -53,12 +53,7 @@ def _near(graph: Graph, topic: str) -> str | None:
     """The published topic that differs by a slip, the nearest one first; None where the topic itself is known."""
     if topic in graph.topics or graph.is_external(topic) or graph.blind:
         return None
-    found = [
-        (alike[1], name)
-        for name, channel in graph.topics.items()
-        if channel.providers and (alike := likeness(topic, name)) is not None and alike[0] == "typo"
-    ]
-    return min(found)[1] if found else None
+    return nearest_typo(topic, (name for name, channel in graph.topics.items() if channel.providers))
 
 
 def _recorded(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:

@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.places import argument_location, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -51,12 +51,9 @@ def _meant(graph: Graph, topic: str) -> Connection | None:
     channel = graph.topics.get(topic)
     if (channel is not None and channel.consumers) or graph.is_external(topic):
         return None
-    near = [
-        (alike[1], name)
-        for name, each in graph.topics.items()
-        if each.consumers and not each.providers and (alike := likeness(topic, name)) is not None and alike[0] == "typo"
-    ]
-    return graph.topics[min(near)[1]].consumers[0] if near else None
+    waiting = (name for name, each in graph.topics.items() if each.consumers and not each.providers)
+    near = nearest_typo(topic, waiting)
+    return graph.topics[near].consumers[0] if near is not None else None
 
 
 def _others_known(graph: Graph, player: LaunchNode) -> bool:

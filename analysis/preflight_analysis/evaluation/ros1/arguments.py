@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.evaluation.problems import IncludeArgumentWithoutValue, RedeclaredArgument
+from preflight_analysis.evaluation.problems import FixedArgument, IncludeArgumentWithoutValue, RedeclaredArgument
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
 from preflight_analysis.evaluation.ros1.state import State
@@ -13,6 +15,58 @@ from preflight_analysis.evaluation.ros1.tags import evaluate_env
 from preflight_analysis.evaluation.tree import Arg, Use
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
+
+
+class _ArgTag(NamedTuple):
+    """An `<arg>`, in a file or in an include. `span` is that of its name."""
+
+    name: str
+    span: Span
+    value: Resolved | None
+    default: Resolved | None
+
+
+def _read_arg(state: State, scope: Scope, action: Action) -> _ArgTag | None:
+    """None where it has no name."""
+    attributes = Attributes(state, scope, action)
+    found = attributes.require("name")
+    if found is None:
+        return None
+    value, default = attributes.get("value"), attributes.get("default")
+    attributes.get("doc")
+    written = action.attribute("name")
+    return _ArgTag(found[0].text, written.value.span if written else action.kind_span, value, default)
+
+
+def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
+    """The declaration of an argument in a launch file (http://wiki.ros.org/roslaunch/XML/arg)."""
+    if not applies(state, scope, action):
+        return
+    tag = _read_arg(state, scope, action)
+    if tag is None:
+        return
+    name, span, value, default = tag
+    location = scope.location(span)
+    if value is not None and default is not None:
+        state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(action.kind_span))
+        default = None
+    if name in scope.declared and not scope.pass_all_args:
+        first = scope.declared[name]
+        state.problem(RedeclaredArgument(name, first, passed=False), scope.origin(span))
+        return
+    scope.declared.setdefault(name, location)
+    given = scope.args.get(name)
+    if value is not None:
+        if given is not None and not scope.pass_all_args:
+            state.problem(FixedArgument(name), scope.chain or scope.origin(span))
+        else:
+            scope.args[name] = ArgValue(value.text if value.known else None, scope.origin(span))
+    elif default is not None and given is None:
+        scope.args[name] = ArgValue(default.text if default.known else None, scope.origin(span))
+    now = scope.args.get(name)
+    state.uses.append(
+        Use("declaration", location, name, now.text if now else None, None, (now.origin if now else None) or ())
+    )
 
 
 def passed_args(
@@ -34,15 +88,10 @@ def passed_args(
             continue
         if kind != "arg" or not applies(state, inside, child):
             continue
-        attributes = Attributes(state, inside, child)
-        required = attributes.require("name")
-        if required is None:
+        tag = _read_arg(state, inside, child)
+        if tag is None:
             continue
-        name = required[0].text
-        name_attribute = child.attribute("name")
-        span = name_attribute.value.span if name_attribute else child.kind_span
-        value, default = attributes.get("value"), attributes.get("default")
-        attributes.get("doc")
+        name, span, value, default = tag
         if value is not None and default is not None:
             state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(child.kind_span))
             continue

@@ -24,7 +24,13 @@ from preflight_analysis.evaluation.problems import (
     UnknownIncludeArgument,
 )
 from preflight_analysis.evaluation.root_args import report_undeclared
-from preflight_analysis.evaluation.ros1.arguments import are_those_of, declared_args, names_asked_for, passed_args
+from preflight_analysis.evaluation.ros1.arguments import (
+    are_those_of,
+    declared_args,
+    evaluate_arg,
+    names_asked_for,
+    passed_args,
+)
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.included import (
     Passed,
@@ -39,7 +45,6 @@ from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.tags import (
     clear_params,
-    evaluate_arg,
     evaluate_env,
     evaluate_machine,
     evaluate_remap,

@@ -1,16 +1,16 @@
-"""The small tags: remap, env, arg, machine, and the attributes `ns` and `clear_params` that several tags share."""
+"""The small tags: remap, env, machine, and the attributes `ns` and `clear_params` that several tags share."""
 
 from __future__ import annotations
 
 from preflight_analysis.evaluation import names, values
-from preflight_analysis.evaluation.problems import FixedArgument, InvalidName, RedeclaredArgument
+from preflight_analysis.evaluation.problems import InvalidName
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies, integer, positive_number
-from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
+from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.tree import Machine, Remap, Use
 from preflight_analysis.launch.model import Action
-from preflight_analysis.launch.problems import ConflictingAttributes, UnknownElement
+from preflight_analysis.launch.problems import UnknownElement
 from preflight_analysis.launch.schema_ros1 import TAGS
 
 _REFUSED_MACHINE = tuple(name for name in TAGS["machine"].refused if name != "env")
@@ -52,42 +52,6 @@ def evaluate_env(state: State, scope: Scope, action: Action) -> None:
     if not attributes.all_known:
         state.unknown(f"environment variable {found[0].text}", "its value is not known", scope, action.kind_span)
     scope.env.append((found[0].text, found[1].text))
-
-
-def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
-    """The declaration of an argument in a launch file (http://wiki.ros.org/roslaunch/XML/arg)."""
-    if not applies(state, scope, action):
-        return
-    attributes = Attributes(state, scope, action)
-    found = attributes.require("name")
-    if found is None:
-        return
-    name = found[0].text
-    value, default = attributes.get("value"), attributes.get("default")
-    attributes.get("doc")
-    name_attribute = action.attribute("name")
-    span = name_attribute.value.span if name_attribute else action.kind_span
-    location = scope.location(span)
-    if value is not None and default is not None:
-        state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(action.kind_span))
-        default = None
-    if name in scope.declared and not scope.pass_all_args:
-        first = scope.declared[name]
-        state.problem(RedeclaredArgument(name, first, passed=False), scope.origin(span))
-        return
-    scope.declared.setdefault(name, location)
-    given = scope.args.get(name)
-    if value is not None:
-        if given is not None and not scope.pass_all_args:
-            state.problem(FixedArgument(name), scope.chain or scope.origin(span))
-        else:
-            scope.args[name] = ArgValue(value.text if value.known else None, scope.origin(span))
-    elif default is not None and given is None:
-        scope.args[name] = ArgValue(default.text if default.known else None, scope.origin(span))
-    now = scope.args.get(name)
-    state.uses.append(
-        Use("declaration", location, name, now.text if now else None, None, (now.origin if now else None) or ())
-    )
 
 
 def evaluate_machine(state: State, scope: Scope, action: Action) -> str | None:
