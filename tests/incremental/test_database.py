@@ -386,6 +386,18 @@ def test_answers_are_part_of_what_is_remembered() -> None:
     assert translated.answered(it.db, answer({"2": 1}), "a") == "1 ?"
 
 
+def test_equal_values_for_other_answers_are_one_object() -> None:
+    db = Database()
+
+    @query
+    def how_many(db: Database) -> tuple[str, int]:
+        return "long", len(db.ask("word"))
+
+    first, second, third = (how_many.answered(db, Answering(lambda _, word=word: word, [])) for word in ("a", "b", "cc"))
+    assert first is second
+    assert third == ("long", 2)
+
+
 def test_many_are_asked_for_at_once() -> None:
     it, asked = Made(), list[Any]()
     answers = Answering(str, asked)

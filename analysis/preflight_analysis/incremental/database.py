@@ -260,6 +260,8 @@ class Database:
             self._make_for(answers, cell)
         if not cells or cells[-1] is not cell:
             with self._condition:
+                if cells and cells[-1].value == cell.value:
+                    cell.value = cells[-1].value  # who goes by the identity of values takes over more
                 if cell in cells:
                     cells.remove(cell)
                 cells.append(cell)
