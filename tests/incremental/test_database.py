@@ -393,7 +393,9 @@ def test_equal_values_for_other_answers_are_one_object() -> None:
     def how_many(db: Database) -> tuple[str, int]:
         return "long", len(db.ask("word"))
 
-    first, second, third = (how_many.answered(db, Answering(lambda _, word=word: word, [])) for word in ("a", "b", "cc"))
+    first, second, third = (
+        how_many.answered(db, Answering(lambda _, word=word: word, [])) for word in ("a", "b", "cc")
+    )
     assert first is second
     assert third == ("long", 2)
 

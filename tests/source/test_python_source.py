@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from preflight_analysis.source.analyse import SourceInterface
+from preflight_analysis.source.known_params import LaunchParams
 from support.source_harness import SourceHarness
 
 HEAD = "import rospy\nfrom std_msgs.msg import String\n"
@@ -271,6 +272,83 @@ def test_remembered_until_a_file_or_a_parameter_changes(harness: Harness) -> Non
     harness.write("src/p/__init__.py", 'NAME = "longer"\n')
     changed = harness.again('<param name="x" value="b"/>')
     assert changed is not None and [e.name for e in changed.endpoints] == ["longerb"]
+
+
+X = 'x = rospy.get_param("~x", "c")\n'
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        X + "y = x\nrospy.loginfo('at %s and ' + x + f'{y}!', x)",
+        "rospy.Rate(rospy.get_param('~x'))",
+        "class A:\n  def __init__(self, x):\n    self.x = x\n  def get(self, *, y='c'): return self.x\n"
+        "A(x=rospy.get_param('~x')).get()",
+        "if rospy.get_time(): z = rospy.get_param('~x')\nelse: z = 1",
+        "y = rospy.has_param('~x')",
+    ],
+)
+def test_a_parameter_that_decides_nothing_is_no_reason_to_read_again(harness: Harness, text: str) -> None:
+    first = harness.read(f'{text}\nrospy.Publisher("a", String)\n', '<param name="x" value="a"/>')
+    assert first is not None and [use.name for use in first.params] == ["~x"]
+    for value in ("b", "1", ""):
+        assert harness.again(f'<param name="x" value="{value}"/>' if value else "") is first
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "rospy.Publisher(x, String)",
+        "rospy.Publisher(f'{x}', String)",
+        "rospy.Publisher('' + x, String)",
+        "rospy.Publisher('%s' % x, String)",
+        "rospy.Publisher('{}'.format(x), String)",
+        "rospy.Publisher(str(x), String)",
+        "rospy.Publisher([x][0], String)",
+        "rospy.Publisher({'k': x}['k'], String)",
+        "y = {}\ny['k'] = x\nrospy.Publisher(y.get('k'), String)",
+        "y = []\ny.append(x)\nfor each in y: rospy.Publisher(each, String)",
+        "y, z = x, 1\nrospy.Publisher(y, String)",
+        "if x == 'a': rospy.Publisher('a', String)\nelse: rospy.Publisher('b' if x == 'b' else 'c', String)",
+        "rospy.Publisher(x or 'd', String)",
+        "rospy.Publisher('a' if x == 'a' else x, String)",
+        "def f(*args, **more): rospy.Publisher(args[0], String)\nf(x, y=x)",
+        "def f(*args, **more): rospy.Publisher(more['y'], String)\nf(x, y=x)",
+        "def f(y='d'): return y\nrospy.Publisher(f(x), String)",
+        "rospy.Publisher((lambda: x)(), String)",
+        "import os\nrospy.Publisher(os.path.join('', x), String)",
+        "rospy.Publisher(rospy.get_param('~gone', x), String)",
+        "rospy.Publisher(rospy.resolve_name(x).replace('/', ''), String)",
+        "y = x\nfor i in range(60): y = y + ''\nrospy.Publisher(y, String)",
+        "try: y = x\nfinally: rospy.Publisher(y, String)",
+        "if rospy.get_time(): y = x\nelse: y = rospy.get_param('~x', 'c')\nrospy.Publisher(y, String)",
+        "class A:\n  y = x\nrospy.Publisher(A().y, String)",
+    ],
+)
+def test_what_a_parameter_decides_follows_it(harness: Harness, text: str) -> None:
+    for value in ("a", "b", "", "a"):
+        inner = f'<param name="x" value="{value}"/>' if value else ""
+        topics = harness.topics(X + text, inner=inner)
+        assert topics == [value or "c"]
+        assert topics == Harness(harness.folder).topics(X + text, inner=inner)
+
+
+def test_a_program_does_not_change_what_the_launch_sets(harness: Harness) -> None:
+    params = LaunchParams({"/n/names": ["a"], "/n/more": {"of": ["b"]}})
+    harness.read(
+        """
+        found = rospy.get_param("~names")
+        found.append("c")
+        more = rospy.get_param("~more")
+        more["of"].append("d")
+        more["else"] = 1
+        for name in found + more["of"]:
+            rospy.Publisher(name, String)
+        """
+    )
+    found = harness.analysis.read(harness.launch().nodes[0], params)
+    assert found is not None and [end.name for end in found.endpoints] == ["a", "c", "b", "d"]
+    assert params.values == {"/n/names": ["a"], "/n/more": {"of": ["b"]}}
 
 
 def test_a_relay_of_a_devel_space_leads_to_the_script(harness: Harness) -> None:

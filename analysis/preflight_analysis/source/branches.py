@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from preflight_analysis.source.python_values import UNKNOWN, is_plain
+from preflight_analysis.source.python_values import UNKNOWN, is_plain, known
 
 _ABSENT = object()
 _Key = tuple[int, str]
@@ -99,5 +99,6 @@ def same(value: Any, other: Any) -> Any:
     """What two branches agree on."""
     if value is other:
         return value
-    known = is_plain(value) or not isinstance(value, (list, tuple, dict))
-    return value if known and type(value) is type(other) and value == other else UNKNOWN
+    value, other = known(value), known(other)
+    comparable = is_plain(value) or not isinstance(value, (list, tuple, dict))
+    return value if comparable and type(value) is type(other) and value == other else UNKNOWN

@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import count
 from typing import Any
 
-from preflight_analysis.source.python_values import UNKNOWN, is_plain
+from preflight_analysis.source.python_values import UNKNOWN, Later, is_plain
 
 _MAX_BELOW = 200
 _NUMBERS = count()
@@ -84,4 +84,21 @@ class KnownParams:
         """As `LaunchParams.look`, but for what the node sets itself as it starts."""
         if name in self._own:
             return self._own[name]
-        return self._ask(f"{name.rstrip('/')}/" if name.endswith("//") else name)
+        found = self._ask(f"{name.rstrip('/')}/" if name.endswith("//") else name)
+        # A program changes what it was given; what the launch sets stays what it is.
+        return _copied(found)
+
+    def later(self, name: str, default: Any) -> Any:
+        """The same with a default where that is UNKNOWN. It is asked for where something depends on it."""
+
+        def ask() -> Any:
+            found = self.look(name)
+            return default if found is UNKNOWN else found
+
+        return Later(ask) if default is UNKNOWN or is_plain(default) else ask()
+
+
+def _copied(value: Any) -> Any:
+    if isinstance(value, list):
+        return [*map(_copied, value)]
+    return {key: _copied(each) for key, each in value.items()} if isinstance(value, dict) else value

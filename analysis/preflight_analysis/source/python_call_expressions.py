@@ -20,6 +20,7 @@ from preflight_analysis.source.python_values import (
     Scope,
     StarImported,
     Super,
+    known,
 )
 
 _MAX_DEPTH = 30
@@ -49,7 +50,7 @@ class CallExpressions(Expressions):
             method = node.func.attr
             args, kwargs = self._arguments(node, scope)
             if isinstance(owner, (str, list, tuple, dict)):
-                return self._of_plain(owner, method, args)
+                return self._of_plain(owner, method, [*map(known, args)])
             callee = self._attribute(owner, method)
         else:
             callee = self._value(node.func, scope)
@@ -72,14 +73,14 @@ class CallExpressions(Expressions):
             if isinstance(each, ast.Starred):
                 args += items_of(self._value(each.value, scope)) or [UNKNOWN]
             else:
-                args.append(self._value(each, scope))
+                args.append(self._held(each, scope))
         kwargs: dict[str, Any] = {}
         for keyword in node.keywords:
-            value = self._value(keyword.value, scope)
+            value = self._held(keyword.value, scope)
             if keyword.arg is not None:
                 kwargs[keyword.arg] = value
-            elif isinstance(value, dict):
-                kwargs.update({key: each for key, each in value.items() if isinstance(key, str)})
+            elif isinstance(every := known(value), dict):
+                kwargs.update({key: each for key, each in every.items() if isinstance(key, str)})
         return args, kwargs
 
     def _may_be_called(self, value: Any) -> None:
@@ -89,7 +90,7 @@ class CallExpressions(Expressions):
     def _star(self, callee: StarImported, args: list[Any], kwargs: dict[str, Any], node: ast.Call, scope: Scope) -> Any:
         for module in callee.modules:
             value = self._imported(f"{module}.{callee.name}", args, kwargs, node, scope)
-            if value is not UNKNOWN:
+            if known(value) is not UNKNOWN:
                 return value
         return UNKNOWN
 
@@ -101,7 +102,7 @@ class CallExpressions(Expressions):
                 return Super(args[0], args[1])
             return Super(scope.owner, scope.instance) if scope.owner is not None else UNKNOWN
         if path.startswith("builtins."):
-            return builtin(path.removeprefix("builtins."), args)
+            return builtin(path.removeprefix("builtins."), [*map(known, args)])
         return self._calls.call(path, args, kwargs, scope.module.path, node.lineno)
 
     def _instantiate(self, cls: Class, args: list[Any], kwargs: dict[str, Any]) -> Any:
@@ -140,7 +141,7 @@ class CallExpressions(Expressions):
         self._returns.append([])
         try:
             if isinstance(node, ast.Lambda):
-                return self._value(node.body, scope)
+                return self._held(node.body, scope)
             self._block(node.body, scope)
             returned = self._returns[-1]
         finally:
@@ -169,9 +170,9 @@ class CallExpressions(Expressions):
         for name in allowed:
             names.setdefault(name, UNKNOWN)
         if given.vararg is not None:
-            names[given.vararg.arg] = UNKNOWN if unknown else list(values[len(positional) :])
+            names[given.vararg.arg] = UNKNOWN if unknown else [*map(known, values[len(positional) :])]
         if given.kwarg is not None:
-            names[given.kwarg.arg] = {} if unknown else {k: v for k, v in kwargs.items() if k not in allowed}
+            names[given.kwarg.arg] = {} if unknown else {k: known(v) for k, v in kwargs.items() if k not in allowed}
         return names
 
     def _of_plain(self, owner: Any, method: str, args: list[Any]) -> Any:

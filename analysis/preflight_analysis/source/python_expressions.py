@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from preflight_analysis.source.branches import Branches, same
@@ -13,6 +14,7 @@ from preflight_analysis.source.python_operators import (
     BUILTINS,
     MAX_ITEMS,
     binary,
+    formatted,
     item_at,
     items_of,
     joined,
@@ -30,7 +32,9 @@ from preflight_analysis.source.python_values import (
     Scope,
     StarImported,
     Super,
+    after,
     is_plain,
+    known,
 )
 
 MAX_STEPS = 60_000
@@ -60,6 +64,11 @@ class Expressions(ABC):
         """What a function of the program returns; `unknown`: its parameters are not known."""
 
     def _value(self, node: ast.expr, scope: Scope) -> Any:
+        """What an expression comes to, where something depends on it."""
+        return known(self._held(node, scope))
+
+    def _held(self, node: ast.expr, scope: Scope) -> Any:
+        """The same where it is only stored, passed on or left alone: it may be asked for `Later`."""
         self._step()
         match node:
             case ast.Constant():
@@ -71,13 +80,13 @@ class Expressions(ABC):
             case ast.Call():
                 return self._call(node, scope)
             case ast.JoinedStr():
-                return joined([self._value(part, scope) for part in node.values])
+                return after(joined, *[self._held(part, scope) for part in node.values])
             case ast.FormattedValue():
-                value = self._value(node.value, scope)
+                value = self._held(node.value, scope)
                 simple = node.format_spec is None and node.conversion in (-1, ord("s"))
-                return str(value) if simple and isinstance(value, (str, int, float)) else UNKNOWN
+                return after(formatted, value) if simple else UNKNOWN
             case ast.BinOp():
-                return binary(node.op, self._value(node.left, scope), self._value(node.right, scope))
+                return self._binary(node, scope)
             case ast.List() | ast.Tuple() | ast.Set():
                 values = [self._value(item, scope) for item in node.elts]
                 if any(isinstance(item, ast.Starred) for item in node.elts) or len(values) > MAX_ITEMS:
@@ -90,8 +99,8 @@ class Expressions(ABC):
             case ast.IfExp():
                 truth = truth_of(self._value(node.test, scope))
                 if truth is not None:
-                    return self._value(node.body if truth else node.orelse, scope)
-                return same(self._value(node.body, scope), self._value(node.orelse, scope))
+                    return self._held(node.body if truth else node.orelse, scope)
+                return same(self._held(node.body, scope), self._held(node.orelse, scope))
             case ast.BoolOp():
                 return self._bool_op(node, scope)
             case ast.UnaryOp():
@@ -107,13 +116,20 @@ class Expressions(ABC):
                 self._assign(node.target, value, scope)
                 return value
             case ast.Starred() | ast.Await() | ast.YieldFrom():
-                self._value(node.value, scope)
+                self._held(node.value, scope)
                 return UNKNOWN
             case _:
                 for child in ast.iter_child_nodes(node):
                     if isinstance(child, ast.expr):
-                        self._value(child, scope)
+                        self._held(child, scope)
                 return UNKNOWN
+
+    def _binary(self, node: ast.BinOp, scope: Scope) -> Any:
+        left, right = self._held(node.left, scope), self._held(node.right, scope)
+        # Of two texts it may wait. What a list comes to may be another one by then.
+        if isinstance(node.op, ast.Add) and (isinstance(left, str) or isinstance(right, str)):
+            return after(partial(binary, node.op), left, right)
+        return binary(node.op, known(left), known(right))
 
     def _name(self, name: str, scope: Scope) -> Any:
         current: Scope | None = scope
@@ -150,7 +166,7 @@ class Expressions(ABC):
 
     def _inherited(self, value: Any, cls: Class, name: str) -> Any:
         """What a class that is not followed gives to those made of it: the methods of a node of rclpy."""
-        base = cls.imported_base if value is UNKNOWN else None
+        base = cls.imported_base if known(value) is UNKNOWN else None
         return self._calls.value(f"{base}.{name}") if base is not None else value
 
     def _bind(self, value: Any, instance: Any) -> Any:
@@ -246,7 +262,7 @@ class Expressions(ABC):
                 if isinstance(owner, (Instance, Class, Module)):
                     self._store(owner.names, target.attr, value)
             case ast.Tuple() | ast.List():
-                items = items_of(value)
+                items = items_of(known(value))
                 starred = any(isinstance(t, ast.Starred) for t in target.elts)
                 fits = items is not None and len(items) == len(target.elts) and not starred
                 for index, each in enumerate(target.elts):
@@ -256,7 +272,7 @@ class Expressions(ABC):
             case ast.Subscript():
                 owner, key = self._value(target.value, scope), self._value(target.slice, scope)
                 if isinstance(owner, dict) and isinstance(key, str) and len(owner) < MAX_ITEMS:
-                    self._store(owner, key, value)
+                    self._store(owner, key, known(value))
             case _:
                 pass
 

@@ -64,14 +64,14 @@ class _Interpreter(CallExpressions):
         self._step()
         match node:
             case ast.Expr():
-                self._value(node.value, scope)
+                self._held(node.value, scope)
             case ast.Assign():
-                value = self._value(node.value, scope)
+                value = self._held(node.value, scope)
                 for target in node.targets:
                     self._assign(target, value, scope)
             case ast.AnnAssign():
                 if node.value is not None:
-                    self._assign(node.target, self._value(node.value, scope), scope)
+                    self._assign(node.target, self._held(node.value, scope), scope)
             case ast.AugAssign():
                 old = self._value(node.target, scope)
                 new = self._value(node.value, scope)
@@ -109,13 +109,13 @@ class _Interpreter(CallExpressions):
                     ended and not node.handlers
                 )
             case ast.Return():
-                value = self._value(node.value, scope) if node.value is not None else None
+                value = self._held(node.value, scope) if node.value is not None else None
                 if self._returns:
                     self._returns[-1].append(value)
                 return True
             case ast.Raise():
                 if node.exc is not None:
-                    self._value(node.exc, scope)
+                    self._held(node.exc, scope)
                 return True
             case ast.Break() | ast.Continue():
                 return True

@@ -117,7 +117,12 @@ def unary(operator: ast.unaryop, value: Any) -> Any:
     return UNKNOWN
 
 
-def joined(parts: Sequence[Any]) -> Any:
+def formatted(value: Any) -> Any:
+    """The text of a value in an f-string."""
+    return str(value) if isinstance(value, (str, int, float)) else UNKNOWN
+
+
+def joined(*parts: Any) -> Any:
     """The text of an f-string of which these are the parts."""
     texts = [part for part in parts if isinstance(part, str)]
     return "".join(texts) if len(texts) == len(parts) and sum(map(len, texts)) <= _MAX_TEXT else UNKNOWN

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 _MAX_PARTS = 1000
+_MAX_WAITING = 8
 
 
 class _Unknown:
@@ -113,6 +115,37 @@ class Super:
 
     cls: Class
     instance: Any
+
+
+class Later:
+    """A plain value, or UNKNOWN, that is asked for where something depends on it, and not before: to be stored, passed
+    on or written to a log is no reason to ask. `depth`: how many wait for each other."""
+
+    __slots__ = ("_ask", "_value", "depth")
+
+    def __init__(self, ask: Callable[[], Any], depth: int = 0) -> None:
+        self._ask: Callable[[], Any] | None = ask
+        self._value: Any = UNKNOWN
+        self.depth = depth
+
+    def now(self) -> Any:
+        """The value, the same object each time."""
+        if self._ask is not None:
+            self._value, self._ask = self._ask(), None
+        return self._value
+
+
+def known(value: Any) -> Any:
+    """The value itself of one that may not have been asked for."""
+    return value.now() if type(value) is Later else value
+
+
+def after(function: Callable[..., Any], *values: Any) -> Any:
+    """`function(*values)`, which is asked for as late as they are. It depends on nothing that may change meanwhile."""
+    depth = 1 + max((value.depth for value in values if type(value) is Later), default=-1)
+    if 0 < depth <= _MAX_WAITING:
+        return Later(lambda: function(*map(known, values)), depth)
+    return function(*map(known, values))
 
 
 def is_plain(value: Any) -> bool:

@@ -13,7 +13,7 @@ from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_libraries import makes_no_ends
-from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain
+from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain, known
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 _TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv|action)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
@@ -102,7 +102,7 @@ class RclpyCalls:
         name, method = _plain(path), path.rpartition(".")[2]
 
         def given(index: int, keyword: str) -> Any:
-            return args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN)
+            return known(args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN))
 
         if path.startswith("rclpy.") and method in _METHODS:
             role, kind, (type_name, end_name, qos_name) = _METHODS[method]
@@ -121,14 +121,16 @@ class RclpyCalls:
                 self.collected.add_endpoint(Endpoint(role, topic, type_, None, {}, file, line))
             return Imported(f"{name}()")
         if name in _DESCRIBING:
-            return Instance(Class(name.rpartition(".")[2], {}, ()), dict(kwargs))
+            return Instance(Class(name.rpartition(".")[2], {}, ()), _all_known(kwargs))
         if path.startswith("rclpy."):
             return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
         if _MAKES_NODES.search(path):
             self.collected.unknown_node()
             self.collected.miss()
-        if name in ("os.path.join",) and args and all(isinstance(a, str) for a in args):
-            return os.path.join(*args)
+        if name == "os.path.join" and args:
+            parts = [*map(known, args)]
+            if all(isinstance(part, str) for part in parts):
+                return os.path.join(*parts)
         if not makes_no_ends(path) and any(map(_has_node, (*args, *kwargs.values()))):
             self.collected.miss()
         return UNKNOWN
@@ -151,6 +153,7 @@ class RclpyCalls:
         if method in ("get_parameter", "get_parameter_or", "has_parameter"):
             return self._read(given(0, "name"), method, given(1, "alternative_value"))
         if method == "__init__" or name in ("rclpy.create_node", "rclpy.Node", "rclpy.LifecycleNode"):
+            kwargs = _all_known(kwargs)
             self._from_overrides = self._from_overrides or kwargs.get(_OVERRIDES, False) is not False
             if any(kwargs.get(option, False) is not False for option in ("allow_undeclared_parameters", _OVERRIDES)):
                 self.collected.use(ParamUse("/", "list", source_file=file, source_line=line))
@@ -164,7 +167,7 @@ class RclpyCalls:
         if method == "get_namespace":
             return names.parent(self._node).rstrip("/") or "/"
         if name == "rclpy.QoSProfile":
-            return _policies(kwargs)
+            return _policies(_all_known(kwargs))
         return Imported(f"{path}()")
 
     def _make_node(self, name: Any, kwargs: Mapping[str, Any]) -> None:
@@ -181,8 +184,8 @@ class RclpyCalls:
             return UNKNOWN
         bare = _bare_type(default)
         has_default = default is not UNKNOWN and default is not None and bare is None
-        known = default if has_default and is_plain(default) else None
-        use = ParamUse(f"~{name}", "get", known, has_default, False, file, line, type=bare)
+        shown = default if has_default and is_plain(default) else None
+        use = ParamUse(f"~{name}", "get", shown, has_default, False, file, line, type=bare)
         described = _described(use, descriptor)
         # What the launch sets is declared by then, with its type.
         self.collected.use(replace(described, dynamic=True) if self._from_overrides else described)
@@ -207,13 +210,12 @@ class RclpyCalls:
         if method == "has_parameter":
             return name in self._defaults or UNKNOWN
         value = self._value(name)
-        if value is UNKNOWN and method == "get_parameter_or":
+        if method == "get_parameter_or" and known(value) is UNKNOWN:
             return otherwise
         return _parameter(value)
 
     def _value(self, name: str) -> Any:
-        found = self._params.look(names.resolve(f"~{name}", self._node))
-        return self._defaults.get(name, UNKNOWN) if found is UNKNOWN else found
+        return self._params.later(names.resolve(f"~{name}", self._node), self._defaults.get(name, UNKNOWN))
 
 
 def _bare_type(value: Any) -> str | None:
@@ -279,6 +281,10 @@ def _policies(kwargs: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(kwargs.get("depth"), int):
         found["depth"] = kwargs["depth"]
     return {policy: value for policy, value in {**_RELIABLE, **found}.items() if value is not None}
+
+
+def _all_known(kwargs: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: known(value) for name, value in kwargs.items()}
 
 
 def _plain(path: str) -> str:

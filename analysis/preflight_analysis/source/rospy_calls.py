@@ -13,7 +13,7 @@ from preflight_analysis.source.collector import Collector, is_name
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_libraries import makes_no_ends
-from preflight_analysis.source.python_values import UNKNOWN, Imported, StarImported, is_plain
+from preflight_analysis.source.python_values import UNKNOWN, Imported, Later, StarImported, is_plain, known
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
 _TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
@@ -98,12 +98,12 @@ class RospyCalls:
         name = _plain(path)
 
         def given(index: int, keyword: str) -> Any:
-            return args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN)
+            return known(args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN))
 
         if factory := _ENDPOINTS.get(name):
             role, (first, second), kinds = factory
             type_ = self._type(given(1, second), kinds)
-            qos = {"latch": True} if role == "publisher" and kwargs.get("latch") is True else {}
+            qos = {"latch": True} if role == "publisher" and known(kwargs.get("latch")) is True else {}
             self.collected.add_endpoint(Endpoint(role, given(0, first), type_, None, qos, file, line))
             return Imported(f"{name}()")
         if fixed := _FIXED.get(name):
@@ -140,8 +140,10 @@ class RospyCalls:
         if name in ("rospy.resolve_name", "rospy.remap_name"):
             asked = given(0, "name")
             return names.resolve(asked, self._node, self._remaps) if is_name(asked) else UNKNOWN
-        if name in ("os.path.join", "rospy.names.ns_join", "rospy.ns_join") and all(isinstance(a, str) for a in args):
-            return os.path.join(*args) if args else UNKNOWN
+        if name in ("os.path.join", "rospy.names.ns_join", "rospy.ns_join") and args:
+            parts = [*map(known, args)]
+            if all(isinstance(part, str) for part in parts):
+                return os.path.join(*parts)
         if name == "rospy.numpy_msg":
             return given(0, "msg_type")
         if not makes_no_ends(name):
@@ -153,14 +155,14 @@ class RospyCalls:
         if not is_name(name):
             self.collected.miss()
             return default
-        known = default if is_plain(default) else None
-        self.collected.use(ParamUse(name, access, known, has_default, access == "get" and not has_default, file, line))
+        shown = default if is_plain(default) else None
+        self.collected.use(ParamUse(name, access, shown, has_default, access == "get" and not has_default, file, line))
         if access not in ("get", "has"):
             return UNKNOWN
-        found = self._params.look(names.resolve(name, self._node, self._remaps))
+        full = names.resolve(name, self._node, self._remaps)
         if access == "has":
-            return UNKNOWN if found is UNKNOWN else True
-        return default if found is UNKNOWN else found
+            return Later(lambda: UNKNOWN if self._params.look(full) is UNKNOWN else True)
+        return self._params.later(full, default)
 
     def _type(self, value: Any, kinds: Sequence[str]) -> str | None:
         if isinstance(value, Imported):
