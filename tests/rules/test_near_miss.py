@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.rules.near_miss import NearMiss, near_misses
+from preflight_analysis.rules.near_miss import NearMiss
+from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.tracing.interface import Endpoint
 
 WORDS = ("camera", "front", "image", "raw", "points", "cmd", "vel", "cmdvel", "odom", "c_am", "came", "scan", "scan1")
@@ -74,9 +75,16 @@ def test_edits_one_by_one(seed: int) -> None:
         for _ in range(made.choice((0, 1, 1, 2, 8))):
             at = made.randrange(len(ends))
             ends[at : at + made.randint(0, 1)] = [_end(made, nodes)]
+        for _ in range(made.choice((0, 0, 1, 3))):
+            old = made.choice(nodes)
+            other = made.choice(nodes)
+            new = SimpleNamespace(name=made.choice((_name(made), old.name, other.name)))
+            nodes[nodes.index(old)] = new
+            ends = [(*end[:2], new if end[2] is old else end[2], *end[3:]) for end in ends]
         channels = known = {name: _same(known.get(name), channel) for name, channel in _channels(ends).items()}
         context = _context(channels, nodes, kept)
         again, kept = near_misses(context, "topics"), context.kept
+        kept.end()
         assert _told(again) == _told(near_misses(_context(channels, nodes), "topics"))
         found += len(again)
     assert found

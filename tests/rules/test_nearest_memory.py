@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Hashable
 
-from preflight_analysis.rules.nearest_memory import Hit, Search, search
+from preflight_analysis.rules.nearest_memory import NOTHING, Hit, Pools, search
 
 POOLS = 4
 
@@ -18,29 +18,30 @@ def _rate(seeker: Hashable, candidate: Hashable) -> Hit | None:
     return Hit((distance // 50, candidate), candidate) if distance % 2 else None
 
 
-def _pools(candidates: set[int]) -> dict[Hashable, list[Hashable]]:
+def _pools(candidates: set[int]) -> dict[Hashable, Pools]:
     """Each candidate is in the pool of its number, and in the one of all."""
-    pools: dict[Hashable, list[Hashable]] = {number: [] for number in range(POOLS)}
-    for candidate in candidates:
-        pools[candidate % POOLS].append(candidate)
-    return pools | {"all": list(candidates)}
+    return {candidate: (candidate % POOLS, "all") for candidate in candidates}
 
 
-def _compared(seekers: dict[Hashable, tuple[Hashable, ...]], candidates: set[int]) -> dict[Hashable, Hit]:
+def _compared(seekers: dict[Hashable, Pools], candidates: set[int]) -> dict[Hashable, list[Hit]]:
     """Each with each."""
-    pools, found = _pools(candidates), {}
-    for seeker, names in seekers.items():
-        mine = {candidate for name in names for candidate in pools[name]}
-        hits = [hit for hit in (_rate(seeker, candidate) for candidate in mine) if hit is not None]
-        if hits:
-            found[seeker] = min(hits, key=lambda hit: hit.rank)
-    return found
+    return {
+        seeker: sorted(
+            (
+                hit
+                for candidate, its in _pools(candidates).items()
+                if {*its} & {*mine} and (hit := _rate(seeker, candidate)) is not None
+            ),
+            key=lambda hit: hit.rank,
+        )
+        for seeker, mine in seekers.items()
+    }
 
 
 def test_what_is_found_is_what_comparing_all_with_all_finds() -> None:
     made = random.Random(4)
-    last: Search | None = None
-    seekers: dict[Hashable, tuple[Hashable, ...]] = {}
+    last = NOTHING
+    seekers: dict[Hashable, Pools] = {}
     candidates: set[int] = set()
     for _ in range(1500):
         for _ in range(made.choice((0, 1, 1, 1, 3, 20))):
@@ -50,7 +51,11 @@ def test_what_is_found_is_what_comparing_all_with_all_finds() -> None:
             elif seekers.pop(number, None) is None:
                 seekers[number] = ("all",) if number % 3 == 0 else (number % POOLS, (number + 1) % POOLS)
         last = search(last, seekers, _pools(candidates), _rate)
-        assert last.best == _compared(seekers, candidates)
+        for seeker, every in _compared(seekers, candidates).items():
+            best = last.best[seeker]
+            assert [*best.hits] == every[: len(best.hits)]
+            assert best.hits or not every
+            assert best.more or len(every) == len(best.hits)
 
 
 def test_only_what_came_is_compared() -> None:
@@ -60,9 +65,9 @@ def test_only_what_came_is_compared() -> None:
         compared.append((seeker, candidate))
         return _rate(seeker, candidate)
 
-    seekers: dict[Hashable, tuple[Hashable, ...]] = dict.fromkeys(range(100), ("all",))
+    seekers: dict[Hashable, Pools] = dict.fromkeys(range(100), ("all",))
     candidates = set(range(100))
-    last = search(None, seekers, _pools(candidates), rate)
+    last = search(NOTHING, seekers, _pools(candidates), rate)
     assert len(compared) == 100 * 100
 
     compared.clear()

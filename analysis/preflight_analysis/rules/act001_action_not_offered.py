@@ -4,14 +4,10 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
-from preflight_analysis.rules.near_miss import (
-    NearMiss,
-    dangling_consumers,
-    fixes_in,
-    near_misses,
-    nodes_looked_at,
-    weight,
-)
+from preflight_analysis.rules.dangling import dangling_consumers
+from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
+from preflight_analysis.rules.near_miss_fixes import fixes_in
+from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type

@@ -1,23 +1,22 @@
-"""The best candidate for each of many seekers, found again in little time after a few of either have changed.
+"""The best candidates for each of many seekers, found again in little time after a few of either have changed.
 
-Comparing all with all takes longer than a keystroke may where there are hundreds. So it is remembered what each seeker
-was compared with, and its best few candidates; the next time only candidates that came are looked at. What comes out
-is the same as without the memory.
+Comparing all with all takes longer than a keystroke may where there are hundreds. So the best few candidates of each
+seeker are remembered; the next time only candidates that came are looked at, by those who share a pool with them. What
+comes out is the same as without the memory.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 _KEPT = 8
 """How many candidates of a seeker are remembered: so many may go before it is compared with all again."""
 
-Pool = frozenset[Hashable]
-"""Candidates that several seekers have in common."""
-_EMPTY: Pool = frozenset()
+Pools = tuple[Hashable, ...]
+"""Names of groups: seekers are compared with those candidates that are in one of theirs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,94 +24,97 @@ class Hit:
     """A candidate that will do. No two candidates of a seeker have the same rank; the lowest is the best."""
 
     rank: tuple[Any, ...]
-    candidate: Hashable
+    candidate: Any
 
 
 @dataclass(frozen=True, slots=True)
-class _Kept:
-    """The best hits of one seeker, and whether there were more, in these pools."""
+class Best:
+    """The best hits of one seeker, the best first, and whether there may be more."""
 
-    pools: tuple[Pool, ...]
     hits: tuple[Hit, ...]
     more: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Search:
-    """What a search found, and what is needed to search again after a few of all have changed."""
+    """What a search found for each seeker, and among which candidates."""
 
-    pools: Mapping[Hashable, Pool]
-    kept: Mapping[Hashable, _Kept]
-
-    @property
-    def best(self) -> dict[Hashable, Hit]:
-        """The best hits of the seekers that have any."""
-        return {seeker: found.hits[0] for seeker, found in self.kept.items() if found.hits}
+    best: Mapping[Hashable, Best]
+    candidates: Mapping[Hashable, Pools]
 
 
-_NOTHING = Search({}, {})
+NOTHING = Search({}, {})
 
 
 def search(
-    before: Search | None,
-    seekers: Mapping[Hashable, Sequence[Hashable]],
-    pools: Mapping[Hashable, Collection[Hashable]],
-    rate: Callable[[Hashable, Hashable], Hit | None],
+    before: Search,
+    seekers: Mapping[Hashable, Pools],
+    candidates: Mapping[Hashable, Pools],
+    rate: Callable[[Any, Any], Hit | None],
 ) -> Search:
-    """Search for the best hits of `seekers`, which are those with the names of their pools. What is found is the same
+    """Search for the best hits of `seekers` among `candidates`, both with their pools. What is found is the same
     whatever search was made `before`.
 
-    `rate(seeker, candidate)` may depend on nothing but the two, and a candidate is always in the same pools.
+    `rate(seeker, candidate)` may depend on nothing but the two, and each of them is always in the same pools.
     """
-    known = before or _NOTHING
-    now = {name: _shared(frozenset(pool), known.pools.get(name)) for name, pool in pools.items()}
-    changes: dict[tuple[int, int], tuple[Pool, Pool]] = {}
-    kept: dict[Hashable, _Kept] = {}
-    for seeker, names in seekers.items():
-        mine = tuple(now.get(name, _EMPTY) for name in names)
-        kept[seeker] = _renewed(known.kept.get(seeker), mine, changes, partial(rate, seeker))
-    return Search(now, kept)
+    came = _Pooled({each: pools for each, pools in candidates.items() if each not in before.candidates})
+    went = _Pooled({each: before.candidates[each] for each in before.candidates.keys() - candidates.keys()})
+    everybody = _Pooled(candidates)
+    best: dict[Hashable, Best] = {}
+    for seeker, pools in seekers.items():
+        known = before.best.get(seeker)
+        if known is not None and ((new := came.of(pools)) | (old := went.of(pools))):
+            known = _renewed(known, new, old, partial(rate, seeker))
+        best[seeker] = known or _cut(map(partial(rate, seeker), everybody.of(pools)), more=False)
+    return Search(best, candidates)
 
 
-def _shared(pool: Pool, earlier: Pool | None) -> Pool:
-    """The earlier pool if it is equal, so that all who have it see at once that nothing changed."""
-    return earlier if earlier is not None and earlier == pool else pool
+class _Pooled:
+    """Candidates by their pools."""
+
+    def __init__(self, candidates: Mapping[Hashable, Pools]) -> None:
+        self._candidates = candidates
+        self._found: dict[Pools, frozenset[Hashable]] = {}
+
+    def of(self, pools: Pools) -> frozenset[Hashable]:
+        """Those that are in any of these."""
+        if not self._candidates:
+            return _NOBODY
+        if pools not in self._found:
+            self._found[pools] = _NOBODY.union(*(self._by_pool.get(pool, ()) for pool in pools))
+        return self._found[pools]
+
+    @cached_property
+    def _by_pool(self) -> Mapping[Hashable, Collection[Hashable]]:
+        by_pool: dict[Hashable, list[Hashable]] = {}
+        for candidate, pools in self._candidates.items():
+            for pool in pools:
+                by_pool.setdefault(pool, []).append(candidate)
+        return by_pool
+
+
+_NOBODY: frozenset[Hashable] = frozenset()
 
 
 def _renewed(
-    earlier: _Kept | None,
-    pools: tuple[Pool, ...],
-    changes: dict[tuple[int, int], tuple[Pool, Pool]],
+    earlier: Best,
+    came: Collection[Hashable],
+    went: Collection[Hashable],
     rate: Callable[[Hashable], Hit | None],
-) -> _Kept:
-    if earlier is None or len(earlier.pools) != len(pools):
-        return _fresh(pools, rate)
-    came: set[Hashable] = set()
-    went: set[Hashable] = set()
-    for old, new in zip(earlier.pools, pools, strict=True):
-        if old is not new:
-            pair = (id(old), id(new))
-            if pair not in changes:
-                changes[pair] = (new - old, old - new)
-            came |= changes[pair][0]
-            went |= changes[pair][1]
-    if not came and not went:
-        return earlier if earlier.pools == pools else _Kept(pools, earlier.hits, earlier.more)
+) -> Best | None:
+    """The best hits where these candidates came and went; None where they have to be looked for among all."""
     hits = [hit for hit in earlier.hits if hit.candidate not in went]
     if earlier.more and not hits:
-        return _fresh(pools, rate)
+        return None
     # Those that are not kept are all worse than the worst that is: what is worse than that is none of the best either.
     worst = hits[-1].rank if earlier.more else None
     found = [hit for hit in map(rate, came) if hit is not None]
     better = [hit for hit in found if worst is None or hit.rank < worst]
-    return _cut(pools, [*hits, *better], more=earlier.more or len(better) < len(found))
+    if not better and len(hits) == len(earlier.hits) and (earlier.more or not found):
+        return earlier
+    return _cut([*hits, *better], more=earlier.more or len(better) < len(found))
 
 
-def _fresh(pools: tuple[Pool, ...], rate: Callable[[Hashable], Hit | None]) -> _Kept:
-    hits = [hit for hit in map(rate, _EMPTY.union(*pools)) if hit is not None]
-    return _cut(pools, hits, more=False)
-
-
-def _cut(pools: tuple[Pool, ...], hits: list[Hit], *, more: bool) -> _Kept:
-    hits.sort(key=lambda hit: hit.rank)
-    return _Kept(pools, tuple(hits[:_KEPT]), more or len(hits) > _KEPT)
+def _cut(hits: Iterable[Hit | None], *, more: bool) -> Best:
+    found = sorted((hit for hit in hits if hit is not None), key=lambda hit: hit.rank)
+    return Best(tuple(found[:_KEPT]), more or len(found) > _KEPT)

@@ -5,16 +5,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_providers
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import (
-    by_type,
-    dangling_consumers,
-    dangling_providers,
-    fixes_in,
-    near_misses,
-    nodes_looked_at,
-    weight,
-)
+from preflight_analysis.rules.near_miss import nodes_looked_at, weight
+from preflight_analysis.rules.near_miss_fixes import fixes_in
+from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.rules.nearest import numbers_in, share_words
 from preflight_analysis.rules.places import Verbs, related_endpoint
 from preflight_analysis.rules.rule import Context, Rule

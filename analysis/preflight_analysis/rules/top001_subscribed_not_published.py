@@ -5,19 +5,11 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import (
-    NearMiss,
-    by_type,
-    dangling_consumers,
-    dangling_topic_providers,
-    documents_of,
-    fixes,
-    lone_of_type,
-    nodes_looked_at,
-    topic_near_misses,
-    weight,
-)
+from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
+from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
+from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import Verbs, related_endpoint
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type

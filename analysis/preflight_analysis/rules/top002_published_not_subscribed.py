@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.dangling import dangling_topic_providers
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import dangling_topic_providers, topic_near_misses
+from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule

@@ -1,0 +1,94 @@
+"""Changes that make the two ends of a near miss meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import Remap
+from preflight_analysis.findings.finding import Edit, Fix
+from preflight_analysis.findings.insertion import insert_child
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.near_miss import NearMiss
+from preflight_analysis.rules.places import connection_location
+from preflight_analysis.rules.rule import Context
+
+
+def fixes(near: NearMiss, consumers: Document | None, providers: Document | None) -> tuple[Fix, ...]:
+    """What makes the two ends meet: the remap that gave the wrong name corrected, else a remap into a node's tag.
+    `consumers` and `providers` are the texts in which the ends have their places: see `documents_of`."""
+    site, other = near.site, near.other
+    if not near.mendable:
+        return ()
+    if site.remap is not None:
+        document = consumers if site is near.consumer else providers
+        corrected = _correct_remap(document, site, site.remap, other.name)
+        if corrected is not None:
+            return (corrected,)
+    # A remap at a publisher that others listen to would only move the gap to them.
+    movable = (near.consumer, *((near.provider,) if near.provider_dangles else ()))
+    connections = [connection for connection in movable if connection.remap is None]
+    found = [
+        _insert_remap(
+            consumers if connection is near.consumer else providers,
+            connection,
+            _partner(near, connection).name,
+            connection is connections[0],
+        )
+        for connection in connections
+    ]
+    return tuple(fix for fix in found if fix is not None)
+
+
+def _partner(near: NearMiss, connection: Connection) -> Connection:
+    return near.provider if connection is near.consumer else near.consumer
+
+
+def fixes_in(context: Context, near: NearMiss) -> tuple[Fix, ...]:
+    """`fixes` in the texts as they are."""
+    (consumers,), (providers,) = documents_of(context, [near])
+    return fixes(near, consumers, providers)
+
+
+def documents_of(context: Context, near: Iterable[NearMiss]) -> tuple[list[Document | None], list[Document | None]]:
+    """The texts in which the consumers have their places, and those of the providers."""
+    get, pairs = context.documents.get, list(near)
+    return (
+        [get(connection_location(pair.consumer).file) for pair in pairs],
+        [get(connection_location(pair.provider).file) for pair in pairs],
+    )
+
+
+def _correct_remap(document: Document | None, connection: Connection, remap: Remap, new: str) -> Fix | None:
+    if document is None:
+        return None
+    span = remap.target_location.span
+    written = document.text[span.start : span.end]
+    if "$(" in written or "&" in written or not written:
+        return None
+    text = _in_style_of(written, connection.name, new)
+    return Fix(f"Replace '{written}' by '{text}'", (Edit(remap.target_location, text),), True)
+
+
+def _in_style_of(written: str, full: str, new: str) -> str:
+    """`new`, a full name, as relative as `written` is, which stands for `full`; as a full name if that cannot be."""
+    if written.startswith("/"):
+        return new
+    mark = "~" if written.startswith("~") else ""
+    stem = names.canonicalize(written[len(mark) :])
+    prefix = full.removesuffix(stem)
+    if full.endswith("/" + stem) and new.startswith(prefix) and len(new) > len(prefix):
+        return mark + new[len(prefix) :]
+    return new
+
+
+def _insert_remap(document: Document | None, connection: Connection, target: str, preferred: bool) -> Fix | None:
+    if document is None:
+        return None
+    source = connection.endpoint.name
+    namespace = names.parent(connection.node.name)
+    relative = not source.startswith("/") and target.startswith(namespace)
+    written = target[len(namespace) :] if relative else target
+    edit = insert_child(connection.node.action, document, f'<remap from="{source}" to="{written}"/>')
+    return Fix(f"Remap '{source}' to '{written}' in {connection.node.name}", (edit,), preferred)
