@@ -55,13 +55,13 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     Each is marked as holding in `context.root`. A rule that raises is logged and costs its own findings alone.
     """
     chosen = tuple(all_rules() if rules is None else rules)
-    by_file, ran = _found(context, chosen)
-    said = {(finding.rule, finding.location) for found in by_file.values() for finding in found}
-    for finding in context.of_branches:
-        if (finding.rule, finding.location) not in said:
-            by_file.setdefault(finding.location.file, []).append(finding)
+    found, ran = _found(context, chosen)
+    if context.of_branches:
+        said = {(finding.rule, finding.location) for finding in found}
+        found += [each for each in context.of_branches if (each.rule, each.location) not in said]
+    by_file = context.kept.grouped(_file, "", found)
     of_documents = context.kept.each(read_suppressions, context.documents.values())
-    suppressions = {path: found for path, (found, _) in zip(context.documents, of_documents, strict=True) if found}
+    suppressions = {path: each for path, (each, _) in zip(context.documents, of_documents, strict=True) if each}
     chains = _first_chains(context)
     guessed = {unknown.location.file for unknown in context.tree.unknowns if unknown.decides}
     sorted_findings: list[Finding] = []
@@ -71,7 +71,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             _of_file,
             path,
             path,
-            context.kept.patched(_alike, path, tuple(by_file.get(path, ()))),
+            context.kept.patched(_alike, path, by_file.get(path, ())),
             silenced,
             context.documents[path] if silenced else None,
             chains.get(path, ()),
@@ -87,9 +87,9 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
 def found_in_branch(context: Context, pause: Callable[[], object] = lambda: None) -> list[Finding]:
     """What the rules that speak of branches say of a launch with other arguments, suppressed or not, each with the
     includes that lead there. `pause` is called before each rule: it may raise to stop here."""
-    by_file, _ = _found(context, _of_branches(pause))
+    found, _ = _found(context, _of_branches(pause))
     chains = _first_chains(context)
-    return [_with_chain(each, chains.get(path, ())) for path, found in by_file.items() for each in found]
+    return [_with_chain(each, chains.get(each.location.file, ())) for each in found]
 
 
 def _of_branches(pause: Callable[[], object]) -> Iterator[Rule]:
@@ -99,9 +99,9 @@ def _of_branches(pause: Callable[[], object]) -> Iterator[Rule]:
             yield rule
 
 
-def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Finding]], list[str]]:
-    """All that rules say, by file, and the ids of those that did not raise."""
-    by_file: dict[str, list[Finding]] = {}
+def _found(context: Context, rules: Iterable[Rule]) -> tuple[list[Finding], list[str]]:
+    """All that rules say, and the ids of those that did not raise."""
+    findings: list[Finding] = []
     ran: list[str] = []
     catalogued = any(catalogued_file(path) is not None for path in context.tree.inputs)
     for rule in rules:
@@ -115,9 +115,12 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[dict[str, list[Find
             continue
         ran.append(rule.id)
         said = _in_order(rule, found, context) if rule.problems else found
-        for finding in filter(None, map(partial(_outside, rule), said)) if catalogued else said:
-            by_file.setdefault(finding.location.file, []).append(finding)
-    return by_file, ran
+        findings += filter(None, map(partial(_outside, rule), said)) if catalogued else said
+    return findings, ran
+
+
+def _file(finding: Finding) -> str:
+    return finding.location.file
 
 
 def _outside(rule: Rule, finding: Finding) -> Finding | None:
