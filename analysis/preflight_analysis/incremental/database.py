@@ -252,6 +252,16 @@ class Database:
     def _answered_value(self, kind: Query[Any, Any], key: Key, answers: Answers) -> object:
         if self._writers:
             raise Cancelled
+        cells = self._answered.get((kind, key))
+        if cells and self._stands(cell := cells[-1]) and would_answer(answers, cell):
+            self._note_read(cell)  # so it is with nearly all of them
+        else:
+            cell = self._answered_cell(kind, key, answers)
+        if kind.limit is not None:
+            self._used(cell, kind.limit)
+        return cell.value
+
+    def _answered_cell(self, kind: Query[Any, Any], key: Key, answers: Answers) -> Cell:
         cells = self._answered.setdefault((kind, key), [])
         cell = next((each for each in cells[::-1] if would_answer(answers, each)), None) or Cell(kind, key)
         if self._make_for(answers, cell) and not would_answer(answers, cell):
@@ -268,19 +278,24 @@ class Database:
                 for old in cells[:-MOST_ANSWERS]:
                     self._latest.get(kind, {}).pop(old, None)
                 del cells[:-MOST_ANSWERS]
-        if kind.limit is not None:
-            self._used(cell, kind.limit)
-        return cell.value
+        return cell
 
     def _make_for(self, answers: Answers, cell: Cell) -> bool:
         """Note that the cell is read, and bring it up to date; whether there was anything to do for that."""
-        if self._thread.reads:
-            self._thread.reads[-1][cell] = None
-        cell.used_at = self.revision
-        if cell.durable and cell.verified_at >= self._durable_changed_at:
+        self._note_read(cell)
+        if self._stands(cell):
             return False
         self._bring_up_to_date_for(answers, cell)
         return True
+
+    def _note_read(self, cell: Cell) -> None:
+        if self._thread.reads:
+            self._thread.reads[-1][cell] = None
+        cell.used_at = self.revision
+
+    def _stands(self, cell: Cell) -> bool:
+        """Whether it is right as long as what seldom changes has not."""
+        return cell.durable and cell.verified_at >= self._durable_changed_at
 
     def ask(self, question: Hashable) -> Any:
         """For the function of a query that is asked for by `answered`: what its asker answers."""
