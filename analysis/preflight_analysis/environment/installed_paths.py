@@ -43,11 +43,11 @@ def located(disk: Disk, environment: Environment, path: str) -> str:
 def package_around(environment: Environment, path: str) -> Package | None:
     """The package whose folder a path is in."""
     folders = environment.packages_by_folder
-    folder = os.path.dirname(path)
-    while folder and folder != os.path.dirname(folder):
+    folder, above = os.path.dirname(path), path
+    while folder and folder != above:
         if folder in folders:
             return folders[folder]
-        folder = os.path.dirname(folder)
+        folder, above = os.path.dirname(folder), folder
     return None
 
 

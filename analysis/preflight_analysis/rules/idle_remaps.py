@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import chain
 
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_transform
@@ -22,25 +25,38 @@ class IdleRemap:
 
     remap: Remap
     nodes: tuple[LaunchNode, ...]
-    meant: Connection | None
+    of_source: bool
+    """Whether the nodes are known from their source alone."""
+    meant: Connection | None = None
     """The end of the first node that it was most likely meant for."""
-    partner: Connection | None
+    partner: Connection | None = None
     """An end of another node that stands under the remap's target and that `meant` would fit."""
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class _Reached:
+    """A remap at one of the nodes that it reaches."""
+
     remap: Remap
-    nodes: list[LaunchNode]
+    node: LaunchNode
+    has_effect: bool
+    of_source: bool
 
 
 def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
     """Those of nodes that were run to their event loop. Ask through `context.once`."""
-    graph = context.graph
+    graph, kept = context.graph, context.kept
     if graph is None:
         return ()
-    idle = context.kept.each_row(_without_effect, (graph.tree.nodes, graph.interfaces))
-    return tuple(_idle(graph, idle)) if any(idle) else ()
+    reached = kept.each_row(_reached, (graph.tree.nodes, graph.interfaces))
+    # A tag reaches several nodes where it stands around them, or in a file that is included more than once.
+    of_tags = kept.grouped(_tag, "", chain.from_iterable(reached))
+    idle = [*filter(None, kept.each(_idle, of_tags.values()))]
+    if not idle:
+        return ()
+    own_ends = kept.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
+    of_nodes = kept.grouped(_node, "", chain.from_iterable(own_ends))
+    return tuple(_with_meaning(kept, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
 
 
 def meant_endpoints(context: Context) -> frozenset[int]:
@@ -50,40 +66,68 @@ def meant_endpoints(context: Context) -> frozenset[int]:
     return frozenset(id(connection) for idle in found for connection in (idle.meant, idle.partner))
 
 
-def _without_effect(node: LaunchNode, interface: Interface) -> tuple[Remap, ...]:
-    """The remaps that have no effect at this node, as far as is known."""
-    if not node.remaps or not _reports_names(node, interface):
+def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
+    if not node.remaps:
         return ()
-    used = _used(node, interface)
-    return tuple(remap for remap in node.remaps if _has_no_effect(remap, node, used))
+    used = _used(node, interface) if _reports_names(node, interface) else None
+    of_source = interface.source == "source"
+    return tuple(
+        _Reached(remap, node, used is None or not _has_no_effect(remap, node, used), of_source) for remap in node.remaps
+    )
 
 
-def _idle(graph: Graph, idle: Iterable[tuple[Remap, ...]]) -> Iterator[IdleRemap]:
-    # A tag reaches several nodes where it stands around them, or in a file that is included more than once: it has to
-    # be idle at all of them.
-    reached: dict[object, _Reached] = {}
-    in_use: set[object] = set()
-    for node, of_node in zip(graph.tree.nodes, idle, strict=True):
-        for remap in node.remaps:
-            place = remap.origin[-1]
-            if place in in_use:
-                continue
-            if not any(remap is each for each in of_node):
-                in_use.add(place)
-                reached.pop(place, None)
-            else:
-                reached.setdefault(place, _Reached(remap, [])).nodes.append(node)
-    if not reached:
-        return
-    wanted = {id(each.nodes[0]) for each in reached.values()}
-    connections: dict[int, list[Connection]] = {}
-    for channel in (*graph.topics.values(), *graph.services.values()):
-        for connection in (*channel.providers, *channel.consumers):
-            if id(connection.node) in wanted and connection.remap is None and not connection.endpoint.builtin:
-                connections.setdefault(id(connection.node), []).append(connection)
-    for each in reached.values():
-        meant, partner = _meant(graph, each.remap, each.nodes[0], connections.get(id(each.nodes[0]), ()))
-        yield IdleRemap(each.remap, tuple(each.nodes), meant, partner)
+def _tag(reached: _Reached) -> Location:
+    return reached.remap.origin[-1]
+
+
+def _idle(reached: tuple[_Reached, ...]) -> IdleRemap | None:
+    """What is to say of a tag, of all nodes that it reaches; nothing where it has an effect at any."""
+    if any(each.has_effect for each in reached):
+        return None
+    return IdleRemap(reached[0].remap, tuple(each.node for each in reached), all(each.of_source for each in reached))
+
+
+def _own_ends(channel: Channel) -> tuple[Connection, ...]:
+    """Those whose names nothing has moved."""
+    ends = (*channel.providers, *channel.consumers)
+    return tuple(each for each in ends if each.remap is None and not each.endpoint.builtin)
+
+
+def _node(connection: Connection) -> int:
+    return id(connection.node)
+
+
+def _with_meaning(kept: Kept, graph: Graph, idle: IdleRemap, own: tuple[Connection, ...]) -> IdleRemap:
+    target = names.resolve(idle.remap.target, idle.nodes[0].name)
+    channels = tuple(_channels(graph, each)[each.name] for each in own)
+    targets = tuple(_channels(graph, each).get(target) for each in own)
+    return kept.get(_meaning, id(idle), idle, own, channels, targets)
+
+
+def _channels(graph: Graph, connection: Connection) -> Mapping[str, Channel]:
+    return graph.topics if connection.endpoint.role in _TOPIC_ROLES else graph.services
+
+
+def _meaning(
+    idle: IdleRemap,
+    own: tuple[Connection, ...],
+    channels: tuple[Channel, ...],
+    targets: tuple[Channel | None, ...],
+) -> IdleRemap:
+    """With the end that the remap was meant for, and whom it would then meet.
+
+    Either its name is like the remap's and nothing else reaches it, or it is the node's only one without another end
+    that fits what stands under the target. `own` are the ends of the node, `channels` what they are in and `targets`
+    what is under the target's name.
+    """
+    full = names.resolve(idle.remap.source, idle.nodes[0].name)
+    rows = zip(own, channels, targets, strict=True)
+    lone = [(each, _partner(target, each)) for each, channel, target in rows if not _facing(channel, each)]
+    found = [(connection, partner) for connection, partner in lone if _is_slip(full, connection)]
+    if len(found) != 1:
+        found = [(connection, partner) for connection, partner in lone if partner is not None]
+    meant, partner = found[0] if len(found) == 1 else (None, None)
+    return replace(idle, meant=meant, partner=partner)
 
 
 def _reports_names(node: LaunchNode, interface: Interface) -> bool:
@@ -128,28 +172,6 @@ def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
             return False
         above = above.rpartition("/")[0]
     return True
-
-
-def _meant(
-    graph: Graph, remap: Remap, node: LaunchNode, connections: Iterable[Connection]
-) -> tuple[Connection | None, Connection | None]:
-    """The end that the remap was meant for, and whom it would then meet.
-
-    Either its name is like the remap's and nothing else reaches it, or it is the node's only one without another end
-    that fits what stands under the target.
-    """
-    full, target = names.resolve(remap.source, node.name), names.resolve(remap.target, node.name)
-    lone: list[tuple[Connection, Connection | None]] = []
-    for connection in connections:
-        channels: Mapping[str, Channel] = graph.topics if connection.endpoint.role in _TOPIC_ROLES else graph.services
-        if _facing(channels[connection.name], connection):
-            continue
-        lone.append((connection, _partner(channels.get(target), connection)))
-    typos = [(connection, partner) for connection, partner in lone if _is_slip(full, connection)]
-    if len(typos) == 1:
-        return typos[0]
-    fitting = [(connection, partner) for connection, partner in lone if partner is not None]
-    return fitting[0] if len(fitting) == 1 else (None, None)
 
 
 def _is_slip(full: str, connection: Connection) -> bool:

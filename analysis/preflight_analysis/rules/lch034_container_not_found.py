@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location, Span
@@ -32,8 +32,11 @@ class _Load:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
+    loading = [*filter(None, context.kept.each(_if_loading, tree.nodes))]
+    if not loading:
+        return
     nodes = {node.name: node for node in tree.nodes if node.kind != "composable"}
-    loads = [*_components(context), *_nodelets(context)]
+    loads = [*_components(context, loading), *_nodelets(context, loading)]
     lost: dict[tuple[str, Location], _Load] = {}
     for load in loads:
         if not load.node.unknowns and load.full not in nodes:
@@ -72,16 +75,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-def _components(context: Context) -> Iterator[_Load]:
+def _if_loading(node: LaunchNode) -> LaunchNode | None:
+    """The node, if it may be one that something else loads, or that has something loaded."""
+    return node if (node.kind == "composable" and node.container) or is_nodelet(node) else None
+
+
+def _components(context: Context, loading: Iterable[LaunchNode]) -> Iterator[_Load]:
     tags = Tags(context.launch_files)
-    for node in context.tree.nodes:
+    for node in loading:
         if node.kind == "composable" and node.container:
             yield _Load(node, _target(context, tags, node, node.container), node.container, _full(node.container))
 
 
-def _nodelets(context: Context) -> Iterator[_Load]:
+def _nodelets(context: Context, loading: Iterable[LaunchNode]) -> Iterator[_Load]:
     """`nodelet load TYPE MANAGER`: its process asks for the service `MANAGER/load_nodelet`."""
-    for node in context.tree.nodes:
+    for node in loading:
         words = [word for word in split_args(node.args) if not word.startswith("-")] if is_nodelet(node) else []
         if len(words) > 2 and words[0] == "load":
             remaps = {source: target for source, (_, target) in effective_remaps(node, 1).items()}

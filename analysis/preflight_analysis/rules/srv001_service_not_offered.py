@@ -33,26 +33,28 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
         weighed = weight(pair, graph.complete, graph.likely_complete)
         yield near_miss_finding(rule, pair, message, _VERBS, fixes_in(context, pair), weighed)
+    explained = {id(pair.consumer) for pair in near} | remapped
+    lone = [each for each in dangling_consumers(context, "services") if id(each) not in explained and not _loads(each)]
+    if not lone:
+        return
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(dangling_providers(context, "services")) if answers else {}
-    explained = {id(pair.consumer) for pair in near} | remapped
-    for connection in dangling_consumers(context, "services"):
-        if id(connection) not in explained and not _loads(connection):
-            meant = _meant(connection, answers.get(id(connection.node), ()), unused)
-            if meant is None and (graph.blind or connection.endpoint.catalogued):
-                continue  # of a common node it is no news, as gazebo offers what its spawners call
-            hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
-            service, client = with_type(connection), connection.node.name
-            yield lone_finding(
-                rule,
-                connection,
-                f"{nodes_looked_at(graph)} offers service {service}, which {client} calls{hint}",
-                whole=graph.complete,
-                severity="hint" if meant is None else "warning",
-                related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
-            )
+    for connection in lone:
+        meant = _meant(connection, answers.get(id(connection.node), ()), unused)
+        if meant is None and (graph.blind or connection.endpoint.catalogued):
+            continue  # of a common node it is no news, as gazebo offers what its spawners call
+        hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
+        service, client = with_type(connection), connection.node.name
+        yield lone_finding(
+            rule,
+            connection,
+            f"{nodes_looked_at(graph)} offers service {service}, which {client} calls{hint}",
+            whole=graph.complete,
+            severity="hint" if meant is None else "warning",
+            related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
+        )
 
 
 def _loads(connection: Connection) -> bool:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.idle_remaps import IdleRemap, idle_remaps
-from preflight_analysis.rules.places import endpoints_of, known_by_source, related_endpoint
+from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -16,40 +18,42 @@ _DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "of
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for idle in context.once(idle_remaps):
-        remap = idle.remap
-        node = idle.nodes[0].name if len(idle.nodes) == 1 else f"none of the {len(idle.nodes)} nodes that it reaches"
-        verb = "does not use" if len(idle.nodes) == 1 else "uses"
-        message = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
-        meant = idle.meant
-        if meant is None:
-            of_source = {id(each) for each in idle.nodes} <= context.once(known_by_source)
-            yield rule.finding(
-                f"{message} {'in its source' if of_source else 'before its event loop'}",
-                remap.source_location,
-                severity="hint",
-                confidence="possible",
-                related=include_chain(remap.origin),
-            )
-            continue
-        evidence = f"did you mean '{_given(meant)}', which it {_DOES[meant.endpoint.role]}"
-        if idle.partner is not None:
-            other = idle.partner
-            does = _DOES[other.endpoint.role]
-            evidence += f"? '{other.name}' is what {other.node.name} {does} as {other.endpoint.type}"
-        else:
-            evidence += " and to which nobody else is connected?"
-        yield rule.finding(
-            f"{message}; {evidence}",
+    idle = context.once(idle_remaps)
+    documents = [context.documents.get(each.remap.source_location.file) for each in idle]
+    yield from context.kept.each_row(_finding, (idle, documents), rule)
+
+
+def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
+    remap, meant = idle.remap, idle.meant
+    node = idle.nodes[0].name if len(idle.nodes) == 1 else f"none of the {len(idle.nodes)} nodes that it reaches"
+    verb = "does not use" if len(idle.nodes) == 1 else "uses"
+    message = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
+    if meant is None:
+        return rule.finding(
+            f"{message} {'in its source' if idle.of_source else 'before its event loop'}",
             remap.source_location,
-            confidence="likely" if idle.partner is not None and not meant.endpoint.uncertain else "possible",
-            related=(
-                *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
-                *include_chain(remap.origin),
-            ),
-            fixes=_fix(context, idle, meant),
-            endpoints=endpoints_of(meant, *((idle.partner,) if idle.partner else ())),
+            severity="hint",
+            confidence="possible",
+            related=include_chain(remap.origin),
         )
+    evidence = f"did you mean '{_given(meant)}', which it {_DOES[meant.endpoint.role]}"
+    if idle.partner is not None:
+        other = idle.partner
+        does = _DOES[other.endpoint.role]
+        evidence += f"? '{other.name}' is what {other.node.name} {does} as {other.endpoint.type}"
+    else:
+        evidence += " and to which nobody else is connected?"
+    return rule.finding(
+        f"{message}; {evidence}",
+        remap.source_location,
+        confidence="likely" if idle.partner is not None and not meant.endpoint.uncertain else "possible",
+        related=(
+            *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
+            *include_chain(remap.origin),
+        ),
+        fixes=_fix(document, remap.source_location, meant),
+        endpoints=endpoints_of(meant, *((idle.partner,) if idle.partner else ())),
+    )
 
 
 def _given(connection: Connection) -> str:
@@ -57,9 +61,8 @@ def _given(connection: Connection) -> str:
     return connection.endpoint.name
 
 
-def _fix(context: Context, idle: IdleRemap, meant: Connection) -> tuple[Fix, ...]:
-    location = idle.remap.source_location
-    written = context.text(location)
+def _fix(document: Document | None, location: Location, meant: Connection) -> tuple[Fix, ...]:
+    written = document.text[location.span.start : location.span.end] if document is not None else ""
     if not written or "$(" in written or "&" in written:
         return ()
     return (Fix(f"Replace '{written}' by '{_given(meant)}'", (Edit(location, _given(meant)),), True),)

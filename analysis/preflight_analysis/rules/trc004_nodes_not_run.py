@@ -1,11 +1,13 @@
 """TRC004: nodes were not run, and why."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Interface
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -17,15 +19,31 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     if context.graph is None:
         return
-    skipped: dict[tuple[str, str], list[LaunchNode]] = {}
-    for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
-        # That there is nothing to run is a finding about the package or executable.
-        if interface.outcome.status == "not-run" and not interface.declared and node.resolved.path is not None:
-            reason = interface.outcome.reason or "no reason is known"
-            skipped.setdefault((node.location.file, reason), []).append(node)
-    for (_, reason), nodes_there in skipped.items():
-        names = ", ".join(node.name for node in nodes_there)
-        yield rule.finding(f"not run: {names}; {reason}", nodes_there[0].location)
+    skipped = filter(None, context.kept.each_row(_skipped, (context.tree.nodes, context.graph.processes)))
+    there = context.kept.grouped(_where_and_why, rule.id, skipped)
+    yield from context.kept.each(_finding, there.values(), rule)
+
+
+@dataclass(frozen=True, slots=True)
+class _Skipped:
+    node: LaunchNode
+    reason: str
+
+
+def _skipped(node: LaunchNode, interface: Interface) -> _Skipped | None:
+    # That there is nothing to run is a finding about the package or executable.
+    if interface.outcome.status != "not-run" or interface.declared or node.resolved.path is None:
+        return None
+    return _Skipped(node, interface.outcome.reason or "no reason is known")
+
+
+def _where_and_why(skipped: _Skipped) -> tuple[str, str]:
+    return skipped.node.location.file, skipped.reason
+
+
+def _finding(there: tuple[_Skipped, ...], rule: Rule) -> Finding:
+    names = ", ".join(each.node.name for each in there)
+    return rule.finding(f"not run: {names}; {there[0].reason}", there[0].node.location)
 
 
 def _root_location(context: Context) -> Location:
