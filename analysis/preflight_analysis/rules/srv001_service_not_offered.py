@@ -12,6 +12,7 @@ from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.rules.nearest import numbers_in, share_words
 from preflight_analysis.rules.places import Verbs, related_endpoint
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
@@ -41,16 +42,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(dangling_providers(context, "services")) if answers else {}
+    elsewhere = context.once(used_elsewhere)
     for connection in lone:
         meant = _meant(connection, answers.get(id(connection.node), ()), unused)
         if meant is None and (graph.blind or connection.endpoint.catalogued):
             continue  # of a common node it is no news, as gazebo offers what its spawners call
-        hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
         service, client = with_type(connection), connection.node.name
+        message = f"{nodes_looked_at(graph)} offers service {service}, which {client} calls"
+        if meant is None and id(connection) in elsewhere:
+            yield elsewhere_finding(rule, context, connection, message, elsewhere[id(connection)])
+            continue
+        hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
         yield lone_finding(
             rule,
             connection,
-            f"{nodes_looked_at(graph)} offers service {service}, which {client} calls{hint}",
+            message + hint,
             whole=graph.complete,
             severity="hint" if meant is None else "warning",
             related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
@@ -89,7 +95,8 @@ RULE = Rule(
     what="Reports a node with a client of a service that no node of the launch offers. Where one offers a service of a "
     "like name and the same type, or one with a word in common that nobody calls while the client's node waits for its "
     "own, it is a warning that names both; otherwise a hint, as the service may be offered by "
-    "something that is started elsewhere.",
+    "something that is started elsewhere, and for information where the client's remap is a slip of one that several "
+    "launch files around have.",
     why="A client that waits for the service waits for ever; one that does not gets an error at its first call.",
     example='<!-- the base offers reset_odometry -->\n<remap from="reset" to="reset_odometri"/>',
     instead='<remap from="reset" to="reset_odometry"/>',

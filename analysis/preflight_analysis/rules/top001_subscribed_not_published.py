@@ -11,6 +11,7 @@ from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import Verbs, related_endpoint
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
@@ -33,6 +34,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     explained = {id(pair.consumer) for pair in near} | remapped
     others = [each for each in dangling_consumers(context, "topics") if id(each) not in explained]
     if others:
+        elsewhere = context.once(used_elsewhere)
+        for each in others:
+            if id(each) in elsewhere:
+                yield elsewhere_finding(rule, context, each, _lone_message(who, each), elsewhere[id(each)])
+        others = [each for each in others if id(each) not in elsewhere]
         dangling = by_type(context.once(dangling_topic_providers))
         lone = [lone_of_type(each, dangling) for each in others]
         yield from context.kept.each_row(_hint, (others, lone), rule, who, graph.complete)
@@ -64,8 +70,12 @@ def _near_message(who: str, pair: NearMiss) -> str:
     )
 
 
+def _lone_message(who: str, connection: Connection) -> str:
+    return f"{who} publishes {with_type(connection)}, to which {connection.node.name} subscribes"
+
+
 def _hint(connection: Connection, lone: Connection | None, rule: Rule, who: str, whole: bool) -> Finding:
-    message = f"{who} publishes {with_type(connection)}, to which {connection.node.name} subscribes"
+    message = _lone_message(who, connection)
     if lone is None:
         return lone_finding(rule, connection, message, whole=whole)
     message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
@@ -79,7 +89,8 @@ RULE = Rule(
     what="Reports a node that subscribes to a topic which no node of the launch publishes. Where one publishes a topic "
     "of a like name and the same type, or one that differs by a leading slash or a namespace, it is a warning that "
     "names both, at the remap that gave the name if there is one; otherwise only a hint, as the publisher may be "
-    "started elsewhere, and nothing where a node ended before its event loop: it may be that one's.",
+    "started elsewhere (for information where the remap is a slip of one that several launch files around have), and "
+    "nothing where a node ended before its event loop: it may be that one's.",
     why="The node waits for messages that never come, and nothing says so: not `roslaunch`, not the node.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',

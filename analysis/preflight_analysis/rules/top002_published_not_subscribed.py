@@ -10,6 +10,7 @@ from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -19,6 +20,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     reported = {id(pair.provider) for pair in context.once(topic_near_misses)} | context.once(meant_endpoints)
     dangling = [each for each in context.once(dangling_topic_providers) if id(each) not in reported]
+    elsewhere = context.once(used_elsewhere)
+    for each in dangling:
+        if id(each) in elsewhere:
+            message = f"no node of this launch subscribes to '{each.name}', published by {each.node.name}"
+            yield elsewhere_finding(rule, context, each, message, elsewhere[id(each)])
+    dangling = [each for each in dangling if id(each) not in elsewhere]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     grouped = context.kept.grouped(_place, rule.id, dangling)
     yield from context.kept.each(_finding, grouped.values(), rule, graph.complete)
@@ -44,7 +51,8 @@ RULE = Rule(
     id="TOP002",
     name="published-not-subscribed",
     severity="hint",
-    what="Says which topics of a node have no subscriber in the launch.",
+    what="Says which topics of a node have no subscriber in the launch: a hint, and for information where "
+    "the remap of one is a slip of a name that several launch files around remap to.",
     why="Mostly that is as it should be. Where something does not move, it is where to look first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',

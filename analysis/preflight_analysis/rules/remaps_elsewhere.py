@@ -1,0 +1,83 @@
+"""What the launch files around one remap topics and services to."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.dangling import dangling_consumers, dangling_topic_providers
+from preflight_analysis.rules.nearest import is_slip_of_words, likeness
+from preflight_analysis.rules.places import connection_location, endpoints_of
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.written_elsewhere import around
+
+_TARGETS = re.compile(
+    r"""<remap\b[^<>]*?\bto\s*=\s*["']([\w/~]+)["']"""
+    r"""|\(\s*["'][\w/~]+["']\s*,\s*["']([\w/~]+)["']\s*,?\s*\)"""
+    r"""|^\s*(?:-\s*)?to\s*:\s*["']?([\w/~]+)["']?\s*$""",
+    re.MULTILINE,
+)
+"""In XML, Python and YAML; only names that are written out."""
+_ENOUGH = 2
+"""Files that have to agree on a name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Elsewhere:
+    """How the launch files around write a name that this one writes otherwise, and how many of them do."""
+
+    name: str
+    files: int
+
+
+def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
+    """For ends of topics and services without another one, by id, the name that their remaps were most likely to give:
+    theirs is a slip of it, several launch files around have it, and no other one has theirs. Ask through
+    `context.once`."""
+    lone = [
+        connection
+        for connection in (
+            *dangling_consumers(context, "topics"),
+            *context.once(dangling_topic_providers),
+            *dangling_consumers(context, "services"),
+        )
+        if connection.remap is not None
+    ]
+    if not lone:
+        return {}
+    found = zip(lone, context.kept.each(_used, lone, around(context, _TARGETS)), strict=True)
+    return {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
+
+
+def _used(connection: Connection, known: Mapping[str, int]) -> Elsewhere | None:
+    node, found = connection.node.name, list[tuple[int, str]]()
+    for written, count in known.items():
+        full = names.resolve(written, node)
+        if full == connection.name and count > 1:
+            return None
+        alike = likeness(connection.name, full) if count >= _ENOUGH else None
+        if alike is not None and alike[0] == "typo" and is_slip_of_words(connection.name, full):
+            found.append((-count, written))
+    if not found:
+        return None
+    count, written = min(found)
+    return Elsewhere(written, -count)
+
+
+def elsewhere_finding(rule: Rule, context: Context, connection: Connection, message: str, found: Elsewhere) -> Finding:
+    """The finding for an end whose other one is most likely started by another launch, under another name."""
+    location = connection_location(connection)
+    return rule.finding(
+        f"{message}; {found.files} launch files around remap to '{found.name}': did you mean that?",
+        location,
+        severity="info",
+        confidence="possible",
+        related=include_chain(connection.node.origin),
+        fixes=rename(context, location, context.text(location), found.name),
+        endpoints=endpoints_of(connection),
+    )

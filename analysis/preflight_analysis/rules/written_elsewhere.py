@@ -1,0 +1,63 @@
+"""Names that the launch files around one write, whatever launch they are of."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections import Counter
+from collections.abc import Mapping
+from itertools import chain
+
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.package_files import files_in
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.rules.rule import Context
+
+_MOST = 500
+"""Launch files of one package that are read."""
+_MOST_PACKAGES = 30
+"""Packages beside one that are looked at."""
+
+
+def in_package(context: Context, pattern: re.Pattern[str]) -> Mapping[str, int]:
+    """In how many launch files of the package of the root each name is that a pattern finds: what a match has in the
+    first of its groups that has something."""
+    package = package_around(context.environment, context.root)
+    return _in_folder(context.disk.db, package.share, pattern) if package is not None else {}
+
+
+def around(context: Context, pattern: re.Pattern[str]) -> Mapping[str, int]:
+    """As `in_package`, with the packages beside that: a robot's description, navigation, ... mostly are."""
+    package = package_around(context.environment, context.root)
+    if package is None:
+        return {}
+    beside = os.path.dirname(package.share)
+    shares = {each.share for each in context.environment.packages.values() if os.path.dirname(each.share) == beside}
+    if len(shares) > _MOST_PACKAGES:
+        shares = {package.share}
+    return _in_folders(context.disk.db, tuple(sorted(shares)), pattern)
+
+
+@query
+def _in_folders(db: Database, folders: tuple[str, ...], pattern: re.Pattern[str]) -> Mapping[str, int]:
+    counts: Counter[str] = Counter()
+    for folder in folders:
+        counts.update(_in_folder(db, folder, pattern))
+    return counts
+
+
+@query
+def _in_folder(db: Database, folder: str, pattern: re.Pattern[str]) -> Mapping[str, int]:
+    paths = [path for path in files_in(Disk(db), folder, deep=True) if path.endswith(LAUNCH_SUFFIXES)]
+    return Counter(chain.from_iterable(_in_file(db, path, pattern) for path in paths[:_MOST]))
+
+
+@query
+def _in_file(db: Database, path: str, pattern: re.Pattern[str]) -> frozenset[str]:
+    document = Disk(db).text(path)
+    text = document.text if isinstance(document, Document) else ""
+    return frozenset(match[match.lastindex or 0] for match in pattern.finditer(text))

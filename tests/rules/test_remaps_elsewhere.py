@@ -1,0 +1,65 @@
+"""Remaps that the launch files around one write otherwise: TOP001, TOP002 and SRV001."""
+
+from pathlib import Path
+
+import pytest
+from support.check import apply, check
+
+LISTENER = '<launch><node pkg="p" type="t" name="other"><remap from="in" to="{}"/></node></launch>'
+FIXTURE = """
+    //- {0}/main.launch
+    <launch>
+      <node pkg="p" type="t" name="listener" ns="robot">
+        <remap from="in" to="{1}"/>
+                             {2}
+      </node>
+    </launch>
+    //- interfaces
+    {{"/robot/listener": {{"{3}": {{"in": "{4}"}}}}}}
+    //- {0}/package.xml
+    <package><name>p</name></package>
+"""
+
+
+def _fixture(folder: Path, said: str, role: str, type_: str, name: str, others: list[str]) -> str:
+    for number, other in enumerate(others):
+        (folder / f"other{number}.launch").write_text(LISTENER.format(other))
+    (folder / "main.launch").touch()
+    return FIXTURE.format(folder, name, "^" * len(name) + f" {said}", role, type_)
+
+
+@pytest.mark.parametrize(
+    ("rule", "role", "type_"),
+    [
+        ("TOP001", "subscribers", "sensor_msgs/LaserScan"),
+        ("TOP002", "publishers", "sensor_msgs/LaserScan"),
+        ("SRV001", "clients", "std_srvs/Empty"),
+    ],
+)
+def test_a_slip_of_what_several_others_have(tmp_path: Path, rule: str, role: str, type_: str) -> None:
+    text = _fixture(
+        tmp_path, f"info[{rule}] 2 launch files around remap to '/base_scan': did you mean that?",
+        role, type_, "/base_scann", ["/base_scan", "/base_scan"],
+    )  # fmt: skip
+    (finding,) = check(text)
+    assert finding.confidence == "possible"
+    (fix,) = finding.fixes
+    assert 'to="/base_scan"' in apply(text, fix.edits)[f"{tmp_path}/main.launch"]
+
+
+@pytest.mark.parametrize(
+    ("name", "others"),
+    [
+        ("/base_scann", ["/base_scan"]),
+        ("/base_scann", ["/base_scan", "/base_scan", "/base_scann"]),
+        ("/base_scann", ["base_scan", "base_scan"]),
+        ("/scan1", ["/scan2", "/scan2"]),
+        ("/left/image", ["/right/image", "/right/image"]),
+        ("/joint_x", ["/joint_y", "/joint_y"]),
+        ("/base_scann", ["$(arg base_scan)", "$(arg base_scan)"]),
+    ],
+)
+def test_others_than_slips_in_the_same_place_are_no_news(tmp_path: Path, name: str, others: list[str]) -> None:
+    said = f"hint[TOP001] publishes '{name}' (sensor_msgs/LaserScan), to which /robot/listener subscribes"
+    (finding,) = check(_fixture(tmp_path, said, "subscribers", "sensor_msgs/LaserScan", name, others))
+    assert "did you mean" not in finding.message
