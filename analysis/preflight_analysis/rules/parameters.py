@@ -15,7 +15,7 @@ from preflight_analysis.tracing.interface import ParamUse
 
 def namespaces(context: Context) -> frozenset[str]:
     """Those in which parameters are. Ask through `context.once`."""
-    return frozenset(context.once(_each_namespace))
+    return frozenset(context.once(each_namespace))
 
 
 def namespaces_around(context: Context) -> frozenset[str]:
@@ -23,7 +23,7 @@ def namespaces_around(context: Context) -> frozenset[str]:
     return frozenset(names.with_namespaces(context.once(namespaces)))
 
 
-def _each_namespace(context: Context) -> list[str]:
+def each_namespace(context: Context) -> list[str]:
     """That of each parameter. Ask through `context.once`."""
     return context.kept.each(namespace_of, context.tree.all_params)
 

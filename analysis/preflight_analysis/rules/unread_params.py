@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, compress
+from operator import is_not, not_
+from typing import NamedTuple, TypeVar
 
 from rapidfuzz.distance import OSA
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.incremental.kept import Before
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import grouped, namespace_of, namespaces_around
+from preflight_analysis.rules.parameters import each_namespace, grouped, namespace_of
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
 
 _ASKING = ("get", "has")
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,50 +47,62 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     told = kept.each(reports_params, graph.interfaces) if graph is not None else ()
     if graph is None or not any(told):
         return ()
-    reads = _collect(context, graph, told)
-    unasked = [param for name, param in context.tree.params.items() if name not in reads.covered]
-    if reads.searched:
-        unasked = [*filter(None, kept.each(_unless_searched, unasked, reads.searched))]
+    params, nodes = context.tree.all_params, graph.tree.nodes
+    launch = kept.patched(_set_names, "", params, tuple(context.once(each_namespace)))
+    uses = tuple(kept.each(_use, graph.param_reads))
+    reads = kept.patched(_collect, "", uses, nodes, tuple(told), launch)
+    unasked = [*compress(params, kept.get(_are_unasked, "", launch, reads))]
     if "/" in reads.names or not unasked:
         return ()
-    private, holders, orphans = _by_holder(context, graph, reads, unasked)
-    by_reader = kept.grouped(_reader, "param reads", graph.param_reads)
-    asked = chain.from_iterable(by_reader.get(holder, ()) for holder in dict.fromkeys(map(id, holders)))
-    unset = kept.grouped(_reader, "unset", [read for read in asked if reads.is_unset(read)])
-    of_holders = kept.each_row(_of_holder, (private, holders, [unset.get(id(holder), ()) for holder in holders]))
+    in_spaces = tuple(kept.grouped(namespace_of, "unasked", unasked).values())
+    around = tuple(kept.each(_around, in_spaces))
+    private, orphans = kept.patched(_by_holder, "", in_spaces, around, nodes, reads)
+    by_name = {node.name: node for node in nodes}
+    holders = [by_name[name] for name, _ in private]
+    all_unset = [*compress(graph.param_reads, reads.unset)]
+    unset = kept.grouped(_reader, "unset", all_unset)
+    groups = [group for _, group in private]
+    of_holders = kept.each_row(_of_holder, (groups, holders, [unset.get(id(holder), ()) for holder in holders]))
     of_nobody: tuple[Unread, ...] = ()
     if orphans and not reads.listed:
         # Of thousands of reads few have anything in common with those.
-        leaves, spaces = {names.leaf(param.name) for param in orphans}, {*map(namespace_of, orphans)}
-        parts = zip(graph.param_reads, kept.each(_parts, graph.param_reads), strict=True)
-        near = [read for read, (namespace, leaf) in parts if leaf in leaves or namespace in spaces]
-        of_told = tuple(read for read in near if reads.is_unset(read) and read.node.name not in reads.opaque)
+        leaves = frozenset(names.leaf(param.name) for param in orphans)
+        near = filter(None, kept.each(_unless_far, all_unset, leaves, frozenset(map(namespace_of, orphans))))
+        of_told = tuple(read for read in near if read.node.name not in reads.opaque)
         alone = graph.tree.complete and not reads.opaque
-        of_nobody = kept.get(_of_nobody, None, tuple(orphans), of_told, reads.sought, alone)
+        of_nobody = kept.get(_of_nobody, None, orphans, of_told, reads.sought, alone)
     return (*chain.from_iterable(of_holders), *of_nobody)
 
 
+_Placed = tuple[list[tuple[str, tuple[Param, ...]]], tuple[Param, ...]]
+
+
 def _by_holder(
-    context: Context, graph: Graph, reads: _Reads, params: Iterable[Param]
-) -> tuple[list[tuple[Param, ...]], list[LaunchNode], list[Param]]:
-    """The parameters that no node asks for, by namespace, with the nodes whose they are; and those of no node. Of nodes
-    of which it is not known what they read there are none, nor of namespaces that somebody asks for as a whole."""
-    kept = context.kept
-    groups = kept.grouped(namespace_of, "unasked", params)
-    pairs = zip(groups, kept.each(_around, groups), strict=True)
-    is_free = reads.names.isdisjoint
-    nodes = {node.name: node for node in graph.tree.nodes}
-    private: list[tuple[Param, ...]] = []
-    holders: list[LaunchNode] = []
+    before: Before[_Placed] | None,
+    groups: tuple[tuple[Param, ...], ...],
+    all_around: tuple[tuple[str, ...], ...],
+    nodes: tuple[LaunchNode, ...],
+    reads: _Reads,
+) -> _Placed:
+    """The parameters that no node asks for, with the names of the nodes whose they are; and those of no node. They are
+    given by namespace, with the namespaces around each. Of nodes of which it is not known what they read there are
+    none, nor of namespaces that somebody asks for as a whole."""
+    if before is not None:
+        (old_groups, _, old_nodes, old_reads), known = before
+        same_groups = len(old_groups) == len(groups) and not any(map(is_not, old_groups, groups))
+        if reads is old_reads and same_groups and _have_the_same_names(old_nodes, nodes):
+            return known
+    of_nodes = {node.name for node in nodes}
+    private: list[tuple[str, tuple[Param, ...]]] = []
     orphans: list[Param] = []
-    for namespace, around in [pair for pair in pairs if is_free(pair[1])]:
-        holder = next((nodes[name] for name in around if name in nodes), None)
-        if holder is None:
-            orphans += groups[namespace]
-        elif holder.name not in reads.opaque:
-            private.append(groups[namespace])
-            holders.append(holder)
-    return private, holders, orphans
+    for group, around in zip(groups, all_around, strict=True):
+        if reads.names.isdisjoint(around):
+            holder = next(filter(of_nodes.__contains__, around), None)
+            if holder is None:
+                orphans += group
+            elif holder not in reads.opaque:
+                private.append((holder, group))
+    return private, tuple(orphans)
 
 
 def reports_params(interface: Interface) -> bool:
@@ -106,18 +122,62 @@ def fits(value: object, read: ParamRead) -> bool:
     return type(value) is type(default)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
+class _SetNames:
+    """The names of all parameters that the launch sets."""
+
+    names: Mapping[str, None]
+    """In the order of the parameters."""
+    spaces: AbstractSet[str]
+    """The namespaces that these are in, and those around them."""
+
+
+def _set_names(before: Before[_SetNames] | None, params: tuple[Param, ...], spaces: tuple[str, ...]) -> _SetNames:
+    """`spaces` has the namespace of each."""
+    if before is not None:
+        (old_params, _), known = before
+        if _have_the_same_names(old_params, params):
+            return known
+    return _SetNames(dict.fromkeys([param.name for param in params]), names.with_namespaces(spaces))
+
+
+def _changed(before: Sequence[T], items: Sequence[T]) -> Iterator[tuple[T, T]]:
+    """The items that are other objects than those of before at their places, with these, of as many."""
+    return compress(zip(before, items, strict=True), map(is_not, before, items))
+
+
+def _have_the_same_names(before: Sequence[LaunchNode | Param], items: Sequence[LaunchNode | Param]) -> bool:
+    return len(before) == len(items) and all(old.name == item.name for old, item in _changed(before, items))
+
+
+class _Use(NamedTuple):
+    """What one read asks for: a name and its namespace, and the name as it is asked for, where a node's own code does
+    so. `other` is the read itself where it asks for no value but does something else."""
+
+    name: str
+    namespace: str
+    requested: str | None
+    other: ParamRead | None = None
+
+
+def _use(read: ParamRead) -> _Use:
+    if read.use.access not in _ASKING:
+        return _Use("", "", None, read)
+    name = read.name.rstrip("/") or "/"
+    return _Use(name, name.rpartition("/")[0], None if read.use.builtin else read.name)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Reads:
-    """What all nodes read."""
+    """What all nodes read. It is the same object while they read the same."""
 
     names: AbstractSet[str]
-    covered: AbstractSet[str]
-    """The names, and every name above one: reading `/a/b` reads part of the value of `/a`."""
+    above: AbstractSet[str]
+    """Every name above one of those: reading `/a/b` reads part of the value of `/a`."""
     searched: frozenset[str]
-    taken: AbstractSet[str]
-    """The names that something sets, and the namespaces with such names."""
-    first: Mapping[str, ParamRead]
-    """Who is the first to ask for a name, for its own sake."""
+    unset: tuple[bool, ...]
+    """Of each read whether nothing sets what is asked for there, or anything below it, and nobody asked for it before,
+    for its own sake."""
     opaque: AbstractSet[str]
     """Full names of the nodes of which it is not known what they read."""
     sought: tuple[ParamRead, ...]
@@ -125,43 +185,50 @@ class _Reads:
     listed: bool
     """Whether a node asks for the names of all parameters: it may read any of them."""
 
-    def is_unset(self, read: ParamRead) -> bool:
-        """Whether nothing sets what is asked for there, and nobody asked for it before."""
-        return read.name not in self.taken and self.first.get(read.name) is read
+
+def _say_the_same(before: Sequence[_Use], uses: Sequence[_Use]) -> bool:
+    return len(before) == len(uses) and all(old.other is None and old == use for old, use in _changed(before, uses))
 
 
-def _collect(context: Context, graph: Graph, told: Iterable[bool]) -> _Reads:
-    """`told` says of each node whether it is known what it reads."""
-    kept, params = context.kept, graph.tree.params
+def _collect(
+    before: Before[_Reads] | None,
+    uses: tuple[_Use, ...],
+    nodes: tuple[LaunchNode, ...],
+    told: tuple[bool, ...],
+    launch: _SetNames,
+) -> _Reads:
+    """`uses` are those of all reads, `told` says of each node whether it is known what it reads."""
+    if before is not None:
+        (old_uses, old_nodes, old_told, old_launch), known = before
+        same_nodes = told == old_told and _have_the_same_names(old_nodes, nodes)
+        if launch is old_launch and same_nodes and _say_the_same(old_uses, uses):
+            return known
     lists: list[ParamRead] = []
     searches: list[ParamRead] = []
     made: set[str] = set()
-    for read in filter(None, kept.each(_unless_asking, graph.param_reads)):
+    asked, spaces, requested, others = zip(*uses, strict=True) if uses else ((), (), (), ())
+    for read in filter(None, others):
         if read.use.access == "list":
             lists.append(read)
         elif read.use.access == "search":
             searches.append(read)
         else:
             made.add(read.name)
-    asked = {*filter(None, kept.each(_asked_name, graph.param_reads))}
-    found = asked | made
-    above = names.with_namespaces(
-        {*filter(None, kept.each(_namespace_asked, graph.param_reads)), *(name.rpartition("/")[0] for name in made)}
-    )
+    first = dict(zip(reversed(requested), range(len(uses) - 1, -1, -1), strict=True))
+    unset = {*map(first.get, first.keys() - launch.names.keys() - launch.spaces - made - {None})}
     sought: dict[str, ParamRead] = {}
     for read in searches:
         sought.setdefault(_sought_leaf(read), read)
     if sought:
-        for leaf in {*kept.each(_leaf, graph.tree.all_params), *map(names.leaf, made)}.intersection(sought):
+        for leaf in {names.leaf(name) for name in chain(launch.names, made)}.intersection(sought):
             del sought[leaf]
     return _Reads(
-        found,
-        found | above,
+        {*filter(None, asked), *made},
+        names.with_namespaces({*spaces, *(name.rpartition("/")[0] for name in made)}),
         frozenset(read.use.name.strip("~/").partition("/")[0] for read in searches),
-        params.keys() | context.once(namespaces_around) | made,
-        dict(reversed([*filter(None, kept.each(_named_request, graph.param_reads))])),
+        tuple(map(unset.__contains__, range(len(uses)))),
         {
-            *(node.name for node, is_told in zip(graph.tree.nodes, told, strict=True) if not is_told),
+            *(node.name for node in compress(nodes, map(not_, told))),
             *(read.node.name for read in lists),
         },
         tuple(sought.values()),
@@ -169,28 +236,20 @@ def _collect(context: Context, graph: Graph, told: Iterable[bool]) -> _Reads:
     )
 
 
-def _unless_asking(read: ParamRead) -> ParamRead | None:
-    return None if read.use.access in _ASKING else read
+def _are_unasked(launch: _SetNames, reads: _Reads) -> tuple[bool, ...]:
+    """Of each parameter whether nobody asks for it or for anything below it, nor searches for a name in it."""
+    covered = [*map((reads.names | reads.above).__contains__, launch.names)]
+    if reads.searched:
+        covered = [
+            is_covered or not reads.searched.isdisjoint(name.split("/"))
+            for is_covered, name in zip(covered, launch.names, strict=True)
+        ]
+    return tuple(map(not_, covered))
 
 
-def _asked_name(read: ParamRead) -> str | None:
-    return read.name.rstrip("/") or "/" if read.use.access in _ASKING else None
-
-
-def _namespace_asked(read: ParamRead) -> str | None:
-    name = _asked_name(read)
-    return name.rpartition("/")[0] if name is not None else None
-
-
-def _named_request(read: ParamRead) -> tuple[str, ParamRead] | None:
-    """A read that a node's own code makes, with its name."""
-    return (read.name, read) if read.use.access in _ASKING and not read.use.builtin else None
-
-
-def _parts(read: ParamRead) -> tuple[str, str]:
-    """Its namespace and its last name."""
+def _unless_far(read: ParamRead, leaves: frozenset[str], spaces: frozenset[str]) -> ParamRead | None:
     namespace, _, leaf = read.name.rpartition("/")
-    return namespace, leaf
+    return read if leaf in leaves or namespace in spaces else None
 
 
 def _sought_leaf(read: ParamRead) -> str:
@@ -201,23 +260,13 @@ def _reader(read: ParamRead) -> int:
     return id(read.node)
 
 
-def _leaf(param: Param) -> str:
-    return names.leaf(param.name)
-
-
-def _unless_searched(param: Param, searched: frozenset[str]) -> Param | None:
-    return param if searched.isdisjoint(param.name.split("/")) else None
-
-
-def _around(namespace: str) -> tuple[str, ...]:
-    """It and those that hold it, the innermost first, without the root: `/a/b` and `/a` of `/a/b`."""
-    return tuple(_namespaces(f"{namespace}/"))
-
-
-def _namespaces(name: str) -> Iterator[str]:
-    """The namespaces that hold a name, the innermost first: `/a/b` and `/a` of `/a/b/c`."""
-    while name := name.rpartition("/")[0]:
-        yield name
+def _around(group: tuple[Param, ...]) -> tuple[str, ...]:
+    """The namespaces that hold the parameters of one, the innermost first, without the root: `/a/b` and `/a` of
+    `/a/b/c`."""
+    found = [namespace_of(group[0])]
+    while found[-1]:
+        found.append(found[-1].rpartition("/")[0])
+    return tuple(found[:-1])
 
 
 def _of_holder(params: Iterable[Param], holder: LaunchNode, unset: tuple[ParamRead, ...]) -> tuple[Unread, ...]:
