@@ -1,0 +1,63 @@
+"""PRM021: a type of controller that its package does not have."""
+
+import pytest
+from support.check import check
+
+FIXTURE = """
+    //- /robot.launch.xml
+    <launch>
+      <node pkg="controller_manager" exec="ros2_control_node" name="controller_manager">
+        <param from="/p/controllers.yaml"/>
+      </node>
+    </launch>
+    //- /controller_manager/package.xml
+    <package><name>controller_manager</name></package>
+    //- /p/controllers.yaml
+    controller_manager:
+      ros__parameters:
+        one:
+          type: {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("type_", "meant"),
+    [
+        (
+            "force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
+            "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+        ),
+        ("diff_drive_controller/DiffDriveControler", "diff_drive_controller/DiffDriveController"),
+        ("imu_sensor_broadcaster/ImuSensorBroadcaster", "imu_sensor_broadcaster/IMUSensorBroadcaster"),
+    ],
+)
+def test_a_type_that_is_nearly_the_packages_own(type_: str, meant: str) -> None:
+    said = f"warning[PRM021] has no controller '{type_}'"
+    (finding,) = check(FIXTURE.format(type_) + f"          ^^^^ {said}\n")
+    assert f"did you mean '{meant}'?" in finding.message
+    assert finding.confidence == "possible"
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "type_",
+    [
+        "diff_drive_controller/DiffDriveController",
+        "position_controllers/GripperActionController",
+        "nobody_knows/DiffDriveControler",
+        "../controllers/DiffDriveControler",
+        "DiffDriveControler",
+        "[]",
+        ".nan",
+    ],
+)
+def test_what_is_known_or_unlike_all_that_is(type_: str) -> None:
+    check(FIXTURE.format(type_))
+
+
+@pytest.mark.silent
+def test_the_workspaces_own_package_may_be_another_version() -> None:
+    manifest = (
+        "    //- /src/diff_drive_controller/package.xml\n    <package><name>diff_drive_controller</name></package>\n"
+    )
+    check(FIXTURE.format("diff_drive_controller/DiffDriveControler") + manifest)
