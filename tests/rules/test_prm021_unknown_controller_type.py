@@ -33,9 +33,10 @@ FIXTURE = """
 )
 def test_a_type_that_is_nearly_the_packages_own(type_: str, meant: str) -> None:
     said = f"warning[PRM021] has no controller '{type_}'"
-    (finding,) = check(FIXTURE.format(type_) + f"          ^^^^ {said}\n")
+    (finding,) = check(FIXTURE.format(type_) + f"                {'^' * len(type_)} {said}\n")
     assert f"did you mean '{meant}'?" in finding.message
     assert finding.confidence == "possible"
+    assert [edit.text for fix in finding.fixes for edit in fix.edits] == [meant]
 
 
 @pytest.mark.silent
@@ -61,3 +62,8 @@ def test_the_workspaces_own_package_may_be_another_version() -> None:
         "    //- /src/diff_drive_controller/package.xml\n    <package><name>diff_drive_controller</name></package>\n"
     )
     check(FIXTURE.format("diff_drive_controller/DiffDriveControler") + manifest)
+
+
+def test_a_manager_whose_name_only_its_own_code_knows() -> None:
+    text = FIXTURE.replace(' name="controller_manager"', "").replace("ros2_control_node", "own_control_node")
+    check(text.format("diff_drive_controller/DiffDriveControler") + f"                {'^' * 40} warning[PRM021]\n")

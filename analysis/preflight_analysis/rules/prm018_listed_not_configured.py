@@ -13,10 +13,10 @@ from itertools import chain
 from typing import NamedTuple
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
-from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.places import getters_of
 from preflight_analysis.rules.problems import quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -49,9 +49,8 @@ class _Missing(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     getters: dict[str, Related] = {}
-    for path, node, location in chain.from_iterable(context.kept.each(_files_of, context.tree.nodes)):
-        if path not in getters:
-            getters[path] = Related(f"{node} gets the file here", location)
+    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
+        getters.setdefault(path, getter)
     found: list[tuple[str, _Missing]] = []
     for path in getters:
         document = context.documents.get(path)
@@ -74,11 +73,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 getters[path],
             ),
         )
-
-
-def _files_of(node: LaunchNode) -> tuple[tuple[str, str, Location], ...]:
-    """The parameter files that a node gets, with its name, and where it gets them."""
-    return tuple((each.path, node.name, each.origin[-1]) for each in node.param_sources if each.path is not None)
 
 
 @lru_cache(maxsize=64)

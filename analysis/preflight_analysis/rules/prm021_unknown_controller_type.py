@@ -7,13 +7,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from itertools import chain
+from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
-from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.installed import is_installed
 from preflight_analysis.rules.nearest import is_slip
+from preflight_analysis.rules.places import getters_of
+from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
@@ -21,34 +26,49 @@ _ALIKE = 0.6
 """How many of all the words of two names have to be in both."""
 
 
+class _Wrong(NamedTuple):
+    """A type that its package does not have, where it stands, and what was meant."""
+
+    package: str
+    type: str
+    span: Span
+    meant: str
+
+
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     environment = context.environment
     distro = distribution_of(context.tree.generation, environment.distro)
-    said: set[int] = set()
-    for node, param, package, meant in chain.from_iterable(context.kept.each(_wrong, context.tree.nodes, distro)):
-        here = environment.packages.get(package)
-        if id(param) in said or (here is not None and not is_installed(context, here)):
-            continue  # the workspace's own may be another version
-        said.add(id(param))
-        yield rule.finding(
-            f"package '{package}' has no controller '{param.value}', as far as the catalogue of {distro} knows; "
-            f"did you mean '{meant}'?",
-            param.place,
-            confidence="likely" if environment.distro == distro else "possible",
-            related=(Related(f"{node.name} is started here", node.location),),
-        )
+    getters: dict[str, Related] = {}
+    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
+        getters.setdefault(path, getter)
+    for path, getter in getters.items():
+        document = context.documents.get(path)
+        for wrong in _wrong_in(document.text, distro) if document is not None else ():
+            here = environment.packages.get(wrong.package)
+            if here is not None and not is_installed(context, here):
+                continue  # the workspace's own may be another version
+            place = context.location(path, wrong.span)
+            yield rule.finding(
+                f"package '{wrong.package}' has no controller '{wrong.type}', as far as the catalogue of {distro} knows"
+                f"; did you mean '{wrong.meant}'?",
+                place,
+                confidence="likely" if environment.distro == distro else "possible",
+                related=(getter,),
+                fixes=rename(context, place, wrong.type, wrong.meant),
+            )
 
 
-def _wrong(node: LaunchNode, distro: str) -> tuple[tuple[LaunchNode, Param, str, str], ...]:
-    """The parameters that name a type which its package does not have, that package, and what was meant."""
+@lru_cache(maxsize=64)
+def _wrong_in(text: str, distro: str) -> tuple[_Wrong, ...]:
     found = []
-    for param in node.params:
-        if param.name.endswith(".type") and isinstance(param.value, str) and param.value.count("/") == 1:
-            package = param.value.partition("/")[0]
+    for param in (param for section in read_param_file(text).sections for param in section.params):
+        type_ = param.value
+        if param.name.endswith(".type") and isinstance(type_, str) and type_.count("/") == 1:
+            package = type_.partition("/")[0]
             known = interfaces_of(package, distro).get("controllers", {})
-            meant = _meant(param.value, known) if param.value not in known else None
+            meant = _meant(type_, known) if type_ not in known else None
             if meant is not None:
-                found.append((node, param, package, meant))
+                found.append(_Wrong(package, type_, param.value_span, meant))
     return tuple(found)
 
 
