@@ -36,6 +36,15 @@ int main(int argc, char** argv) {
     auto said = ros::topic::waitForMessage<std_msgs::String>("goal", node, ros::Duration(mode == "timeout" ? 30 : 0));
     if (said->data != "") return 3;
   }
+  ros::Subscriber listener;
+  if (mode == "twice") {
+    listener = node.subscribe("goal", 1, hear);
+    for (int i = 0; i < 2; ++i) {
+      ros::topic::waitForMessage<std_msgs::String>("goal", node);
+      ros::Duration(0.5).sleep();
+    }
+  }
+  if (mode == "agreed" && !ros::topic::waitForMessage<std_msgs::Bool>("ready", node)->data) return 3;
   if (mode == "rate" || mode == "slow") {
     ros::Subscriber subscriber = node.subscribe("news", 1, hear);
     for (ros::Rate turns(mode == "slow" ? 2 : 50); ros::ok() && heard < (mode == "slow" ? 1 : 5); turns.sleep())
@@ -54,7 +63,6 @@ int main(int argc, char** argv) {
     ros::Subscriber subscriber = node.subscribe("numbers", 1, hear_numbers);
     while (ros::ok() && heard == 0) ros::WallDuration(0.05).sleep();
   }
-  ros::Subscriber listener;
   if (mode == "work" || mode == "fragile" || mode == "publish") {
     listener = node.subscribe<std_msgs::String>("news", 1, [&](const std_msgs::String::ConstPtr& said) {
       if (mode == "fragile") abort();
@@ -107,9 +115,13 @@ int main(int argc, char** argv) {
       ros::WallDuration(0.02).sleep();
     }
   }
-  if (mode == "result" || mode == "callback") {
+  if (mode == "result" || mode == "callback" || mode == "goals") {
     Client client("move", true);
     client.waitForServer();
+    if (mode == "goals") {
+      client.sendGoal(actionlib::TestGoal());
+      if (!client.waitForResult()) return 3;
+    }
     bool done = false;
     client.sendGoal(actionlib::TestGoal(), [&](const actionlib::SimpleClientGoalState&,
                                                const actionlib::TestResultConstPtr&) { done = true; });

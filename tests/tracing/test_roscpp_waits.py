@@ -39,6 +39,8 @@ def made(interface: Interface) -> dict[str, bool]:
     [
         ("message", (MESSAGE,)),
         ("timeout", (MESSAGE,)),
+        ("twice", (MESSAGE,)),
+        ("agreed", (MESSAGE.replace("goal", "ready"),)),
         ("rate", (POLL.format("news"),)),
         ("slow", (POLL.format("news"),)),
         ("ready", (POLL.format("ready"),)),
@@ -52,6 +54,7 @@ def made(interface: Interface) -> dict[str, bool]:
         ("clock_loop", (CLOCK,)),
         ("result", (SERVER, RESULT)),
         ("callback", (SERVER, RESULT)),
+        ("goals", (SERVER, RESULT)),
         ("lookup", (TRANSFORM.format("map <- base"),)),
         ("can", (TRANSFORM.format("map <- base"),)),
         ("fixed", (TRANSFORM.format("odom <- base"), TRANSFORM.format("map <- odom"))),

@@ -281,12 +281,14 @@ HOOK void preflight_wait_for_message(TopicOptions& options, void* ready, NodeHan
   double most = grace() * 1e-3, began = now();
   auto seconds = static_cast<int32_t>(timeout), nanoseconds = static_cast<int32_t>(timeout >> 32);
   bool shorter = (seconds == 0 && nanoseconds == 0) || seconds > 0 || nanoseconds > most * 1e9;
+  // It may listen already, and have had all that was sent.
+  if (was_fed(names.resolved)) quietly([&] { ask_for_message(names.resolved); });
   wait(options, ready, handle, shorter ? static_cast<int64_t>(most * 1e9) << 32 : timeout);
   // It ends early with a message, and when the node is shut down.
   if (now() - began < 0.9 * most) return;
   quietly([&] {
     tell_answered("message", names.given);
-    ask_for_food(names.resolved);
+    ask_for_message(names.resolved);
     options.topic = topic;
   });
   wait(options, ready, handle, 0);

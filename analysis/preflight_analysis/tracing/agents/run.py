@@ -120,7 +120,8 @@ class Run:
             self._state(event)
             return
         if event["ev"] == "feed":
-            self.publish(str(event.get("topic"))[:300], str(event.get("goal") or "")[:300])
+            goal, awaited = str(event.get("goal") or "")[:300], event.get("awaited") is True
+            self.publish(str(event.get("topic"))[:300], goal, awaited)
             return
         if event["ev"] == "endpoint":
             self._probe_topic(event)
@@ -128,7 +129,7 @@ class Run:
             # Only what is new: a parameter that a loop reads in each turn would keep the node from ever being quiet.
             self.active = time.monotonic()
 
-    def publish(self, topic: str, goal: str = "") -> None:
+    def publish(self, topic: str, goal: str = "", awaited: bool = False) -> None:
         """The node gets made-up messages. Most need none, so it is imported only now."""
         if self.master is None:
             return
@@ -136,7 +137,7 @@ class Run:
             from . import fake_publisher  # noqa: PLC0415
 
             self.fake_publisher = fake_publisher.FakePublisher(self.master)
-        self.fake_publisher.publish(topic, goal)
+        self.fake_publisher.publish(topic, goal, awaited)
 
     def _probe_topic(self, endpoint: dict[str, Any]) -> None:
         """Whether somebody at the other end could make a difference."""

@@ -67,6 +67,18 @@ void ask_for_food(const std::string& topic, const std::string& goal = "") {
   Event("feed").add("topic", topic).add("goal", goal).send();
 }
 
+// Of these one message is waited for.
+void ask_for_message(const std::string& topic) {
+  Event("feed").add("topic", topic).add("awaited", true).send();
+  std::lock_guard<std::mutex> locked(lacks_mutex);
+  lacks().fed.insert(topic);
+}
+
+bool was_fed(const std::string& topic) {
+  std::lock_guard<std::mutex> locked(lacks_mutex);
+  return lacks().fed.count(topic) != 0;
+}
+
 bool without_time() {
   auto* simulated = REAL_IF_ANY("_ZN3ros4Time9isSimTimeEv", bool());
   auto* valid = REAL_IF_ANY("_ZN3ros4Time7isValidEv", bool());
