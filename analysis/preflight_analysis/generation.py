@@ -6,7 +6,7 @@ of the generation, in the layer that has them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from preflight_analysis.dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.movable import Movable
 from preflight_analysis.documents.span import LineIndex, Location, Span, version
 

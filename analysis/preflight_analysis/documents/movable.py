@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.incremental.once import Once
 
 if TYPE_CHECKING:

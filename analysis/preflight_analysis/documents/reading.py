@@ -7,9 +7,10 @@ import hashlib
 import os
 import re
 import stat
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import LineIndex, version
 
 SIZE_LIMIT = 4 * 1024 * 1024

@@ -10,9 +10,10 @@ import itertools
 import re
 import threading
 from bisect import bisect_left, bisect_right
-from dataclasses import dataclass
 from itertools import accumulate
 from typing import NamedTuple
+
+from preflight_analysis.dataclass import dataclass
 
 _LINE_END = re.compile(r"\r\n?|\n")
 

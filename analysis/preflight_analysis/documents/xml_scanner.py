@@ -8,8 +8,8 @@ problem, so in a well-formed text nothing was guessed. No pattern can backtrack 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Element, Node, SpannedText, SyntaxProblem, Text
 from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.span import LineIndex, Span

@@ -6,8 +6,8 @@ An unclosed quote ends with its line, or before what looks like the next attribu
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, SpannedText
 from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.span import Span

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Any
 
 import yaml
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, SyntaxProblem
 from preflight_analysis.documents.hash_comments import preflight_comments
 from preflight_analysis.documents.lazy_pattern import lazy_pattern

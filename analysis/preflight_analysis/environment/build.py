@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
+
+from preflight_analysis.dataclass import dataclass
 
 LISTS = "CMakeLists.txt"
 """The name of a build file of CMake."""

@@ -11,9 +11,10 @@ import contextlib
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.build import LISTS, Build, Installed, Program, Target
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, commands

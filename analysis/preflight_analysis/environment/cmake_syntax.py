@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from preflight_analysis.dataclass import dataclass
 
 MAX_DEPTH = 20
 """Of blocks, of folders, and of calls."""

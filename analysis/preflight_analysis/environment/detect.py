@@ -10,8 +10,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import (

@@ -16,7 +16,8 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from preflight_analysis.dataclass import dataclass
 
 _TIMEOUT = 60
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.generation import Generation, ros
 
 

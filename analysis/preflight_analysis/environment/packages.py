@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lxml import etree
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable, read_text
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.walk import walk

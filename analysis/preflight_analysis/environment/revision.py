@@ -11,8 +11,9 @@ import os
 import re
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import BUILT
 from preflight_analysis.environment.git import GitError, Repository, open_repository
 from preflight_analysis.environment.model import Environment, Package

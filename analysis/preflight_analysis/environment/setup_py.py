@@ -15,9 +15,10 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 
 _TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"

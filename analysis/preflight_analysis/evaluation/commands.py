@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import Input, query
 

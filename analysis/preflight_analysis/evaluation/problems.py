@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.launch.problems import OfName, ProblemKind
 

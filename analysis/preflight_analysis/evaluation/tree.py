@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Literal, NamedTuple
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Executable

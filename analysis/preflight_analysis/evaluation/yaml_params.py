@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
 import yaml
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, LIBYAML, PlainLoader, compose_fast
 from preflight_analysis.evaluation.expression import EvaluationError, evaluate_arithmetic

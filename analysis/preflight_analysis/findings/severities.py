@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fnmatch import fnmatchcase
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 
 OFF = "off"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Document, Element, Node
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Edit, Finding

@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.generation import ros
 from preflight_analysis.tracing.interface import Endpoint, Role
 

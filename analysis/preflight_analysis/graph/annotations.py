@@ -15,9 +15,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element, SpannedText
 from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, MARK
 from preflight_analysis.documents.span import Span

@@ -7,9 +7,9 @@ with attributes and children. What an action means is the business of `evaluatio
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.movable import Movable, moved

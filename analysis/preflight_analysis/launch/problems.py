@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 
 

@@ -6,7 +6,9 @@ Each is declared with its action (`evaluation/ros2/actions/`); readers are given
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from preflight_analysis.dataclass import dataclass
 
 
 @dataclass(frozen=True, slots=True)

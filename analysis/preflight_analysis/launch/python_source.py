@@ -8,9 +8,9 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.change import Change
 from preflight_analysis.documents.span import ByteOffsets, LineIndex, Span
 

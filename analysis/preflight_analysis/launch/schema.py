@@ -7,8 +7,9 @@ and hover read them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
+
+from preflight_analysis.dataclass import dataclass
 
 Kind = Literal[
     "text",

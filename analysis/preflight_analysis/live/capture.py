@@ -7,11 +7,11 @@ annotation holds when the launch file gives the node another name, namespace or 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import yaml
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.generation import ros

@@ -10,8 +10,9 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.live.model import (
@@ -56,7 +57,7 @@ _SEEN_ROLES = {1: frozenset(_GROUPS) - {"client"}, 2: frozenset(_GROUPS)}
 _WORSE: tuple[State, ...] = ("unsure", "extra", "present", "missing", "dead", "wrong-type")
 
 
-@dataclass
+@dataclass(slots=True)
 class _States:
     """The states of nodes and of what they meet at; the worst of what is said of one counts."""
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Place
 from preflight_analysis.tracing.interface import Role
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.generation import ros
 from preflight_analysis.live.compare import compare

@@ -7,11 +7,12 @@ on the robot may be another, and do what those that are given to it decide.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree

@@ -7,12 +7,12 @@ is XML and describes executables. What a document has wrong is left out, the res
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import yaml
 from lxml import etree
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.generation import ros
 from preflight_analysis.nodl.groups import GROUPS, KINDS

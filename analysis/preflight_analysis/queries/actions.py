@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.annotations import annotation_edit, annotation_template, annotation_text

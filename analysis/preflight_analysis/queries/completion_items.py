@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 
 ItemKind = Literal[

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, Comment, Document, Element, Node, Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml_patterns import NAME

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from tree_sitter import Node
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, Element, SpannedText
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.actions.registry import node_classes

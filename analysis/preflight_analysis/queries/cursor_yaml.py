@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, Document, Element, SpannedText
 from preflight_analysis.documents.span import Span
 from preflight_analysis.queries.cursor import Place

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Document, Element, Node
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import is_yaml

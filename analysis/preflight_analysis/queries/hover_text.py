@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.launch.read import LAUNCH_FUNCTION
 from preflight_analysis.queries.query_context import QueryContext

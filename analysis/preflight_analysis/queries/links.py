@@ -6,8 +6,8 @@ import functools
 import os
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import LaunchFile, Value
 from preflight_analysis.launch.read import PYTHON_SUFFIX

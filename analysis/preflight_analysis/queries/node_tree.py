@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tags import tags_of
@@ -52,7 +53,7 @@ class NodeTree:
     items: tuple[Item, ...]
 
 
-@dataclass
+@dataclass(slots=True)
 class _Namespace:
     spaces: dict[str, _Namespace] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)

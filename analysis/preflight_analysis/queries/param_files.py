@@ -4,8 +4,8 @@ declare."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode

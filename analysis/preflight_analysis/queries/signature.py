@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.findings.markdown import escaped

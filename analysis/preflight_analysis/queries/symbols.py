@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile, Value

@@ -3,8 +3,8 @@
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import ArgumentNeeded
 from preflight_analysis.evaluation.tree import Include

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param

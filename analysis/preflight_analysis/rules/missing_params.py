@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import namespaces_around
 from preflight_analysis.rules.rule import Context

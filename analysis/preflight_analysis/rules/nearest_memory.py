@@ -8,9 +8,10 @@ comes out is the same as without the memory.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
+
+from preflight_analysis.dataclass import dataclass
 
 _KEPT = 8
 """How many candidates of a seeker are remembered: so many may go before it is compared with all again."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from itertools import chain, compress
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.installed_paths import installs_more, located, package_around

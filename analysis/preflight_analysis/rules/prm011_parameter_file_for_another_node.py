@@ -1,9 +1,9 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.generation import ROS1
 from preflight_analysis.rules.rule import Context

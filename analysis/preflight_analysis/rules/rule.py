@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Protocol, TypeVar
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable

@@ -1,8 +1,8 @@
 """TRC004: nodes were not run, and why."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
 from itertools import chain, compress
 from operator import is_not, not_
 from typing import NamedTuple, TypeVar
 
 from rapidfuzz.distance import OSA
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead

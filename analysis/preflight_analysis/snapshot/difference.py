@@ -7,9 +7,9 @@ was read, is no witness that it does not make something. Such nodes are named in
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.snapshot.files import node_json
 from preflight_analysis.snapshot.model import GROUPS, EndpointSnapshot, NodeSnapshot, Snapshot
 

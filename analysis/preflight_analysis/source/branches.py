@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.source.python_values import UNKNOWN, is_plain, known
 
 _ABSENT = object()

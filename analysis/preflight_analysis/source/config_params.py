@@ -9,9 +9,9 @@ from __future__ import annotations
 import ast
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.source.python_text import parse
 
 _MAX_PARAMS = 300

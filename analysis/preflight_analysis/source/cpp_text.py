@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import threading
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import tree_sitter_cpp
 from tree_sitter import Language, Node, Parser
+
+from preflight_analysis.dataclass import dataclass
 
 MAX_CHARACTERS = 1_000_000
 MAX_DEPTH = 40

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Protocol
 
 from tree_sitter import Node
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.cpp_text import ClassText, FileText, FunctionText, Path
 from preflight_analysis.source.python_values import UNKNOWN

@@ -7,12 +7,12 @@ https://github.com/PickNikRobotics/generate_parameter_library: the key at the to
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import isnan
 from typing import Any
 
 import yaml
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.tracing.interface import Range
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
+
+from preflight_analysis.dataclass import dataclass
 
 _MAX_PARTS = 1000
 _MAX_WAITING = 8

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.source.cpp_values import Constant, Fluent
 
 _RELIABLE = {"reliability": "reliable", "durability": "volatile"}

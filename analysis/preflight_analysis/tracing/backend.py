@@ -9,12 +9,13 @@ import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import IO
 
 import aspectlib  # type: ignore[import-untyped]
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing.interior import within
 
 

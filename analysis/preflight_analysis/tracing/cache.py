@@ -13,10 +13,10 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.typed_json import from_json
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.remaps import overrides_qos

@@ -15,8 +15,9 @@ import itertools
 import os
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+
+from preflight_analysis.dataclass import dataclass
 
 _PREFIX = "ros-preflight-"
 _REMOVAL_SECONDS = 0.5

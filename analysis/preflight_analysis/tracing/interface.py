@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.evaluation import names
 

@@ -10,10 +10,11 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from rapidfuzz.distance import OSA
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.catkin_python import workspace_packages
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, cast
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import stand_ins
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency

@@ -20,9 +20,9 @@ import sys
 import tempfile
 import threading
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
 from preflight_analysis.tracing.preload_compile import (

@@ -8,8 +8,9 @@ import os
 import shutil
 import subprocess
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path
+
+from preflight_analysis.dataclass import dataclass
 
 _AGENTS = Path(__file__).parent / "agents"
 _COMMON = _AGENTS / "preload.hpp"

@@ -10,9 +10,10 @@ import re
 import shutil
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment import reach
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST

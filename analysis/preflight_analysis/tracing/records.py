@@ -9,9 +9,10 @@ import math
 import os
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, TypeGuard, cast
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing.agents.fake_publisher import ANY_TYPE
 from preflight_analysis.tracing.interface import Endpoint, Frame, MadeNode, ParamUse, Range, Role
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.ros2.param_files import Section
 from preflight_analysis.evaluation.ros2.remaps import before_remaps, renames_nodes
 from preflight_analysis.generation import Generation, ros

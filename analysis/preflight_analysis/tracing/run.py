@@ -15,9 +15,10 @@ import subprocess
 import threading
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import IO, Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import backend, interior, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible

@@ -15,8 +15,8 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import bubblewrap, cgroup, firejail, interior, landlock, seccomp
 from preflight_analysis.tracing.backend import AGENTS, Agents, Backend, Isolated, View, Visible
 

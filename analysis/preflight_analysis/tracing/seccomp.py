@@ -15,8 +15,8 @@ import errno
 import functools
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing.bpf import Instruction, Line, any_bit, assemble, at_least, equal, give, jump, load, mask
 
 _ALLOW = 0x7FFF0000

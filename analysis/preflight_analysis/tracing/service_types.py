@@ -12,8 +12,9 @@ import os
 import re
 import threading
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable, read_text
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.walk import is_folder

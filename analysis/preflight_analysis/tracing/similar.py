@@ -11,9 +11,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import STATUS, Disk
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.tree import LaunchNode

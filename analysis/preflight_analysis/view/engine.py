@@ -13,9 +13,10 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
+
+from preflight_analysis.dataclass import dataclass
 
 _log = logging.getLogger(__name__)
 

@@ -7,9 +7,9 @@ subscribes to are one table, not thirty boxes with an edge each.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import islice
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.view import engine
 from preflight_analysis.view.labels import columns, label
 from preflight_analysis.view.model import TOWARDS_CHANNEL, GraphView, ViewChannel, ViewNode

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin, Place
 from preflight_analysis.evaluation.json_values import json_value

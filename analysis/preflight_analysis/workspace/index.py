@@ -7,9 +7,10 @@ a snapshot: plain data that is never changed, only replaced.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.workspace.facts import FileFacts, Kind, Mention
 from preflight_analysis.workspace.observations import Observation

@@ -22,11 +22,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import yaml
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import text_of
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Text, Unreadable, digest, read_text

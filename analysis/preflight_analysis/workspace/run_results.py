@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.tracing.interface import PENDING, Interface

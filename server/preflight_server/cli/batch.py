@@ -7,11 +7,11 @@ import os
 import threading
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment

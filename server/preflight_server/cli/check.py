@@ -6,10 +6,10 @@ import argparse
 import os
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from preflight_analysis.catalogue.launches import catalogued_file
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.project_settings import read_project_settings

@@ -6,8 +6,8 @@ import argparse
 import os
 import tempfile
 from contextlib import ExitStack
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable, read_text
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.environment.revision import (

@@ -6,10 +6,11 @@ import argparse
 import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.report import place

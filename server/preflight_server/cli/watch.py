@@ -6,8 +6,9 @@ import argparse
 import os
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.live.model import Expected, Issue
 from preflight_analysis.live.report import event_json, line, summary
@@ -112,7 +113,7 @@ def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> 
         return code
 
 
-@dataclass
+@dataclass(slots=True)
 class _Text:
     """The events for people: each difference when it comes and when it goes, and how many nodes are as expected."""
 

@@ -6,9 +6,9 @@ import asyncio
 import threading
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.broken import Broken

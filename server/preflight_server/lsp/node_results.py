@@ -7,8 +7,8 @@ whether a node has to be run again, and nothing else: no value depends on it.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.workspace.index import Root

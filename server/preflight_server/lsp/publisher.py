@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
+from preflight_analysis.dataclass import dataclass
 
 from preflight_server.lsp.protocol import pulls_diagnostics
 from preflight_server.lsp.text_store import to_uri

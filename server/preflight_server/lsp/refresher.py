@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from preflight_analysis.dataclass import dataclass
 
 from preflight_server.lsp.text_store import OpenDocument
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lsprotocol import types
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.findings.contexts import RootFindings, lacks_once
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing, missing

@@ -9,9 +9,9 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.finding import Finding

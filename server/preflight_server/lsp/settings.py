@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
+
+from preflight_analysis.dataclass import dataclass
 
 _log = logging.getLogger(__name__)
 

@@ -9,9 +9,9 @@ where only text above the tag has changed.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin
 from preflight_analysis.evaluation.collector import Collected

@@ -6,8 +6,9 @@ held by a test against the real one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.names import as_namespace, join
 from preflight_analysis.evaluation.tree import Param, Remap

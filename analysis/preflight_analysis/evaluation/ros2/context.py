@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple, cast
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.variables import copied

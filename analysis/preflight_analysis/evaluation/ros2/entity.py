@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute, Tag, Taken
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
+
+from preflight_analysis.dataclass import dataclass
 
 MARK = "\0expression "
 """What no command line begins with."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from preflight_analysis.catalogue.launches import SUFFIX
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.tree import Tag
 from preflight_analysis.launch.model import Action

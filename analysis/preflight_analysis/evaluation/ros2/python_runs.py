@@ -12,10 +12,11 @@ import ast
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.change import Change, change
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import digest

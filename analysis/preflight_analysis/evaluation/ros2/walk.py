@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Hashable, Mapping
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
 from functools import partial
 
 from preflight_analysis.catalogue.launches import catalogued_file
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Origin, Span
 from preflight_analysis.environment.launch_extensions import exposed_actions
 from preflight_analysis.evaluation.problems import (

@@ -7,9 +7,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, coerced_items, is_of_type
 from preflight_analysis.launch.model import Action, Value
