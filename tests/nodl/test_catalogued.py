@@ -219,12 +219,39 @@ def test_an_annotation_is_the_user_s_word_for_all_of_it(tmp_path: Path) -> None:
         '{"source": ["a", "b", "c"], "executables": {"scan_node": {"publishers": [{}]}}}',
         '{"source": ["a", "b", "c"], "executables": {"scan_node": {"parameters": {"~a": 1}}}}',
         '{"source": ["a", "b", "c"], "executables": {"scan_node": {"nodes": [["a"]]}}}',
+        '{"source": ["a", "b", "c"], "executables": {"scan_node": {"publishers": [{"named_by": 1}]}}}',
     ],
 )  # fmt: skip
 def test_broken_data_says_nothing(tmp_path: Path, data: str) -> None:
     (packages.INTERFACES / "noetic" / "scanner.json").write_bytes(data.encode("latin-1"))
     graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>')
     assert known(graph) == [("none", 0, 0)]
+
+
+FILTER = {
+    "source": ["makers/filter", COMMIT, "2024-01-01"],
+    "executables": {
+        "filter_node": {
+            "subscriptions": [
+                {"named_by": "~odom0", "type": "nav_msgs/msg/Odometry"},
+                {"named_by": "~input", "type": "sensor_msgs/msg/Imu"},
+            ]
+        }
+    },
+}
+
+
+def test_ends_that_parameters_name(tmp_path: Path) -> None:
+    (packages.INTERFACES / "jazzy" / "filter.json").write_text(json.dumps(FILTER))
+    given = {"odom0": "/odom", "odom1": "wheels/odom", "odom0_config": "x", "odom": "y", "input0": "z", "odom2": "1 2"}
+    params = "".join(f'<param name="{name}" value="{value}"/>' for name, value in given.items())
+    graph = graph_of(
+        tmp_path,
+        f'<launch><node pkg="filter" exec="filter_node" namespace="a">{params}</node></launch>',
+        "a.launch.xml",
+    )
+    ends = {name: [end.endpoint.type for end in channel.consumers] for name, channel in graph.topics.items()}
+    assert ends == {"/odom": ["nav_msgs/msg/Odometry"], "/a/wheels/odom": ["nav_msgs/msg/Odometry"]}
 
 
 def test_the_real_data_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,6 +6,7 @@ on the robot may be another, and do what those that are given to it decide.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -19,10 +20,13 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.groups import GROUPS
-from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range
+from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range, Role
 
 _KEPT = 1024
 _TYPE = ".type"
+_NAMED_BY = "named_by"
+_SERIES = re.compile(r"(\D*[A-Za-z])0")
+"""The name of the first parameter of a numbered series."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +37,8 @@ class Catalogued:
     params: tuple[ParamUse, ...]
     nodes: tuple[MadeNode, ...]
     evidence: str
+    by_parameter: tuple[Endpoint, ...] = ()
+    """Ends that have the name of the parameter which names them; they are there where it is set."""
 
 
 def from_catalogue(
@@ -60,7 +66,7 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     does = (found, *_controllers(node, distro, is_used=is_used))
     whole = interface.with_more(
         "catalogue",
-        tuple(end for each in does for end in each.endpoints),
+        (*(end for each in does for end in each.endpoints), *_named_by_parameters(node, found)),
         tuple(use for each in does for use in each.params),
         tuple(made for each in does for made in each.nodes) if len(does) == 1 else _beside(node, does),
     )
@@ -85,6 +91,16 @@ def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Ca
                 params=tuple(replace(use, node=full, conditional=True) for use in found.params),
                 nodes=(MadeNode(name, name, inferred=True, full=full),),
             )
+
+
+def _named_by_parameters(node: LaunchNode, found: Catalogued) -> Iterator[Endpoint]:
+    """The ends that parameters of the node name (ROS 2): `odom0` stands for `odom1` and all others of a series."""
+    for end in found.by_parameter:
+        series = _SERIES.fullmatch(end.name)
+        for param in node.params:
+            alike = param.name == end.name or (series is not None and param.name.removeprefix(series[1]).isdecimal())
+            if alike and isinstance(param.value, str) and param.value and names.is_legal(param.value):
+                yield replace(end, name=param.value, conditional=False)
 
 
 def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...]:
@@ -125,25 +141,27 @@ def _catalogued(
         return None
     repository, commit, _ = of_package["source"]
     evidence = f"the catalogue of {distro} ({repository} at {commit[:7]})"
+
+    def end(role: Role, each: Mapping[str, Any], name: str) -> Endpoint:
+        return Endpoint(
+            role,
+            name,
+            each.get("type"),
+            None,
+            each.get("qos", {}),
+            inferred=True,
+            conditional="conditional" in each,
+            catalogued=evidence,
+            of_other_distribution=not is_used,
+        )
+
+    rows = [(role, each) for role, group in GROUPS.items() for each in found.get(group, ())]
     return Catalogued(
-        tuple(
-            Endpoint(
-                role,
-                each["name"],
-                each.get("type"),
-                None,
-                each.get("qos", {}),
-                inferred=True,
-                conditional="conditional" in each,
-                catalogued=evidence,
-                of_other_distribution=not is_used,
-            )
-            for role, group in GROUPS.items()
-            for each in found.get(group, ())
-        ),
+        tuple(end(role, each, each["name"]) for role, each in rows if _NAMED_BY not in each),
         tuple(_param(name, about, evidence, is_used=is_used) for name, about in found.get("parameters", {}).items()),
         tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
         evidence,
+        tuple(end(role, each, each[_NAMED_BY].removeprefix("~")) for role, each in rows if _NAMED_BY in each),
     )
 
 

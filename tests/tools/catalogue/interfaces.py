@@ -27,7 +27,7 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, NAMED, OF_TESTS, RUN, SOURCES
+from tools.catalogue.sources import GENERATIONS, NAMED, NAMING, OF_TESTS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
@@ -125,6 +125,8 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
             said = _run(environment, key._replace(args=arguments))
         called = NAMED.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is not None:
+            if package.is_ament and package.name in NAMING:
+                _add_named_by_parameters(analysis, key, said)
             executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
     for cls in index.components(package.name):
         said = _read(analysis, [SourceKey(None, None, package.name, "", cls, "/node", "", ())])
@@ -160,6 +162,22 @@ def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | No
             if row["name"].startswith(f"{_NAME}/"):
                 row["name"] = f"~{row['name'].removeprefix(_NAME)}"
     return facts
+
+
+def _add_named_by_parameters(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any]) -> None:
+    """Add the ends that are there where a parameter without a default names them."""
+    marks = {
+        f"preflight_{name.removeprefix('~')}": name
+        for name, about in said.get("parameters", {}).items()
+        if about.get("type") == "string" and not about.get("default_value")
+    }
+    given = {f"{key.name}/{name.removeprefix('~')}": mark for mark, name in marks.items()}
+    more = _read(analysis, [key], LaunchParams(given)) or {}
+    for group in GROUPS.values():
+        for row in more.get(group, ()):
+            if row["name"] in marks:
+                of_row = {field: value for field, value in row.items() if field not in ("name", "conditional")}
+                said.setdefault(group, []).append({"named_by": marks[row["name"]], **of_row})
 
 
 def _nodelets(package: Package) -> Iterator[str]:

@@ -144,6 +144,8 @@ NAMED: Mapping[str, Mapping[str, Mapping[str, str]]] = {
     "jazzy": {"controller_manager": {"ros2_control_node": "controller_manager"}},
 }
 """Executables whose library names their node: by distribution, package and executable the name."""
+NAMING = frozenset({"robot_localization"})
+"""Packages of whose nodes it is looked at which topics and services parameters name that have no default (ROS 2)."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
 OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
 """Names of packages that nobody launches."""
