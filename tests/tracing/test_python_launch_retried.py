@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.evaluation.problems import PythonException, UnsetVariable
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.tracing import run
 from support.python_launch_harness import PythonHarness
 
 pytestmark = pytest.mark.ros
@@ -202,6 +203,57 @@ def generate_launch_description():
         assert "ValueError" in {unknown.what for unknown in tree.unknowns}, "the first run told"
     else:
         assert [node.name for node in tree.nodes] == names
+
+
+STARVED = """
+import signal
+import time
+
+def starve(seconds):
+    os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
+    others = []
+    for _ in range(9):
+        others.append(os.fork())
+        if not others[-1]:
+            while True:
+                pass
+    while time.process_time() < seconds:
+        pass
+    for other in others:
+        os.kill(other, signal.SIGKILL)
+        os.waitpid(other, 0)
+"""
+
+
+def test_a_busy_machine_takes_no_try_away(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        STARVED
+        + """
+import no_such_module
+
+def generate_launch_description():
+    if no_such_module.is_ready():
+        raise ValueError('it is')
+    starve(time.process_time() + 0.3)
+    return LaunchDescription([n('one')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
+
+
+def test_a_busy_machine_takes_no_time_from_a_run(harness: PythonHarness, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "COMMAND_SECONDS", 1.5)
+    tree = _tree(
+        harness,
+        STARVED
+        + """
+def generate_launch_description():
+    starve(time.process_time() + 0.2)
+    return LaunchDescription([n('one')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
 
 
 NASTY = {

@@ -40,7 +40,9 @@ OUTER_SECONDS = 5.0
 """When the whole sandbox is killed from outside, after the end of the time it has; the supervisor inside should have
 ended long before."""
 COMMAND_SECONDS = 10.0
-"""What the command of a parameter may take."""
+"""What the command of a parameter may take, but for the time in which it waits for a processor that others have."""
+COMMAND_STRETCH_SECONDS = 30.0
+"""How much of that time there may be."""
 COMMAND_BYTES = 8 << 20
 """What it may print."""
 
@@ -117,8 +119,9 @@ def execute_command(
     recipe: recipes.Recipe, visible: Visible, interpreter: str, cancel: threading.Event, agents: Agents = AGENTS
 ) -> RawRun:
     """Run a command to its end; what it prints is among the records. Otherwise as `execute`."""
-    job = {"output": {"wall": COMMAND_SECONDS, "bytes": COMMAND_BYTES}}
-    return _execute(recipe, job, COMMAND_SECONDS, visible, interpreter, cancel, agents)
+    job = {"output": {"wall": COMMAND_SECONDS, "stretch": COMMAND_STRETCH_SECONDS, "bytes": COMMAND_BYTES}}
+    seconds = COMMAND_SECONDS + COMMAND_STRETCH_SECONDS
+    return _execute(recipe, job, seconds, visible, interpreter, cancel, agents)
 
 
 def compile_agents(interpreter: str, visible: Visible, agents: Agents) -> RawRun:

@@ -12,7 +12,7 @@ import select
 import time
 from typing import Optional
 
-from .process import exit_code, host_is_gone
+from .process import exit_code, host_is_gone, queued_seconds
 from .run import TICK, Run, drain, start
 
 PIECE = 36_000
@@ -26,7 +26,7 @@ def watch(run: Run, events: int) -> None:
     wake, failure = start(run, write)
     os.close(write)
     limits = run.job["output"]
-    deadline = time.monotonic() + limits["wall"]
+    started = time.monotonic()
     ended: Optional[int] = None
     status, rest, piece, sent = "", b"", b"", 0
     open_ends = [read, wake]
@@ -48,7 +48,7 @@ def watch(run: Run, events: int) -> None:
             status = "ended"
         elif sent + len(piece) > limits["bytes"]:
             status = "too-long"
-        elif time.monotonic() > deadline:
+        elif time.monotonic() - started > limits["wall"] + min(limits["stretch"], queued_seconds(run.pid)):
             status = "timed-out"
         else:
             status = run.process_limits.exceeded() or ("abandoned" if host_is_gone() else "")

@@ -6,6 +6,7 @@ import os
 import resource
 import select
 import signal
+import time
 from typing import Any, Optional
 
 
@@ -77,6 +78,12 @@ def queued_seconds(pid: int) -> float:
             return int(stat.read().split()[1]) * 1e-9
     except (OSError, IndexError, ValueError):
         return 0.0
+
+
+def own_seconds(pid: int) -> float:
+    """A clock that stands still while the main thread of a process waits for a processor: what is allowed to take so
+    long does not depend on what else the machine does."""
+    return time.monotonic() - queued_seconds(pid)
 
 
 def shared_objects(pid: int) -> list[str]:

@@ -10,18 +10,24 @@ from __future__ import annotations
 
 import os
 import sys
-import time
 from typing import Any, Optional
+
+from ..process import own_seconds
 
 MAX_TRIES = 10
 MAX_SECONDS = 4.0
-"""After which no further try is begun; the last one and that with all variables end before the run's own limit."""
+"""By `own_seconds`, after which no further try is begun; the last one and that with all variables end before the run's
+own limit."""
 MAX_SECONDS_OF_TRY = 2.0
+"""Likewise."""
 MAX_ANSWERS = 2000
 _VARIABLE = "PREFLIGHT_ANSWERS"
 _ALL_SET = "+"
 _OWN_MISTAKES = ("NameError", "SyntaxError", "IndentationError", "TabError", "ImportError", "ModuleNotFoundError")
 """What no answer is to blame for."""
+
+
+_getpid = os.getpid
 
 
 class Answers:
@@ -36,7 +42,7 @@ class Answers:
         """Those that are not set, and whether they count as set."""
         self._part = 0
         self._tries = 0
-        self._started = time.monotonic()
+        self._started = own_seconds(_getpid())
         self._all_set = False
         self._first = -1
         """The file that has what the first run told."""
@@ -93,7 +99,7 @@ class Answers:
         if settled is None and (self._all_set or len(self._variables) < 2):
             return
         if not self._tries:
-            if time.monotonic() - self._started > MAX_SECONDS:
+            if self._is_late():
                 return
             self._first = os.memfd_create("first")
             with open(self._first, "w", encoding="utf-8", closefd=False) as file:
@@ -106,7 +112,7 @@ class Answers:
 
     def _next(self) -> Optional[list[tuple[bool, bool]]]:
         """The answers of the next run; None where there is none. Of a place that asks often the last one counts."""
-        if self._tries >= MAX_TRIES or time.monotonic() - self._started > MAX_SECONDS:
+        if self._tries >= MAX_TRIES or self._is_late():
             return None
         places: set[Any] = set()
         for at in range(len(self._given) - 1, self._part - 1, -1):
@@ -115,6 +121,9 @@ class Answers:
                 return [*self._before(at), (not answer, True)]
             places.add(place)
         return None
+
+    def _is_late(self) -> bool:
+        return own_seconds(_getpid()) - self._started > MAX_SECONDS
 
     def _before(self, end: int) -> list[tuple[bool, bool]]:
         tried = [both for _, both in self._settled]

@@ -20,6 +20,7 @@ import zlib
 from typing import Any, Callable, Optional
 
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
+from ..process import own_seconds
 from . import installed, programs, reads, rewrites, rewritten, unknown_files
 from .answers import MAX_SECONDS_OF_TRY
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
@@ -70,15 +71,22 @@ def main() -> None:
             tell_other("")
             os._exit(0)
 
-    is_over = threading.Lock()
-    timer = threading.Timer(MAX_SECONDS_OF_TRY, give_up)
-    timer.daemon = True
+    def wait_for_end() -> None:
+        deadline = own_seconds(this) + MAX_SECONDS_OF_TRY
+        while (left := deadline - own_seconds(this)) > 0:
+            if has_ended.wait(left):
+                return
+        give_up()
+
+    this = os.getpid()
+    is_over, has_ended = threading.Lock(), threading.Event()
+    timer = threading.Thread(target=wait_for_end, daemon=True)
     if is_try:
         timer.start()
     text, error = _answer(lambda: _run(job))
     is_over.acquire()  # not given back: it is over for the timer, too, or the timer ends this process
     if is_try:
-        timer.cancel()
+        has_ended.set()
         timer.join()
     if error is not None and (is_try or RECORDER.answers.may_try(error)):
         tell_other(text)
