@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from itertools import count
@@ -211,6 +212,24 @@ def test_what_was_loaded_for_what_nobody_asks_for_is_forgotten_too() -> None:
         assert numbers(db, "a") == (1, 2)
     assert len(db.cells) <= 4 * UNUSED_AFTER
     assert (numbers, ("a",)) in db.cells
+
+
+def test_what_was_answered_is_forgotten_too() -> None:
+    class Value:
+        pass
+
+    @query
+    def made_for(db: Database, name: str) -> Value:
+        db.ask(name)
+        return Value()
+
+    db, answers = Database(), Answering(str, [])
+    kept, gone = made_for.answered(db, answers, "a"), []
+    for number in range(20 * UNUSED_AFTER):
+        change(db, "typed", str(number), TYPED)
+        gone.append(weakref.ref(made_for.answered(db, answers, f"only once {number}")))
+        assert made_for.answered(db, answers, "a") is kept
+    assert sum(value() is not None for value in gone) <= 3 * UNUSED_AFTER
 
 
 def test_what_was_set_is_not_forgotten() -> None:

@@ -45,6 +45,8 @@ V = TypeVar("V")
 UNUSED_AFTER = 64
 """Revisions after which what nobody asked for is forgotten, with all that it was made from."""
 _MORE = 1.25
+_MANY = 2_000
+"""With so many more than there were, or a quarter more, it is looked what that is."""
 MOST_ANSWERS = 8
 """For how many sets of answers the value of one query and key is remembered, the latest."""
 MOST_ANSWERS_OF_PART = 2
@@ -499,7 +501,8 @@ class Database:
 
     def _forget_unused(self) -> None:
         """Let go of what nobody asked for in a long time, where there is a lot more than there was last time."""
-        if self.revision < self._forgot_at + UNUSED_AFTER or len(self.cells) < _MORE * self._remained:
+        enough = min(_MORE * self._remained, self._remained + _MANY)
+        if self.revision < self._forgot_at + UNUSED_AFTER or len(self.cells) + len(self._answered) < enough:
             return
         cells = list(self.cells.items())
         old = self.revision - UNUSED_AFTER
@@ -522,4 +525,4 @@ class Database:
             answered[:] = [cell for cell in answered if cell in used]
             if not answered:
                 self._answered.pop(asking_name, None)
-        self._forgot_at, self._remained = self.revision, len(self.cells)
+        self._forgot_at, self._remained = self.revision, len(self.cells) + len(self._answered)

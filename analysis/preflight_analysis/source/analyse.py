@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 MAX_MODULES = 30
 """How many modules of one program are followed."""
 _MAX_DEPTH = 10
-_MAX_REMEMBERED = 16_384
 _MAX_TREES = 256
 _RELAY = re.compile(r"^python_script = '([^'\n]+)'$", re.MULTILINE)
 """What catkin writes in the place of a script in a devel space."""
@@ -108,7 +107,7 @@ class SourceAnalysis:
         return _python_tree(self._disk.db, path)
 
 
-@query(limit=_MAX_REMEMBERED)
+@query
 def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInterface:
     disk = Disk(db)
     try:
