@@ -110,7 +110,13 @@ def larger(one: list[int], other: list[int]) -> list[int]:
     return max(one, other)
 
 
-@given(st.lists(st.lists(st.integers(0, 7), max_size=9), max_size=6))
+ROUNDS = st.lists(st.lists(st.integers(0, 7), max_size=9), max_size=6)
+OF_ONE_LENGTH = st.integers(1, 9).flatmap(
+    lambda length: st.lists(st.lists(st.integers(0, 7), min_size=length, max_size=length), max_size=6)
+)
+
+
+@given(ROUNDS)
 def test_several_functions_of_one_tuple_have_their_own_results(rounds: list[list[int]]) -> None:
     pool = [[number] for number in range(8)]
     kept = Kept()
@@ -128,7 +134,7 @@ def parity(item: list[int]) -> int:
     return item[0] % 3
 
 
-@given(st.lists(st.lists(st.integers(0, 7), max_size=9), max_size=6))
+@given(st.one_of(ROUNDS, OF_ONE_LENGTH))
 def test_groups_are_those_of_all_items(rounds: list[list[int]]) -> None:
     pool = [[number] for number in range(8)]
     kept, before = Kept(), dict[int, tuple[list[int], ...]]()

@@ -56,32 +56,17 @@ class Kept:
             raise ValueError("columns of a row have the same length")
         return self._of_rows(function, fixed, shared)
 
-    def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> dict[K, tuple[T, ...]]:
+    def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> Mapping[K, tuple[T, ...]]:
         """The items by their `key`, in order, and the groups by their first items. A group of the same
         objects as last time is the same object. Ask once for each key and `tag`."""
-        now, name = [*items], (key, tag)
+        now, name = _column(items), (key, tag)
         before = self._groups_before.get(name)
         if before is None:
-            keys = [*map(key, now)]
-            groups: dict[Any, tuple[Any, ...]] = {}
-            touched = set(keys)
+            found = _groups(now, [*map(key, now)], {})
         else:
-            row = _Round((), (before.items,), before.keys)
-            keys = _taken_over(row, (now,), lambda columns: map(key, *columns), {})
-            start, end = _same_ends(before.items, now)
-            groups = before.groups.copy()
-            touched = {*before.keys[start : len(before.keys) - end], *keys[start : len(keys) - end]}
-        made: dict[Any, list[Any]] = {}
-        for at, item in compress(zip(keys, now, strict=True), map(touched.__contains__, keys)):
-            made.setdefault(at, []).append(item)
-        for at in touched:
-            group = tuple(made.get(at, ()))
-            if not group:
-                groups.pop(at, None)
-            elif (known := groups.get(at)) is None or not _are(known, group):
-                groups[at] = group
-        self._groups_now[name] = _Groups(now, keys, groups)
-        return {at: groups[at] for at in dict.fromkeys(keys)}
+            found = _regrouped(before, now, key, self._differences)
+        self._groups_now[name] = found
+        return found.groups
 
     def _of_rows(self, function: Callable[..., V], columns: _Columns, shared: tuple[Any, ...]) -> list[V]:
         before = self._each_before.get(function)
@@ -182,10 +167,11 @@ class _Round(NamedTuple):
 
 
 class _Groups(NamedTuple):
-    """Items with their keys, and the groups that they make."""
+    """Items with their keys, where the items of each key are, and the groups that they make."""
 
-    items: list[Any]
+    items: Sequence[Any]
     keys: list[Any]
+    places: dict[Any, list[int]]
     groups: dict[Any, tuple[Any, ...]]
 
 
@@ -216,6 +202,60 @@ def _taken_over(before: _Round, columns: _Columns, make: _Make[V], differences: 
     of_old, of_items = slice(start, length - end), slice(start, now - end)
     found = _found([some[of_old] for some in old], results[of_old], [some[of_items] for some in columns], make)
     return [*results[:start], *found, *results[length - end :]]
+
+
+def _regrouped(before: _Groups, now: Sequence[Any], key: Callable[[Any], Any], differences: _Differences) -> _Groups:
+    if len(now) == len(before.items):
+        changed = _changed(before.items, now, differences)
+        if not changed:
+            return before
+        if len(changed) <= _FEW:
+            return _patched_groups(before, now, key, changed)
+    row = _Round((), (before.items,), before.keys)
+    return _groups(now, _taken_over(row, (now,), lambda columns: map(key, *columns), differences), before.groups)
+
+
+_FEW = 64
+_NOWHERE = (-1,)
+
+
+def _groups(items: Sequence[Any], keys: list[Any], known: Mapping[Any, tuple[Any, ...]]) -> _Groups:
+    places: dict[Any, list[int]] = {}
+    for at, each in enumerate(keys):
+        places.setdefault(each, []).append(at)
+    return _Groups(items, keys, places, {each: _group(items, at, known.get(each)) for each, at in places.items()})
+
+
+def _patched_groups(
+    before: _Groups, items: Sequence[Any], key: Callable[[Any], Any], changed: Iterable[int]
+) -> _Groups:
+    """The groups of as many items, of which a few have changed."""
+    keys, places, groups = before.keys.copy(), before.places.copy(), before.groups.copy()
+    touched: dict[Any, None] = {}
+    for at in changed:
+        old, new = keys[at], key(items[at])
+        if old != new:
+            keys[at] = new
+            places[old] = [each for each in places[old] if each != at]
+            places[new] = sorted((*places.get(new, ()), at))
+        touched.update(dict.fromkeys((old, new)))
+    in_order = True
+    for each in touched:
+        if at_places := places[each]:
+            in_order = in_order and before.places.get(each, _NOWHERE)[0] == at_places[0]
+            groups[each] = _group(items, at_places, groups.get(each))
+        else:
+            del places[each]
+            groups.pop(each, None)
+    if not in_order:
+        groups = {each: groups[each] for each in sorted(groups, key=lambda each: places[each][0])}
+    return _Groups(items, keys, places, groups)
+
+
+def _group(items: Sequence[Any], places: Iterable[int], known: tuple[Any, ...] | None) -> tuple[Any, ...]:
+    """The items at these places, the known group if those are the same objects."""
+    group = tuple([items[at] for at in places])
+    return known if known is not None and _are(known, group) else group
 
 
 def _changed(some: Sequence[object], others: Sequence[object], known: _Differences) -> list[int]:
