@@ -53,16 +53,16 @@ def test_of_many_items_only_other_objects_are_looked_at() -> None:
     items: list[object] = [["a"], ["b"], ["c"]]
     CALLS.clear()
     first = Kept()
-    assert first.each(described, items, 1) == ["['a'] 1", "['b'] 1", "['c'] 1"]
+    assert first.each(described, items, 1) == ("['a'] 1", "['b'] 1", "['c'] 1")
     items[1] = ["d"]
     second = Kept(first)
-    assert second.each(described, items, 1) == ["['a'] 1", "['d'] 1", "['c'] 1"]
+    assert second.each(described, items, 1) == ("['a'] 1", "['d'] 1", "['c'] 1")
     assert len(CALLS) == 4
     items.insert(1, ["e"])
     third = Kept(second)
-    assert third.each(described, items, 1) == ["['a'] 1", "['e'] 1", "['d'] 1", "['c'] 1"]
+    assert third.each(described, items, 1) == ("['a'] 1", "['e'] 1", "['d'] 1", "['c'] 1")
     assert len(CALLS) == 5
-    assert Kept(third).each(described, items, 2) == ["['a'] 2", "['e'] 2", "['d'] 2", "['c'] 2"]
+    assert Kept(third).each(described, items, 2) == ("['a'] 2", "['e'] 2", "['d'] 2", "['c'] 2")
     assert len(CALLS) == 9
 
 
@@ -73,8 +73,8 @@ def test_many_items_in_any_order_have_their_own_results(rounds: list[list[int]])
     for numbers in rounds:
         kept = Kept(kept)
         found = kept.each(described, [pool[number] for number in numbers])
-        assert found == [f"[{number}]" for number in numbers]
-        found.clear()  # the list is the caller's
+        assert found == tuple(f"[{number}]" for number in numbers)
+        assert kept.each(len, found) == (3,) * len(numbers)
 
 
 @given(st.lists(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), max_size=9), max_size=5))
@@ -84,7 +84,8 @@ def test_rows_in_any_order_have_their_own_results(rounds: list[list[tuple[int, i
     for pairs in rounds:
         kept = Kept(kept)
         found = kept.each_row(described, ([pool[one] for one, _ in pairs], [pool[other] for _, other in pairs]), 0)
-        assert found == [f"[{one}] [{other}] 0" for one, other in pairs]
+        assert found == tuple(f"[{one}] [{other}] 0" for one, other in pairs)
+        assert kept.each_row(max, (found, tuple(reversed(found)))) == tuple(map(max, found, reversed(found)))
 
 
 def test_of_rows_only_those_are_looked_at_in_which_one_is_another_object() -> None:
@@ -94,7 +95,7 @@ def test_of_rows_only_those_are_looked_at_in_which_one_is_another_object() -> No
     first.each_row(described, (items, others))
     others[2] = ["g"]
     second = Kept(first)
-    assert second.each_row(described, (items, others)) == ["['a'] ['d']", "['b'] ['e']", "['c'] ['g']"]
+    assert second.each_row(described, (items, others)) == ("['a'] ['d']", "['b'] ['e']", "['c'] ['g']")
     assert CALLS[3:] == [(["c"], ["g"])]
     Kept(second).each_row(described, (items[1:], others[1:]))
     assert len(CALLS) == 4
@@ -123,10 +124,10 @@ def test_several_functions_of_one_tuple_have_their_own_results(rounds: list[list
     for numbers in rounds:
         kept = Kept(kept)
         items = tuple(pool[number] for number in numbers)
-        assert kept.each(first, items) == kept.each(first, items) == numbers
-        assert kept.each(described, items) == [f"[{number}]" for number in numbers]
+        assert kept.each(first, items) == kept.each(first, items) == (*numbers,)
+        assert kept.each(described, items) == tuple(f"[{number}]" for number in numbers)
         backwards = tuple(reversed(items))
-        assert kept.each_row(larger, (items, backwards)) == [*map(max, items, backwards)]
+        assert kept.each_row(larger, (items, backwards)) == (*map(max, items, backwards),)
         kept.end()
 
 

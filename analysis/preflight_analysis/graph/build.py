@@ -49,7 +49,7 @@ def build_graph(
     kept = kept or Kept()
     if len(tree.nodes) != len(interfaces):
         raise ValueError(f"{len(interfaces)} interfaces of {len(tree.nodes)} nodes")
-    processes = tuple(kept.each_row(_process, (tree.nodes, interfaces)))
+    processes = kept.each_row(_process, (tree.nodes, interfaces))
     tree, merged = each_node(tree, processes, documents or {})
     made = kept.each_row(_of_node, (tree.nodes, merged), tree.generation, moves_actions(distro))
     return Graph(

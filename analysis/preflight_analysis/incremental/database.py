@@ -22,6 +22,7 @@ import threading
 from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from itertools import chain
+from operator import attrgetter
 from typing import Any, TypeVar, cast
 
 from preflight_analysis.incremental.cells import (
@@ -51,6 +52,7 @@ MOST_ANSWERS = 8
 """For how many sets of answers the value of one query and key is remembered, the latest."""
 MOST_ANSWERS_OF_PART = 2
 """The same for parts of a value: as it is, and as it was before something was tried."""
+_durable = attrgetter("durable")
 _ALWAYS = 1 << 62
 """Later than any revision: an input that was loaded is right until it is written."""
 
@@ -351,7 +353,7 @@ class Database:
             self._thread.reads.pop()
             making.parts.pop()
         part = Part(value, answers, tuple(reads), parts)
-        part.durable = all(each.durable for each in reads)
+        part.durable = all(map(_durable, reads))
         return part
 
     def _is_right(self, part: Part, look: Callable[[Any], object]) -> bool:
@@ -362,7 +364,7 @@ class Database:
             return True
         if not all(self._is_unchanged(each, part.verified_at) for each in part.depends_on):
             return False
-        part.durable = all(each.durable for each in part.depends_on)
+        part.durable = all(map(_durable, part.depends_on))
         return True
 
     def _is_unchanged(self, cell: Cell, since: int) -> bool:
@@ -462,7 +464,7 @@ class Database:
                 is_durable = each.durable and each.verified_at >= self._durable_changed_at
                 if each.changed_at > since if is_durable else not self._is_unchanged(each, since):
                     return False
-            cell.durable = all(each.durable for each in cell.depends_on)
+            cell.durable = all(map(_durable, cell.depends_on))
         cell.verified_at = self.revision
         return True
 
@@ -480,7 +482,7 @@ class Database:
             with self._condition:
                 if cell.verified_at < self.revision:
                     cell.depends_on, cell.value, cell.verified_at = tuple(reads), NONE, 0
-                    cell.durable = all(each.durable for each in reads)
+                    cell.durable = all(map(_durable, reads))
             raise
         finally:
             thread.reads.pop()
@@ -497,7 +499,7 @@ class Database:
             if not same:
                 cell.value, cell.changed_at = value, self.revision
             cell.depends_on, cell.verified_at, cell.parts = tuple(reads), self.revision, parts
-            cell.durable = all(each.durable for each in reads)
+            cell.durable = all(map(_durable, reads))
 
     def _forget_unused(self) -> None:
         """Let go of what nobody asked for in a long time, where there is a lot more than there was last time."""

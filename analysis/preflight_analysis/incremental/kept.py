@@ -42,14 +42,16 @@ class Kept:
         /,
         *shared: P.args,
         **none: P.kwargs,
-    ) -> list[V]:
-        """`[function(item, *shared) for item in items]`, for many items: those that are the same objects as last time
+    ) -> tuple[V, ...]:
+        """`function(item, *shared)` for each of many items: those that are the same objects as last time
         are not looked at, if what they share is equal. Ask once for each function and what is shared. What is given as
         the same tuple to several functions is compared with the last time once."""
         _refuse(none)
         return self._of_rows(function, (_column(items),), shared)
 
-    def each_row(self, function: Callable[..., V], columns: Iterable[Iterable[Any]], /, *shared: object) -> list[V]:
+    def each_row(
+        self, function: Callable[..., V], columns: Iterable[Iterable[Any]], /, *shared: object
+    ) -> tuple[V, ...]:
         """As `each`, for rows of items that are looked at together: `function(*row, *shared)`."""
         fixed = tuple(map(_column, columns))
         if len({*map(len, fixed)}) != 1:
@@ -62,24 +64,24 @@ class Kept:
         now, name = _column(items), (key, tag)
         before = self._groups_before.get(name)
         if before is None:
-            found = _groups(now, [*map(key, now)], {})
+            found = _groups(now, tuple(map(key, now)), {})
         else:
             found = _regrouped(before, now, key, self._differences)
         self._groups_now[name] = found
         return found.groups
 
-    def _of_rows(self, function: Callable[..., V], columns: _Columns, shared: tuple[Any, ...]) -> list[V]:
+    def _of_rows(self, function: Callable[..., V], columns: _Columns, shared: tuple[Any, ...]) -> tuple[V, ...]:
         before = self._each_before.get(function)
 
         def make(some: Sequence[Iterable[Any]]) -> Iterable[V]:
             return map(function, *some, *map(repeat, shared))
 
         if before is None or before.shared != shared:
-            results = list(make(columns))
+            results = tuple(make(columns))
         else:
             results = _taken_over(before, columns, make, self._differences)
         self._each_now[function] = _Round(shared, columns, results)
-        return results.copy()
+        return results
 
     def get(self, function: Callable[P, V], key: Hashable, /, *arguments: P.args, **none: P.kwargs) -> V:
         """`function(*arguments)`, or what it gave last time for the same arguments: the same objects, equal scalars, or
@@ -163,14 +165,14 @@ class _Round(NamedTuple):
 
     shared: tuple[Any, ...]
     columns: _Columns
-    results: list[Any]
+    results: tuple[Any, ...]
 
 
 class _Groups(NamedTuple):
     """Items with their keys, where the items of each key are, and the groups that they make."""
 
     items: Sequence[Any]
-    keys: list[Any]
+    keys: tuple[Any, ...]
     places: dict[Any, list[int]]
     groups: dict[Any, tuple[Any, ...]]
 
@@ -178,7 +180,7 @@ class _Groups(NamedTuple):
 _Make = Callable[[Sequence[Iterable[Any]]], Iterable[V]]
 
 
-def _taken_over(before: _Round, columns: _Columns, make: _Make[V], differences: _Differences) -> list[V]:
+def _taken_over(before: _Round, columns: _Columns, make: _Make[V], differences: _Differences) -> tuple[V, ...]:
     # Thousands of items, of which a handful is new: what is done for each of them is done without a line of Python.
     # Where none is at its place, all are new, most likely: to look for them would take longer than most functions.
     old, results = before.columns, before.results
@@ -188,20 +190,25 @@ def _taken_over(before: _Round, columns: _Columns, make: _Make[V], differences: 
         if not places:
             return results
         if len(places) == length:
-            return list(make(columns))
+            return tuple(make(columns))
         others = itemgetter(*places, places[0])  # of two or more it makes a tuple
         found = _found([others(some) for some in old], others(results), [others(some)[:-1] for some in columns], make)
-        made = results.copy()
+        made = list(results)
         for at, result in zip(places, found, strict=True):
             made[at] = result
-        return made
+        new = tuple(made)
+        different = [at for at in places if results[at] is not new[at]]
+        if not different:
+            return results
+        differences[id(results), id(new)] = results, new, different
+        return new
     ends = [_same_ends(some, others) for some, others in zip(old, columns, strict=True)]
     start, end = min(start for start, _ in ends), min(end for _, end in ends)
     if not start and not end:
-        return list(make(columns))
+        return tuple(make(columns))
     of_old, of_items = slice(start, length - end), slice(start, now - end)
     found = _found([some[of_old] for some in old], results[of_old], [some[of_items] for some in columns], make)
-    return [*results[:start], *found, *results[length - end :]]
+    return (*results[:start], *found, *results[length - end :])
 
 
 def _regrouped(before: _Groups, now: Sequence[Any], key: Callable[[Any], Any], differences: _Differences) -> _Groups:
@@ -219,7 +226,7 @@ _FEW = 64
 _NOWHERE = (-1,)
 
 
-def _groups(items: Sequence[Any], keys: list[Any], known: Mapping[Any, tuple[Any, ...]]) -> _Groups:
+def _groups(items: Sequence[Any], keys: tuple[Any, ...], known: Mapping[Any, tuple[Any, ...]]) -> _Groups:
     places: dict[Any, list[int]] = {}
     for at, each in enumerate(keys):
         places.setdefault(each, []).append(at)
@@ -230,7 +237,7 @@ def _patched_groups(
     before: _Groups, items: Sequence[Any], key: Callable[[Any], Any], changed: Iterable[int]
 ) -> _Groups:
     """The groups of as many items, of which a few have changed."""
-    keys, places, groups = before.keys.copy(), before.places.copy(), before.groups.copy()
+    keys, places, groups = list(before.keys), before.places.copy(), before.groups.copy()
     touched: dict[Any, None] = {}
     for at in changed:
         old, new = keys[at], key(items[at])
@@ -249,7 +256,7 @@ def _patched_groups(
             groups.pop(each, None)
     if not in_order:
         groups = {each: groups[each] for each in sorted(groups, key=lambda each: places[each][0])}
-    return _Groups(items, keys, places, groups)
+    return _Groups(items, tuple(keys), places, groups)
 
 
 def _group(items: Sequence[Any], places: Iterable[int], known: tuple[Any, ...] | None) -> tuple[Any, ...]:

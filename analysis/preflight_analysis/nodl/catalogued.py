@@ -49,7 +49,7 @@ def from_catalogue(
     if all(interface.known for interface in interfaces):
         return interfaces
     distro = distribution_of(tree.generation, environment.distro)
-    return tuple(kept.each_row(_filled_in, (tree.nodes, interfaces), environment, distro))
+    return kept.each_row(_filled_in, (tree.nodes, interfaces), environment, distro)
 
 
 def _filled_in(node: LaunchNode, interface: Interface, environment: Environment, distro: str) -> Interface:

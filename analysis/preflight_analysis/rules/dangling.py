@@ -67,18 +67,21 @@ def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
     return any(channel.consumers and channel.providers for channel in others if channel is not None)
 
 
-def by_type(connections: Iterable[Connection]) -> Mapping[str | None, list[Connection]]:
-    """The ends by their types."""
-    found: dict[str | None, list[Connection]] = {}
-    for connection in connections:
-        found.setdefault(connection.endpoint.type, []).append(connection)
-    return found
+def by_type(
+    context: Context, kind: ChannelKind, connections: Iterable[Connection]
+) -> Mapping[str | None, tuple[Connection, ...]]:
+    """The ends, all of a kind that dangle, by their types."""
+    return context.kept.grouped(_type, kind, connections)
 
 
-def lone_of_type(consumer: Connection, dangling: Mapping[str | None, list[Connection]]) -> Connection | None:
-    """The only one of the dangling providers that has the same specific type, if there is exactly one."""
+def _type(connection: Connection) -> str | None:
+    return connection.endpoint.type
+
+
+def lone_of_type(consumer: Connection, dangling: Iterable[Connection]) -> Connection | None:
+    """The only one of the dangling providers of the consumer's type, if there is exactly one and that is specific."""
     type_ = consumer.endpoint.type
     if type_ is None or type_ == "*" or type_.startswith(GENERIC_PACKAGES):
         return None
-    found = list(islice((c for c in dangling.get(type_, ()) if c.node is not consumer.node), 2))
+    found = list(islice((c for c in dangling if c.node is not consumer.node), 2))
     return found[0] if len(found) == 1 else None

@@ -23,7 +23,7 @@ def namespaces_around(context: Context) -> frozenset[str]:
     return frozenset(names.with_namespaces(context.once(namespaces)))
 
 
-def each_namespace(context: Context) -> list[str]:
+def each_namespace(context: Context) -> tuple[str, ...]:
     """That of each parameter. Ask through `context.once`."""
     return context.kept.each(namespace_of, context.tree.all_params)
 

@@ -41,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     answers = {
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
-    unused = by_type(dangling_providers(context, "services")) if answers else {}
+    unused = by_type(context, "services", dangling_providers(context, "services")) if answers else {}
     elsewhere = context.once(used_elsewhere)
     for connection in lone:
         meant = _meant(connection, answers.get(id(connection.node), ()), unused)

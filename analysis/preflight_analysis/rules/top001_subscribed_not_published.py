@@ -39,8 +39,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if id(each) in elsewhere:
                 yield elsewhere_finding(rule, context, each, _lone_message(who, each), elsewhere[id(each)])
         others = [each for each in others if id(each) not in elsewhere]
-        dangling = by_type(context.once(dangling_topic_providers))
-        lone = [lone_of_type(each, dangling) for each in others]
+        dangling = by_type(context, "topics", context.once(dangling_topic_providers))
+        of_types = [dangling.get(each.endpoint.type, ()) for each in others]
+        lone = context.kept.each_row(lone_of_type, (others, of_types))
         yield from context.kept.each_row(_hint, (others, lone), rule, who, graph.complete)
 
 

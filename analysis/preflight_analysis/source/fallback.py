@@ -35,7 +35,7 @@ class Fallback:
         if not any(gaps):
             return tuple(interfaces)
         of_nodes = kept.each(_values_of_node, tree.nodes)
-        params = kept.patched(_launch_params, "", tree.all_params, tuple(of_nodes))
+        params = kept.patched(_launch_params, "", tree.all_params, of_nodes)
         as_asked, keys = kept.each(asked, tree.nodes, tree.generation), kept.each(source_key, tree.nodes)
         found: dict[int, Interface | SourceInterface | None] = {at: None for at, gap in enumerate(gaps) if gap}
         if self._similar is not None:
@@ -44,7 +44,7 @@ class Fallback:
         of_source = [at for at, each in found.items() if each is None]
         found.update(zip(of_source, self._sources.read_each([keys[at] for at in of_source], params), strict=True))
         columns = (tree.nodes, interfaces, map(found.get, range(len(gaps))), gaps)
-        return tuple(kept.each_row(_whole, columns))
+        return kept.each_row(_whole, columns)
 
 
 _Gap = Literal["all", "places", "later", "places, later"]
