@@ -1,6 +1,12 @@
 """PRM018: a plugin that is listed and not configured."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import check
 
 _START = """//- /robot.launch.xml
@@ -51,3 +57,40 @@ def test_what_is_configured_elsewhere_or_needs_nothing() -> None:
             spin:
               plugin: "a::Spin"
     """)
+
+
+LOOSE = """
+costmap:
+  ros__parameters:
+    plugins: ["static_layer", "voxel_layer"]
+    static_layer: {plugin: "a::Static"}
+"""
+
+
+def _with_files(folder: Path, *files: str) -> list[Finding]:
+    """What is said of parameter files that no node gets, of a repository with one package."""
+    texts = {
+        "package.xml": "<package><name>p</name></package>",
+        "a.launch.xml": '<launch><node pkg="p" exec="x" name="costmap"/></launch>',
+    }
+    own = {f"src/robot/p/{name}": text for name, text in texts.items()}
+    for place, text in {**own, **dict.fromkeys(files, LOOSE)}.items():
+        path = folder / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    environment = detect_environment(str(folder), {"ROS_VERSION": "2"}, root=str(folder / "nowhere"))
+    workspace = Workspace(environment, Sources())
+    static = workspace.static(str(folder / "src/robot/p/a.launch.xml"))
+    return [each for each, _ in workspace.branches(static).findings if each.rule == "PRM018"]
+
+
+@pytest.mark.parametrize("place", ["src/robot/p/config/nav.yaml", "src/robot/config/nav.yaml"])
+def test_a_file_of_the_package_or_beside_it_that_no_node_gets(tmp_path: Path, place: str) -> None:
+    (finding,) = _with_files(tmp_path, place)
+    assert (finding.severity, finding.confidence) == ("warning", "likely")
+    assert finding.location.file == str(tmp_path / place)
+
+
+@pytest.mark.silent
+def test_a_file_that_is_of_something_else(tmp_path: Path) -> None:
+    assert not _with_files(tmp_path, "src/robot/docs/nav.yaml", "config/nav.yaml", "src/robot/p/test/config/nav.yaml")

@@ -17,12 +17,15 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
 from preflight_analysis.rules import prm016_parameter_file_refused as prm016
+from preflight_analysis.rules import prm018_listed_not_configured as prm018
 from preflight_analysis.rules.rule import Context
 
 _SUFFIXES = (".yaml", ".yml")
 _FOLDERS = frozenset({"config", "configs", "param", "params", "parameters", "cfg", "launch"})
 """Where packages have their parameter files, below other folders or not."""
 _NOT_OURS = frozenset({"test", "tests", "build", "install", "log"})
+_ABOVE = 3
+"""Folders above a package that may be those of its repository."""
 _MOST = 200
 """Files of one package that are read."""
 _LONGEST = 200_000
@@ -36,7 +39,9 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
     if package is None:
         return
     given = {source.path for node in context.tree.nodes for source in node.param_sources}
-    for path in _param_files(context.disk.db, package.share):
+    folders = _folders(context, package.share)
+    files = {path for folder, base in folders for path in _param_files(context.disk.db, folder, base)}
+    for path in sorted(files):
         document = context.disk.text(path)
         if path in given or not isinstance(document, Document):
             continue
@@ -48,17 +53,34 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         for what, span in file.refused[:1]:
             message = f"{what}; the client libraries refuse the whole file for it, and no node that gets it starts"
             yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
+        for missing in prm018.missing_in(document.text):
+            yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")
+
+
+def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:
+    """That of the package, and those of parameter files beside the packages of its repository; what they are below."""
+    yield share, share
+    workspace = context.environment.workspace
+    if workspace is None:
+        return
+    above = os.path.dirname(share)
+    for _ in range(_ABOVE):
+        if not above.startswith(f"{workspace.rstrip('/')}/src/"):
+            return
+        found = [os.path.join(above, name) for name in context.disk.names(above) if name in _FOLDERS]
+        yield from ((path, above) for path in found if not context.disk.is_link(path))
+        above = os.path.dirname(above)
 
 
 @query
-def _param_files(db: Database, folder: str) -> tuple[str, ...]:
-    """Those below a folder that may be parameter files."""
-    return tuple(path for path in sorted(files_in(Disk(db), folder, deep=True)) if _is_one(db, path, folder))[:_MOST]
+def _param_files(db: Database, folder: str, base: str) -> tuple[str, ...]:
+    """Those below a folder that may be parameter files, by how they are called from `base`."""
+    return tuple(path for path in sorted(files_in(Disk(db), folder, deep=True)) if _is_one(db, path, base))[:_MOST]
 
 
 @query
-def _is_one(db: Database, path: str, folder: str) -> bool:
-    folders = frozenset(PurePath(os.path.relpath(path, folder)).parts[:-1])
+def _is_one(db: Database, path: str, base: str) -> bool:
+    folders = frozenset(PurePath(os.path.relpath(path, base)).parts[:-1])
     if not path.endswith(_SUFFIXES) or folders.isdisjoint(_FOLDERS) or not folders.isdisjoint(_NOT_OURS):
         return False
     document = Disk(db).text(path)

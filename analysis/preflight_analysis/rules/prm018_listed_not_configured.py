@@ -37,7 +37,7 @@ _WITH_DEFAULTS = frozenset(
 """The lists that nav2 has where none is given: it knows the plugins of these, and of no other list."""
 
 
-class _Missing(NamedTuple):
+class Missing(NamedTuple):
     """An item of a list without the parameter that says what it is. `ready`: plugins beside it that no list has."""
 
     name: str
@@ -46,26 +46,33 @@ class _Missing(NamedTuple):
     span: Span
     ready: tuple[tuple[str, Span], ...]
 
+    @property
+    def message(self) -> str:
+        """What is wrong with it."""
+        ready = [name for name, _ in self.ready]
+        hint = f"; {quoted(ready)} is configured and in no list" if len(ready) == 1 else ""
+        return (
+            f"'{self.name}' is listed in '{self.listed_in}', and there is no parameter '{self.parameter}' as the others"
+            f" have it: nothing can be loaded for it{hint}"
+        )
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     getters: dict[str, Related] = {}
     for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
         getters.setdefault(path, getter)
-    found: list[tuple[str, _Missing]] = []
+    found: list[tuple[str, Missing]] = []
     for path in getters:
         document = context.documents.get(path)
-        found += ((path, each) for each in _missing_in(document.text)) if isinstance(document, Document) else ()
+        found += ((path, each) for each in missing_in(document.text)) if isinstance(document, Document) else ()
     if not found:
         return
     given = {param.name for node in context.tree.nodes for source in node.param_sources for param in source.params}
     for path, missing in found:
         if missing.parameter in given:
             continue
-        ready = [name for name, _ in missing.ready]
-        hint = f"; {quoted(ready)} is configured and in no list" if len(ready) == 1 else ""
         yield rule.finding(
-            f"'{missing.name}' is listed in '{missing.listed_in}', and there is no parameter '{missing.parameter}' "
-            f"as the others have it: nothing can be loaded for it{hint}",
+            missing.message,
             context.location(path, missing.span),
             confidence="likely",
             related=(
@@ -76,11 +83,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 @lru_cache(maxsize=64)
-def _missing_in(text: str) -> tuple[_Missing, ...]:
+def missing_in(text: str) -> tuple[Missing, ...]:
+    """Those of a parameter file."""
     return tuple(found for section in read_param_file(text).sections for found in _missing(text, section))
 
 
-def _missing(text: str, section: Section) -> Iterator[_Missing]:
+def _missing(text: str, section: Section) -> Iterator[Missing]:
     spans = {param.name: param.name_span for param in section.params}
     lists = {p.name: p.value for p in section.params if isinstance(p.value, list) and _are_names(p.value)}
     listed = {name for names in lists.values() for name in names}
@@ -99,7 +107,7 @@ def _missing(text: str, section: Section) -> Iterator[_Missing]:
                     rf"(?<![\w.]){re.escape(name)}(?![\w.])", text[param.value_span.start : param.value_span.end]
                 )
                 start = param.value_span.start + (at.start() if at is not None else 0)
-                yield _Missing(name, f"{above}{dot}{name}.{kind}", param.name, Span(start, start + len(name)), ready)
+                yield Missing(name, f"{above}{dot}{name}.{kind}", param.name, Span(start, start + len(name)), ready)
 
 
 def _are_names(items: Sequence[object]) -> bool:
@@ -121,7 +129,8 @@ RULE = Rule(
     severity="warning",
     what="Reports a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, ...) for "
     "which there is no `NAME.plugin`, or `NAME.type`, while there is one for another name of the list (ROS 2). The "
-    "lists that nav2 has by default are left alone: it knows their plugins.",
+    "lists that nav2 has by default are left alone: it knows their plugins. Files of the package that no node of the "
+    "launch gets are looked at, too.",
     why="Whoever reads the list asks for that parameter of each name, and does not start without it. Mostly the list "
     "has another name than the section with its parameters.",
     example='plugins: ["voxel_layer", "inflation_layer"]\n'
