@@ -122,7 +122,7 @@ def exponent(counts: tuple[int, ...], seconds: list[float]) -> float:
 def main() -> None:
     args = Options(__doc__, n=30, quick=2).read()
     counts = QUICK_COUNTS if args.quick else COUNTS
-    gc.set_threshold(25_000, 4, 2_000)  # as the server
+    gc.set_threshold(10_000, 2, 10_000)  # as the server
     ways: tuple[tuple[str, str, Callable[[Path, int], Launch], Callable[[Launch, int, Path], list[float]]], ...] = (
         ("files of ten nodes, server", "growth_exponent_nodes", in_files, by_server),
         ("files of ten nodes, in process", "growth_exponent_nodes_in_process", in_files, in_process),

@@ -197,7 +197,7 @@ def library(made: Workspace, typed: tuple[str, str]) -> None:
     watch.watch("frontend", read_module, "read_ros1")
     watch.watch("evaluate", workspace_module, "evaluate_launch")
     watch.watch("rules", workspace_module, "run_rules")
-    gc.set_threshold(25_000, 4, 2_000)  # as the server
+    gc.set_threshold(10_000, 2, 10_000)  # as the server
     texts = Sources()
     engine = Engine(detect(str(made.folder)), texts)
     _ = engine.static(str(made.root)).findings

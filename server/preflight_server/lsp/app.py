@@ -127,8 +127,8 @@ def serve() -> int:
     """
     # Documents and trees are large, short-lived and without cycles: at the usual thresholds a third of the time after
     # a keystroke would go into looking for garbage that is not there. All threads stand still meanwhile, so the two
-    # generations that are looked at often are small: a tenth of a second for both, and not one for the second.
-    gc.set_threshold(25_000, 4, 2_000)
+    # generations that are looked at often are small: 20 ms for both.
+    gc.set_threshold(10_000, 2, 10_000)
     sys.setswitchinterval(_SWITCH)
     logging.basicConfig(level=logging.WARNING, stream=sys.stderr, format="%(levelname)s %(name)s: %(message)s")
     # At INFO pygls logs whole documents.
