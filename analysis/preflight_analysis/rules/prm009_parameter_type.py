@@ -25,18 +25,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     params = graph.tree.params
     reported: set[tuple[str, str]] = set()
-    named = [*filter(None, context.kept.each(_with_default, graph.param_reads))]
-    reads, set_to = [read for _, read in named], [*map(params.get, [name for name, _ in named])]
-    for read, found in filter(None, context.kept.each_row(_refused, (reads, set_to), rule)):
+    set_to = map(params.get, context.kept.each(_name_with_default, graph.param_reads))
+    for read, found in filter(None, context.kept.each_row(_refused, (graph.param_reads, set_to), rule)):
         if (read.name, read.node.name) not in reported:
             reported.add((read.name, read.node.name))
             yield found
 
 
-def _with_default(read: ParamRead) -> tuple[str, ParamRead] | None:
-    """The read with its name, if it is one whose default tells of what kind the value is."""
+def _name_with_default(read: ParamRead) -> str:
+    """The name of a read whose default tells of what kind the value is; none for others."""
     use = read.use
-    return (read.name, read) if use.has_default and not use.builtin and use.access == "get" else None
+    return read.name if use.has_default and not use.builtin and use.access == "get" else ""
 
 
 def _refused(read: ParamRead, param: Param | None, rule: Rule) -> tuple[ParamRead, Finding] | None:
