@@ -84,7 +84,7 @@ def _with_files(folder: Path, *files: str) -> list[Finding]:
     return [each for each, _ in workspace.branches(static).findings if each.rule == "PRM018"]
 
 
-@pytest.mark.parametrize("place", ["src/robot/p/config/nav.yaml", "src/robot/config/nav.yaml"])
+@pytest.mark.parametrize("place", ["src/robot/p/config/nav.yaml", "src/robot/config/nav.yaml", "params/nav.yaml"])
 def test_a_file_of_the_package_or_beside_it_that_no_node_gets(tmp_path: Path, place: str) -> None:
     (finding,) = _with_files(tmp_path, place)
     assert (finding.severity, finding.confidence) == ("warning", "likely")
@@ -93,4 +93,6 @@ def test_a_file_of_the_package_or_beside_it_that_no_node_gets(tmp_path: Path, pl
 
 @pytest.mark.silent
 def test_a_file_that_is_of_something_else(tmp_path: Path) -> None:
-    assert not _with_files(tmp_path, "src/robot/docs/nav.yaml", "config/nav.yaml", "src/robot/p/test/config/nav.yaml")
+    assert not _with_files(
+        tmp_path, "src/robot/docs/nav.yaml", "docs/config/nav.yaml", "src/robot/p/test/config/nav.yaml"
+    )

@@ -60,12 +60,10 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
 def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:
     """That of the package, and those of parameter files beside the packages of its repository; what they are below."""
     yield share, share
-    workspace = context.environment.workspace
-    if workspace is None:
-        return
+    workspace = (context.environment.workspace or "").rstrip("/")
     above = os.path.dirname(share)
     for _ in range(_ABOVE):
-        if not above.startswith(f"{workspace.rstrip('/')}/src/"):
+        if not workspace or not f"{above}/".startswith(f"{workspace}/"):
             return
         found = [os.path.join(above, name) for name in context.disk.names(above) if name in _FOLDERS]
         yield from ((path, above) for path in found if not context.disk.is_link(path))
