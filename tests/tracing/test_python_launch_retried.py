@@ -205,6 +205,24 @@ def generate_launch_description():
         assert [node.name for node in tree.nodes] == names
 
 
+def test_a_try_has_the_time_that_the_first_run_took(harness: PythonHarness) -> None:
+    """As of a file that imports much."""
+    tree = _tree(
+        harness,
+        """
+import time
+import no_such_module
+time.sleep(2.5)
+
+def generate_launch_description():
+    if no_such_module.is_ready():
+        raise ValueError('it is')
+    return LaunchDescription([n('one')])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
+
+
 STARVED = """
 import signal
 import time

@@ -15,11 +15,12 @@ from typing import Any, Optional
 from ..process import own_seconds
 
 MAX_TRIES = 10
-MAX_SECONDS = 4.0
-"""By `own_seconds`, after which no further try is begun; the last one and that with all variables end before the run's
-own limit."""
+MAX_SECONDS = 5.0
+"""By `own_seconds`, after which no further try is begun."""
 MAX_SECONDS_OF_TRY = 2.0
-"""Likewise."""
+"""Likewise, more than the first run took."""
+MAX_SECONDS_OF_ALL = 9.0
+"""Likewise: they end before the run's own limit."""
 MAX_ANSWERS = 2000
 _VARIABLE = "PREFLIGHT_ANSWERS"
 _ALL_SET = "+"
@@ -43,6 +44,8 @@ class Answers:
         self._part = 0
         self._tries = 0
         self._started = own_seconds(_getpid())
+        self._took = 0.0
+        """The first run."""
         self._all_set = False
         self._first = -1
         """The file that has what the first run told."""
@@ -52,8 +55,8 @@ class Answers:
         said = os.environ.pop(_VARIABLE, None)
         if said is None:
             return False
-        tries, started, first, settled = said.split(":")
-        self._tries, self._started, self._first = int(tries), float(started), int(first)
+        tries, started, took, first, settled = said.split(":")
+        self._tries, self._started, self._took, self._first = int(tries), float(started), float(took), int(first)
         self._all_set = settled.endswith(_ALL_SET)
         self._settled = [(each in "yY", each in "NY") for each in settled.rstrip(_ALL_SET)]
         return True
@@ -89,6 +92,10 @@ class Answers:
         with open(self._first, encoding="utf-8", closefd=False) as file:
             return file.read()
 
+    def seconds_left(self) -> float:
+        """By `own_seconds`, what a try that begins now has: one that imports much takes as long as the first run."""
+        return min(MAX_SECONDS_OF_TRY + self._took, MAX_SECONDS_OF_ALL - self._passed())
+
     def try_again(self, environment: dict[str, str], text: str) -> None:
         """Execute the program anew with the next answers, and, where all that have been tried raise, with all variables
         set. `text` is what this run tells. Comes back where there is nothing more to try; raises what `os` does."""
@@ -99,20 +106,21 @@ class Answers:
         if settled is None and (self._all_set or len(self._variables) < 2):
             return
         if not self._tries:
-            if self._is_late():
+            if self._passed() > MAX_SECONDS:
                 return
+            self._took = self._passed()
             self._first = os.memfd_create("first")
             with open(self._first, "w", encoding="utf-8", closefd=False) as file:
                 file.write(text)
         os.set_inheritable(self._first, True)
         path = "".join("nyNY"[answer + 2 * both] for answer, both in settled or self._before(self._part))
         path += _ALL_SET if settled is None else ""
-        said = f"{self._tries + 1}:{self._started}:{self._first}:{path}"
+        said = f"{self._tries + 1}:{self._started}:{self._took}:{self._first}:{path}"
         os.execve(sys.executable, [sys.executable, *words[1:]], {**environment, _VARIABLE: said})  # noqa: S606
 
     def _next(self) -> Optional[list[tuple[bool, bool]]]:
         """The answers of the next run; None where there is none. Of a place that asks often the last one counts."""
-        if self._tries >= MAX_TRIES or self._is_late():
+        if self._tries >= MAX_TRIES or self._passed() > MAX_SECONDS:
             return None
         places: set[Any] = set()
         for at in range(len(self._given) - 1, self._part - 1, -1):
@@ -122,8 +130,8 @@ class Answers:
             places.add(place)
         return None
 
-    def _is_late(self) -> bool:
-        return own_seconds(_getpid()) - self._started > MAX_SECONDS
+    def _passed(self) -> float:
+        return own_seconds(_getpid()) - self._started
 
     def _before(self, end: int) -> list[tuple[bool, bool]]:
         tried = [both for _, both in self._settled]

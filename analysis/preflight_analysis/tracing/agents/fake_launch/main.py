@@ -22,7 +22,6 @@ from typing import Any, Callable, Optional
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from ..process import own_seconds
 from . import installed, programs, reads, rewrites, rewritten, unknown_files
-from .answers import MAX_SECONDS_OF_TRY
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -72,7 +71,7 @@ def main() -> None:
             os._exit(0)
 
     def wait_for_end() -> None:
-        deadline = own_seconds(this) + MAX_SECONDS_OF_TRY
+        deadline = own_seconds(this) + RECORDER.answers.seconds_left()
         while (left := deadline - own_seconds(this)) > 0:
             if has_ended.wait(left):
                 return
