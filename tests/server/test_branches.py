@@ -41,3 +41,49 @@ async def test_what_is_not_saved_counts_in_what_only_a_condition_includes(harnes
         assert "(if sim:=true)" in (await editor.having(path, "ARG002")).message
         editor.change(inner, "<launch/>\n")
         await editor.without(path, "ARG002")
+
+
+PYTHON = """import os
+import sys
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+sys.path.insert(0, os.path.dirname(__file__))
+from models import MODELS
+
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument('model', choices=MODELS)])
+"""
+INCLUDES = """<launch>
+  <arg name="sim" default="false"/>
+  <include if="$(var sim)" file="$(dirname)/inner.launch.py">
+    <arg name="model" value="s1"/>
+  </include>
+</launch>
+"""
+
+
+async def test_python_launch_files_that_only_a_branch_includes_are_run(harness: Harness) -> None:
+    folder = harness.home / "robots" / "launch"
+    folder.mkdir(parents=True)
+    ran, models, path = folder / "ran", folder / "models.py", folder / "outer.launch.xml"
+    tries = f"try: open({str(ran)!r}, 'w')\nexcept OSError: pass\n"
+    (folder / "inner.launch.py").write_text(tries + PYTHON)
+    models.write_text("MODELS = ['a1', 's2']\n")
+    path.write_text(INCLUDES)
+    async with editing(harness, folder=harness.home / "robots") as editor:
+        editor.open(path)
+        editor.change(
+            path, INCLUDES.replace("<launch>\n", '<launch>\n  <include if="$(var sim)" file="/none.launch"/>\n')
+        )
+        await editor.having(path, "LCH013")
+        assert harness.sandbox_starts() == 0, "nothing is run without trust"
+        assert "ARG009" not in (editor.rules(path) or ())
+        editor.trust()
+        found = await editor.having(path, "ARG009", seconds=60)
+        assert "(if sim:=true)" in found.message
+        assert editor.covered(path, found.range) == "s1"
+        models.write_text("MODELS = ['s1', 's2']\n")
+        editor.watched(models)
+        await editor.without(path, "ARG009", seconds=60)
+        assert not ran.exists()

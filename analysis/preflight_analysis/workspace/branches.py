@@ -61,12 +61,12 @@ class WhatIf:
 class Branches:
     """What is found in the tags and files that a launch leaves out, each finding with the text that it is about.
     `documents` are those of the files that it speaks of, `untried` is the number of tags that were not looked into, as
-    there are so many. `pending` are the runs of Python launch files that have yet to be made to know more."""
+    there are so many. `asked` are the runs of Python launch files that it takes, made or not."""
 
     findings: tuple[tuple[Finding, str], ...] = ()
     documents: Mapping[str, Document] = field(default_factory=dict, compare=False, repr=False)
     untried: int = 0
-    pending: tuple[str, ...] = ()
+    asked: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
     def with_others(self, found: Iterable[Finding], disk: Disk) -> Branches:
         """With findings of other files that the launch leaves out."""
@@ -104,16 +104,14 @@ class _Search:
         self._findings: dict[tuple[str, Location], tuple[Finding, str]] = {}
         self._documents: dict[str, Document] = {}
         self._untried: set[Location] = set()
-        self._pending: list[str] = []
+        self._asked: dict[str, None] = {}
 
     def branches(self) -> Branches:
         """All that is found."""
         for key, left_out in self._by_arguments().items():
             for together in _compatible(left_out):
                 self._assume(dict(key), together)
-        return Branches(
-            tuple(self._findings.values()), self._documents, len(self._untried), tuple(dict.fromkeys(self._pending))
-        )
+        return Branches(tuple(self._findings.values()), self._documents, len(self._untried), tuple(self._asked))
 
     def _by_arguments(self) -> dict[_Key, list[NotTaken]]:
         """Look at each branch that arguments take. Gives the others, by the arguments that lead there."""
@@ -150,7 +148,7 @@ class _Search:
         found = self._what_ifs.get(key)
         if found is None and self._has_room():
             found = self._what_ifs[key] = self._ask(args, frozenset())
-            self._pending += (each.line for each in found.tree.commands if each.launch_file and each.result is None)
+            self._asked.update((each.line, None) for each in found.tree.commands if each.launch_file)
             self._launch_files = {**found.launch_files, **self._launch_files}
         return found
 

@@ -91,7 +91,7 @@ class OpenWorkspace:
         include."""
         found = self.workspace.branches(analysis)
         for _ in range(MAX_ROUNDS):
-            lines = [line for line in found.pending if line not in self._tried]
+            lines = [line for line in found.asked if line not in self._tried]
             if self.no_run or not lines:
                 break
             self._tried.update(lines)

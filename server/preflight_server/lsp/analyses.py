@@ -20,6 +20,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.rounds import Round, Snapshot, branches_of
@@ -173,7 +174,9 @@ class Analyses:
                 return  # they are looked into at the next pause
             for root in self._wanted():
                 found = None
-                while found is None:
+                rounds = 0
+                while found is None or (rounds < MAX_ROUNDS and await self._session.runs.of_branches(found.asked)):
+                    rounds += found is not None
                     try:
                         found = await self._session.in_pool(
                             partial(branches_of, workspace, root, lambda: self._session.is_closed)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -84,19 +84,31 @@ class CommandRuns:
     async def round(self, analysis: Analysis, pool: ThreadPoolExecutor, broken: Broken) -> bool:
         """Look up, then run, the commands of one root but those that are being typed. Whether the root is to be
         analysed again before its nodes."""
-        runner, edition = self._runner, self._edition
         whole = (command.line for command in analysis.tree.commands if not broken.touches(command.origin))
-        lines = [line for line in dict.fromkeys(whole) if line not in self._current]
-        if runner is not None and lines:
-            found = await self._session.in_pool(lambda: {line: runner.lookup(line) for line in lines})
+        has_all = await self._bring(whole, pool)
+        changed = any(self.results.result(command.line) != command.result for command in analysis.tree.commands)
+        if changed:
+            self._session.analyses.ask_again()
+        return changed or not has_all
+
+    async def more(self, lines: Collection[str], pool: ThreadPoolExecutor) -> bool:
+        """Look up, then run, what no root itself asks for. Whether to ask again what lines there are: there is news, or
+        something ended the runs before they did."""
+        before = [self.results.result(line) for line in lines]
+        has_all = await self._bring(lines, pool)
+        return not has_all or before != [self.results.result(line) for line in lines]
+
+    async def _bring(self, lines: Iterable[str], pool: ThreadPoolExecutor) -> bool:
+        """Look up, then run, those whose result is not up to date. Whether all are now."""
+        runner, edition = self._runner, self._edition
+        old = [line for line in dict.fromkeys(lines) if line not in self._current]
+        if runner is not None and old:
+            found = await self._session.in_pool(lambda: {line: runner.lookup(line) for line in old})
             self._take({line: hit for line, hit in found.items() if hit is not None}, edition)
             missing = [line for line, hit in found.items() if hit is None]
             if missing and self._why_not_run() is None:  # trust may have been withdrawn meanwhile
                 self._take(await self._run(runner, missing, pool), edition)
-        changed = any(self.results.result(command.line) != command.result for command in analysis.tree.commands)
-        if changed:
-            self._session.analyses.ask_again()
-        return changed or not self._current.issuperset(lines)
+        return self._current.issuperset(old)
 
     def _take(self, results: Mapping[str, CommandResult], edition: int) -> None:
         if edition == self._edition:

@@ -49,6 +49,7 @@ class Round:
 def branches_of(workspace: Workspace, root: Root, stops: Callable[[], bool]) -> Branches | None:
     """What is found in the tags that a launch leaves out; None where something was written before that was known, or
     it `stops`. Call it in a thread."""
+    workspace.look_at_results()
     evaluated = workspace.evaluated(root.path, dict(root.args))
     with suppress(Cancelled), workspace.sources.db.reading():
         return workspace.branches(evaluated, stops)

@@ -170,10 +170,22 @@ class Runs:
         self._wanted = True
         if self._loop is None or self._loop.done():
             self._loop = self._server.spawn(self._rounds())
+            self.commands.reconsider(self._session.analyses.of_roots())  # of branches: that must not keep it waiting
         elif self._batch is not None:
             self._server.spawn(self._reconsider(self._batch))
         else:
             self.commands.reconsider(self._session.analyses.of_roots())
+
+    async def of_branches(self, lines: Collection[str]) -> bool:
+        """Run the Python launch files that only branches reach, where nodes may be run. Whether to ask again what lines
+        there are."""
+        if not lines or self._closing:
+            return False
+        await self._probe()
+        async with self._server.turn_to_run:
+            if self._closing or self.why_not_run is not None:
+                return False
+            return await self.commands.more(lines, self._pool)
 
     def cancel(self, token: int | str) -> None:
         """The user cancelled a batch."""
