@@ -1,5 +1,6 @@
 """Remaps that the launch files around one write otherwise: TOP001, TOP002 and SRV001."""
 
+import time
 from pathlib import Path
 
 import pytest
@@ -63,3 +64,13 @@ def test_others_than_slips_in_the_same_place_are_no_news(tmp_path: Path, name: s
     said = f"hint[TOP001] publishes '{name}' (sensor_msgs/LaserScan), to which /robot/listener subscribes"
     (finding,) = check(_fixture(tmp_path, said, "subscribers", "sensor_msgs/LaserScan", name, others))
     assert "did you mean" not in finding.message
+
+
+def test_files_of_blanks_take_no_time(tmp_path: Path) -> None:
+    blanks = ["\n" * 200_000, " \t" * 100_000, "- " * 100_000, "(" * 200_000, "<remap to='" * 20_000]
+    for at, text in enumerate(blanks):
+        (tmp_path / f"blank{at}.launch").write_text(text)
+    said = "hint[TOP001] publishes '/base_scann'"
+    started = time.process_time()
+    check(_fixture(tmp_path, said, "subscribers", "sensor_msgs/LaserScan", "/base_scann", ["/base_scan"]))
+    assert time.process_time() - started < 10

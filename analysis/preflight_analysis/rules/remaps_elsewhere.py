@@ -19,7 +19,7 @@ from preflight_analysis.rules.written_elsewhere import around
 _TARGETS = re.compile(
     r"""<remap\b[^<>]*?\bto\s*=\s*["']([\w/~]+)["']"""
     r"""|\(\s*["'][\w/~]+["']\s*,\s*["']([\w/~]+)["']\s*,?\s*\)"""
-    r"""|^\s*(?:-\s*)?to\s*:\s*["']?([\w/~]+)["']?\s*$""",
+    r"""|^[ \t]*(?:-[ \t]*)?to[ \t]*:[ \t]*["']?([\w/~]+)["']?[ \t]*$""",
     re.MULTILINE,
 )
 """In XML, Python and YAML; only names that are written out."""

@@ -11,6 +11,7 @@ from itertools import chain
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
@@ -32,28 +33,26 @@ def in_package(context: Context, pattern: re.Pattern[str]) -> Mapping[str, int]:
 
 def around(context: Context, pattern: re.Pattern[str]) -> Mapping[str, int]:
     """As `in_package`, with the packages beside that: a robot's description, navigation, ... mostly are."""
-    package = package_around(context.environment, context.root)
-    if package is None:
-        return {}
-    beside = os.path.dirname(package.share)
-    shares = {each.share for each in context.environment.packages.values() if os.path.dirname(each.share) == beside}
-    if len(shares) > _MOST_PACKAGES:
-        shares = {package.share}
-    return _in_folders(context.disk.db, tuple(sorted(shares)), pattern)
+    return _around(context.disk.db, context.environment, context.root, pattern)
 
 
 @query
-def _in_folders(db: Database, folders: tuple[str, ...], pattern: re.Pattern[str]) -> Mapping[str, int]:
+def _around(db: Database, environment: Environment, root: str, pattern: re.Pattern[str]) -> Mapping[str, int]:
+    package = package_around(environment, root)
+    if package is None:
+        return {}
+    beside = os.path.dirname(package.share)
+    shares = {each.share for each in environment.packages.values() if os.path.dirname(each.share) == beside}
     counts: Counter[str] = Counter()
-    for folder in folders:
-        counts.update(_in_folder(db, folder, pattern))
-    return counts
+    for share in shares if len(shares) <= _MOST_PACKAGES else (package.share,):
+        counts.update(_in_folder(db, share, pattern))
+    return dict(counts)
 
 
 @query
 def _in_folder(db: Database, folder: str, pattern: re.Pattern[str]) -> Mapping[str, int]:
     paths = [path for path in files_in(Disk(db), folder, deep=True) if path.endswith(LAUNCH_SUFFIXES)]
-    return Counter(chain.from_iterable(_in_file(db, path, pattern) for path in paths[:_MOST]))
+    return dict(Counter(chain.from_iterable(_in_file(db, path, pattern) for path in paths[:_MOST])))
 
 
 @query
