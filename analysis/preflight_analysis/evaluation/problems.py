@@ -181,6 +181,15 @@ class UnsetVariable(OfName):
     __slots__ = ()
 
 
+@dataclass(frozen=True, slots=True)
+class AssumedVariable(OfName):
+    """A Python launch file asks for an environment variable of ROS that is not set, and got a likely value."""
+
+    usually_fatal = False
+
+    value: str
+
+
 class PackageNotFound(OfName):
     """`$(find)` of a package that is not there."""
 

@@ -103,9 +103,11 @@ def lack_of_build(context: Context, package: str) -> Lack:
 
 def lack_of_variable(context: Context, name: str) -> Lack | None:
     """A variable that is not set; None where its name is a slip of one that is."""
-    near = near_variable(context, name)
-    if near is not None:
-        return None
+    return None if near_variable(context, name) is not None else unset_variable(context, name)
+
+
+def unset_variable(context: Context, name: str) -> Lack:
+    """A variable that is not set, whatever others are."""
     distro = context.environment.distro or context.tree.ros.default_distro
     return Lack("variable", name, f"source /opt/ros/{distro}/setup.bash" if _SET_UP.match(name) else None)
 

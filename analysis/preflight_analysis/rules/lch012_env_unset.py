@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.problems import UnsetVariable
+from preflight_analysis.evaluation.problems import AssumedVariable, UnsetVariable
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.installed import lack_of_variable, near_variable
+from preflight_analysis.rules.installed import lack_of_variable, near_variable, unset_variable
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -21,6 +21,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             fixes=rename(context, problem.location, name, near) if near is not None else (),
             lack=lack,
         )
+    for assumed in problems_of(context, AssumedVariable):
+        name = assumed.kind.name
+        message = f"environment variable '{name}' is not set: '{assumed.kind.value}' is assumed"
+        yield problem_finding(rule, assumed, message, lack=unset_variable(context, name))
 
 
 RULE = Rule(
@@ -29,11 +33,12 @@ RULE = Rule(
     severity="warning",
     what="Reports `$(env NAME)`, and `os.environ['NAME']` in a Python launch file, of a variable that is not set in "
     "the environment in which the analysis looks, and whose name is a slip of the name of one that is. Any other may "
-    "be set on the robot: that is a hint only, and told with what else is missing on this machine.",
+    "be set on the robot: that is a hint only, and told with what else is missing on this machine. So is what a Python "
+    "launch file gets for `ROS_DISTRO` where no distribution is sourced or installed.",
     why="`roslaunch` stops where the variable is not set.",
     example='<param name="map" value="$(env HOEM)/maps/office.yaml"/>',
     instead='<param name="map" value="$(env HOME)/maps/office.yaml"/>',
     check=_check,
-    problems=(UnsetVariable,),
+    problems=(UnsetVariable, AssumedVariable),
     in_branches=True,
 )

@@ -18,7 +18,7 @@ from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.ament import DISTRIBUTIONS
+from preflight_analysis.environment.ament import DISTRIBUTIONS, distribution
 from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import interior, ros2_recipe
@@ -40,21 +40,23 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     """The recipe of a request (`evaluation.ros2.python_runs.parse_request`) in an environment as ROS 2 sees it."""
     # What the file imports is what the user's ROS 2 has, and that is for its interpreter.
     python = environment.ros2_python or environment.python or sys.executable
+    # `ros2 launch` runs where a distribution is sourced, whatever is installed here.
+    known = distribution(environment.variables, environment.ament_prefixes)
+    distro = known or DISTRIBUTIONS[-1]
+    sourced = {"AMENT_PREFIX_PATH": f"/opt/ros/{distro}", "ROS_DISTRO": distro}
     job = {
         **request,
         "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
         "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
         "own_xacro": _own_xacro(),
+        "assumed": [] if known else sorted(sourced.keys() - environment.variables.keys()),
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()
     words = [data[start : start + _WORD] for start in range(0, len(data), _WORD)]
     recipe = ros2_recipe.make_command(environment, python, ("-c", _START, *words), cwd)
     fixed = {"PYTHONHASHSEED": "0"}
-    # `ros2 launch` runs where a distribution is sourced, whatever is installed here.
-    distro = environment.distro or DISTRIBUTIONS[-1]
-    sourced = {"AMENT_PREFIX_PATH": f"/opt/ros/{distro}", "ROS_DISTRO": distro, "ROS_VERSION": "2"}
-    sourced["ROS_PYTHON_VERSION"] = "3"
+    sourced |= {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}
     fixed |= {name: value for name, value in sourced.items() if name not in recipe.env}
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "fake_launch": _edition()}

@@ -25,6 +25,7 @@ from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import (
+    AssumedVariable,
     LaunchFileNotRun,
     NothingToReplace,
     PackageNotFound,
@@ -348,6 +349,7 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
         state.made[path] = Document(path, text, digest(text), (), (), LineIndex(text))
     _guessed(state, place, run, reply.get("guessed"), origin)
     _missed(state, context, place, run, reply.get("missed"), origin)
+    _assumed(state, place, run, reply.get("assumed"), origin)
     _unmatched(state, place, run, reply.get("unmatched"), origin)
     error = reply.get("error")
     if isinstance(error, dict):
@@ -392,6 +394,14 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 state.problem(undeclared, _line(place, run, at, origin), fatal=undeclared.not_followed is None)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
+
+
+def _assumed(state: Collector, place: Place, run: PythonRun, assumed: object, origin: Origin) -> None:
+    """The variables of ROS that it asked for and that are not set."""
+    for each in assumed if isinstance(assumed, list) else ():
+        match each:
+            case [str(name), str(value), at]:
+                state.problem(AssumedVariable(name, value), _line(place, run, at, origin))
 
 
 def _unmatched(state: Collector, place: Place, run: PythonRun, unmatched: object, origin: Origin) -> None:

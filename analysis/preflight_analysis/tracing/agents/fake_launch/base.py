@@ -34,6 +34,10 @@ class Recorder:
         self.packages: dict[str, str] = {}
         self.positions: dict[Any, list[tuple[Any, ...]]] = {}
         self.missed: dict[tuple[str, str], Any] = {}
+        self.assumed: frozenset[str] = frozenset()
+        """Variables of the environment that are not set where the file is launched, and have a likely value here."""
+        self.assumed_in: dict[str, Any] = {}
+        """Those of them that the file asks for, each where it does so first."""
         self.guessed: dict[tuple[str, int], Any] = {}
         """Where the file asks whether something holds that is not known, by what that is and the line."""
         self.unmatched: list[list[Any]] = []
@@ -50,6 +54,7 @@ class Recorder:
     def begin(self) -> None:
         """A further call begins: the answers to those before tell what was missed in them."""
         self.missed.clear()
+        self.assumed_in.clear()
         self.guessed.clear()
         self.unmatched.clear()
         self.answers.begin_part()
@@ -58,6 +63,11 @@ class Recorder:
         """Note a module or package that is not here, where it is asked for first."""
         self.missed.setdefault((what, name), self.place())
         self.unknown = True
+
+    def asks_for(self, variable: Any, frame: Any) -> None:
+        """Note that a program asks for a variable of the environment, where its value is but assumed."""
+        if variable in self.assumed and is_own(frame):
+            self.assumed_in.setdefault(variable, self.place_of(frame))
 
     def guess(self, name: str, frame: Any, answer: bool) -> bool:
         """Note that a program goes on in one way of several, as it asks for something that is not known; the answer

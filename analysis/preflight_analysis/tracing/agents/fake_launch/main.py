@@ -42,6 +42,7 @@ def main() -> None:
     output = os.dup(1)
     os.dup2(2, 1)
     RECORDER.file, RECORDER.packages, RECORDER.own_xacro = job["file"], job["packages"], job["own_xacro"]
+    RECORDER.assumed = frozenset(job["assumed"])
     for name, value in job.get("given", {}).items():
         os.environ.setdefault(name, value)  # what the sandbox sets itself, such as HOME, is so in it
     os.environ.update(job["env"])
@@ -103,6 +104,7 @@ def _answer(work: Callable[[], dict[str, Any]]) -> tuple[str, Optional[dict[str,
         result["read"] = RECORDER.last_reads.record()
     result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
     result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
+    result["assumed"] = [[name, os.environ.get(name, ""), place] for name, place in RECORDER.assumed_in.items()]
     result["unmatched"] = RECORDER.unmatched
     result["files"] = _files()
     return json.dumps(result), result.get("error")

@@ -197,6 +197,7 @@ def _asked(prompt: Any = "") -> str:
 
 def _variable(getitem: Any) -> Any:
     def called(self: Any, key: Any) -> Any:
+        RECORDER.asks_for(key, sys._getframe(1))
         try:
             found = getitem(self, key)
             RECORDER.unknown = RECORDER.unknown or is_unknown(found)
@@ -220,10 +221,12 @@ def _look_for_variables(environment: Any) -> None:
         return bool(is_set(self, key)) or _is_assumed(key, sys._getframe(1))
 
     def found(self: Any, key: Any, default: Any = None) -> Any:
+        RECORDER.asks_for(key, sys._getframe(1))
         assumed = not default and not is_set(self, key) and _is_assumed(key, sys._getframe(1))
         return unknown_text(f"the variable {key}") if assumed else get(self, key, default)
 
     def getenv(key: Any, default: Any = None) -> Any:
+        RECORDER.asks_for(key, sys._getframe(1))
         assumed = not default and not is_set(os.environ, key) and _is_assumed(key, sys._getframe(1))
         return unknown_text(f"the variable {key}") if assumed else get(os.environ, key, default)
 
