@@ -217,4 +217,5 @@ ANSWERS = (
     },
     {"error": {"type": "ValueError", "message": "no", "frames": [["/x.py", 3, "f"]]}},
     {"actions": [{"k": "include", "p": [3, 4], "a": [["file", [{"t": "x"}]]]}], "configurations": {"a": "b"}},
+    {"actions": [], "missed": [["package", "p", None]], "assumed": [["ROS_DISTRO", "rolling", [3, 4]]]},
 )
