@@ -14,7 +14,7 @@ SOURCES = sorted(
     for path in (ROOT / folder).rglob("*.py")
     if "agents" not in path.parts and "node_modules" not in path.parts
 )
-CACHES = {"cache", "lru_cache"}
+CACHES = {"cache", "lru_cache", "once_per_process"}
 CONTAINERS = {
     "dict",
     "list",

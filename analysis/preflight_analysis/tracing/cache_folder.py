@@ -3,7 +3,6 @@ it has to be the user's own."""
 
 from __future__ import annotations
 
-import functools
 import logging
 import os
 import stat
@@ -11,6 +10,8 @@ import tempfile
 from pathlib import Path
 
 import platformdirs
+
+from preflight_analysis.tracing.once_per_process import once_per_process
 
 VARIABLE = "ROS_PREFLIGHT_CACHE_DIR"
 """Names another folder: one that a CI keeps, for instance."""
@@ -36,7 +37,7 @@ def make_private(folder: Path) -> None:
         each.mkdir(mode=0o700, exist_ok=True)
 
 
-@functools.cache
+@once_per_process
 def _in_place_of(refused: str) -> tempfile.TemporaryDirectory[str]:
     _log.warning("%s, so nothing is kept: remove it, or name another one in %s", refused, VARIABLE)
     return tempfile.TemporaryDirectory(prefix="ros-preflight-cache-")

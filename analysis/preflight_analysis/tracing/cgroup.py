@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import functools
 import itertools
 import os
 import time
@@ -18,6 +17,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.tracing.once_per_process import once_per_process
 
 _PREFIX = "ros-preflight-"
 _REMOVAL_SECONDS = 0.5
@@ -32,7 +32,7 @@ class Place:
     memory: bool
 
 
-@functools.lru_cache(maxsize=1)
+@once_per_process
 def place() -> Place | None:
     """Where to make groups, tried out once per process; None where it is not possible or not needed."""
     if os.geteuid() != 0:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 import contextlib
-import functools
 import hashlib
 import logging
 import os
@@ -25,6 +24,7 @@ from preflight_analysis.tracing import run
 from preflight_analysis.tracing.agents.compiling import TOPS
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
+from preflight_analysis.tracing.once_per_process import once_per_process
 
 _log = logging.getLogger(__name__)
 
@@ -81,7 +81,7 @@ class Copies:
                     shutil.rmtree(left)
 
 
-@functools.lru_cache(maxsize=1)
+@once_per_process
 def copies() -> Copies:
     """Those of the user's cache folder."""
     return Copies()

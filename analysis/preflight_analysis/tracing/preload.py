@@ -25,6 +25,7 @@ from pathlib import Path
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
+from preflight_analysis.tracing.once_per_process import once_per_process
 from preflight_analysis.tracing.preload_compile import (
     FLAGS,
     MACHINES,
@@ -167,7 +168,7 @@ class Library:
 _WATCHED = {1: ROSCPP, 2: RCL}
 
 
-@functools.cache
+@once_per_process
 def library(generation: int) -> Library:
     """The one of the user's cache folder for nodes of a generation of ROS."""
     return Library(watched=_WATCHED[generation])

@@ -10,7 +10,6 @@ but an own loopback, and no environment variable but those given. What is guaran
 from __future__ import annotations
 
 import contextlib
-import functools
 import os
 import shutil
 import subprocess
@@ -19,6 +18,7 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import bubblewrap, cgroup, firejail, interior, landlock, seccomp
 from preflight_analysis.tracing.backend import AGENTS, Agents, Backend, Isolated, View, Visible
+from preflight_analysis.tracing.once_per_process import once_per_process
 
 PROCESSES = 512
 """How many processes and threads a run may have at once."""
@@ -67,7 +67,7 @@ def forget() -> None:
     _probed.cache_clear()
 
 
-@functools.lru_cache(maxsize=8)
+@once_per_process
 def _probed(choice: str) -> SandboxStatus:
     wanted = [each for each in BACKENDS if choice in ("", "auto", each.name)]
     if not wanted:
