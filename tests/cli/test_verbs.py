@@ -209,7 +209,7 @@ def test_an_interrupt_ends_the_runs(harness: Harness) -> None:
         os.kill(process.pid, signal.SIGINT)
         out, err = process.communicate(timeout=50)  # the node sleeps for a minute
     assert (process.returncode, out, err) == (2, "", "ros-preflight: interrupted\n")
-    assert harness.processes() == []
+    until(lambda: harness.processes() == [])
 
 
 def test_lsp_takes_what_editors_add(harness: Harness) -> None:

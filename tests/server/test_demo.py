@@ -6,6 +6,7 @@ import pytest
 from lsprotocol import types
 from support.editor_harness import Harness
 from support.lsp_client import ENCODINGS, capabilities, editing
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 
@@ -31,7 +32,7 @@ async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
         assert '<remap from="chatter" to="chatter"/>' in editor.texts[harness.launch_file]
         # The mended remap now says what would be so without it.
         await editor.until(lambda: editor.rules(harness.launch_file) == ["LCH024"])
-    assert harness.processes() == []
+    until(lambda: harness.processes() == [])
 
 
 async def test_a_remap_needs_no_new_run(harness: Harness) -> None:

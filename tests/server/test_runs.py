@@ -11,6 +11,7 @@ from lsprotocol import types
 from support.editor_harness import Harness
 from support.lsp_client import Editor, editing
 from support.tracing_harness import processes_with
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 
@@ -53,7 +54,7 @@ async def test_the_user_can_cancel(harness: Harness, slow: Path) -> None:
         editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams(token))
         found = await editor.having(slow, "TRC004")
         assert "cancelled" in found.message
-        assert editor.progress[token][-1]["kind"] == "end"
+        await editor.until(lambda: editor.progress[token][-1]["kind"] == "end")
         starts = harness.sandbox_starts()
         editor.replace(slow, 8, 8, "\n")
         await editor.having(slow, "TRC004")  # of the text after the edit
@@ -108,7 +109,7 @@ async def test_shutdown_ends_the_runs(harness: Harness, slow: Path) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(slow)
         await running(editor, harness)
-    assert harness.processes() == []
+    until(lambda: harness.processes() == [])
 
 
 async def test_a_client_that_vanishes_leaves_nothing_running(harness: Harness, slow: Path) -> None:

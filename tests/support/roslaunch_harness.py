@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import socket
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -12,13 +11,8 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
 
+from support.live_harness import private_port
 from support.tracing_harness import ROS1_FIXTURES, SYSTEM_PYTHON
-
-
-def free_port() -> int:
-    with socket.socket() as listening:
-        listening.bind(("127.0.0.1", 0))
-        return int(listening.getsockname()[1])
 
 
 def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, display: str = "") -> dict[str, Any]:
@@ -34,7 +28,7 @@ def launched(launch_file: Path, folder: Path, packages: Path = ROS1_FIXTURES, di
     }
     script = Path(__file__).parents[1] / "tracing" / "observe_launch.py"
     done = subprocess.run(
-        [SYSTEM_PYTHON, str(script), str(launch_file), str(free_port())],
+        [SYSTEM_PYTHON, str(script), str(launch_file), str(private_port())],
         env=env,
         capture_output=True,
         text=True,

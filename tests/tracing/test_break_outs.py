@@ -17,6 +17,7 @@ from preflight_analysis.tracing import run
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import environment, own, planted_key, processes_with, request, trace, write_node
+from support.waiting import until
 
 pytestmark = pytest.mark.ros
 
@@ -188,7 +189,7 @@ def test_killing_everything_leaves_nothing(tmp_path: Path) -> None:
     marker = f"preflight-{uuid.uuid4()}"
     outcome = trace(write_node(tmp_path, body), args=(marker,)).outcome
     assert outcome.status == "not-run", outcome
-    assert processes_with(marker) == []
+    until(lambda: processes_with(marker) == [])
 
 
 @pytest.mark.usefixtures("each_backend")

@@ -156,7 +156,7 @@ def test_a_node_that_never_starts_ends_in_time(tmp_path: Path) -> None:
     found = trace(write_node(tmp_path, "import time\nwhile True:\n    time.sleep(60)\n"))
     assert found.outcome.status == "timed-out"
     assert found.outcome.reason == "it did not reach its event loop within 5 s, nor register as a node"
-    assert time.monotonic() - began < run.WALL_SECONDS + run.STRETCH_SECONDS + 2
+    assert time.monotonic() - began < 60
 
 
 @pytest.mark.usefixtures("each_backend")

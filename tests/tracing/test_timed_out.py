@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from preflight_analysis.tracing import run
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.observation import observe
 from preflight_analysis.tracing.run import RawRun
@@ -81,7 +82,11 @@ def test_a_node_that_was_busy_all_the_time_is_slow(tmp_path: Path) -> None:
 
 
 @pytest.mark.ros
-def test_what_others_do_with_the_processor_is_not_the_nodes_time(tmp_path: Path) -> None:
+def test_what_others_do_with_the_processor_is_not_the_nodes_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "WALL_SECONDS", 3.0)
+    monkeypatch.setattr(run, "STRETCH_SECONDS", 40.0)  # other tests may be on the same processor
     script = write_node(
         tmp_path,
         """
@@ -89,7 +94,7 @@ def test_what_others_do_with_the_processor_is_not_the_nodes_time(tmp_path: Path)
         import rospy
         from std_msgs.msg import String
         rospy.init_node("n")
-        while time.process_time() < 2.5:
+        while time.process_time() < 2:
             pass
         rospy.Publisher("late", String, queue_size=1)
         rospy.spin()
@@ -97,7 +102,7 @@ def test_what_others_do_with_the_processor_is_not_the_nodes_time(tmp_path: Path)
     )
     before = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(before)})
-    others = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
+    others = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(3)]
     try:
         found = trace(script)
     finally:
@@ -108,4 +113,4 @@ def test_what_others_do_with_the_processor_is_not_the_nodes_time(tmp_path: Path)
     assert found.outcome.status == "spinning", found.outcome
     assert own(found) == {("publisher", "late", "std_msgs/String")}
     # It had to wait; for how long is the kernel's business, which shares between groups of processes.
-    assert found.outcome.seconds > 3
+    assert found.outcome.seconds > run.WALL_SECONDS
