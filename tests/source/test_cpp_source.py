@@ -738,7 +738,8 @@ def test_an_unbuilt_workspace_in_the_editor(harness: Harness) -> None:
     )
     workspace = Workspace(harness.environment, harness.sources, str(harness.folder))
     analysis = workspace.static(str(path))
-    whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
+    interfaces = [not_run(node, workspace.executables) for node in analysis.tree.nodes]
+    whole = workspace.with_interfaces(analysis, interfaces, None)
     found: dict[str, Any] = {finding.rule: finding for finding in whole.findings}
     assert found["PKG002"].severity == "hint"
     assert (found["TOP001"].severity, "chatter" in found["TOP001"].message) == ("warning", True)
@@ -794,7 +795,8 @@ def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(har
         path = harness.write("main.launch", text % topic)
         workspace = Workspace(harness.environment, harness.sources, str(harness.folder))
         analysis = workspace.static(str(path))
-        whole = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
+        interfaces = [not_run(node, workspace.executables) for node in analysis.tree.nodes]
+        whole = workspace.with_interfaces(analysis, interfaces, None)
         return [finding.message for finding in whole.findings if finding.rule == "TOP001"]
 
     (message,) = dangling("imu/data")

@@ -57,7 +57,8 @@ def _findings(harness: SourceHarness, launch: str) -> dict[str, Finding]:
     harness.sources.look()
     workspace = Workspace(harness.environment, harness.sources, str(harness.folder))
     analysis = workspace.static(str(path))
-    done = workspace.with_interfaces(analysis, [not_run(node) for node in analysis.tree.nodes], None)
+    interfaces = [not_run(node, workspace.executables) for node in analysis.tree.nodes]
+    done = workspace.with_interfaces(analysis, interfaces, None)
     return {finding.rule: finding for finding in done.findings}
 
 

@@ -119,6 +119,8 @@ class _EveryExecutable:
         path = f"{found.share}/{name}"
         return Executable(path, (path,), found.share)
 
+    component = find
+
 
 def read_fixture(text: str) -> Fixture:
     """Take a fixture apart."""

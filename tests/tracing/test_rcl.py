@@ -285,3 +285,11 @@ def test_a_library_for_other_machines_needs_no_newer_system_than_humble_has(tmp_
     newest = {"GLIBC": (2, 35), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12, 0, 0)}
     assert {name for name, _ in needed} <= set(newest)
     assert [(name, version) for name, version in needed if version > newest[name]] == []
+
+
+def test_a_container_is_run_as_any_other_node(tmp_path: Path) -> None:
+    graph = (
+        RclHarness(tmp_path).check("<node_container pkg='cpkg' exec='node' args='ends' name='box' namespace=''/>").graph
+    )
+    assert graph is not None
+    assert (graph.processes[0].outcome.status, set(ends(graph.processes[0]))) == ("spinning", set(ALL))

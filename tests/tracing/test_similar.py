@@ -76,7 +76,7 @@ class Harness:
         workspace = Workspace(self.environment, Sources(), str(self.package), similar=similar)
         static = workspace.static(str(path))
         interfaces = [
-            self._trace(request) if run and request else not_run(node, "not trusted")
+            self._trace(request) if run and request else not_run(node, workspace.executables, "not trusted")
             for node, request in zip(static.tree.nodes, workspace.requests(static), strict=True)
         ]
         return workspace.with_interfaces(static, interfaces, None if run else "not trusted")

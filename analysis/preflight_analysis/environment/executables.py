@@ -68,6 +68,11 @@ class ExecutableIndex:
         registers them, sorted; empty where nothing of that is known."""
         return _components(self._db, self._environment, package)
 
+    def component(self, package: str, plugin: str) -> Executable:
+        """The library that a container loads for the class of a package: of the first prefix that lists the package's
+        components, as `ament_index_cpp` looks for it."""
+        return _component(self._db, self._environment, package, plugin)
+
 
 @query
 def _find(db: Database, environment: Environment, package: str, name: str) -> Executable:
@@ -151,11 +156,29 @@ def _names(db: Database, environment: Environment, package: str) -> tuple[str, .
 @query
 def _components(db: Database, environment: Environment, package: str) -> tuple[str, ...]:
     found = set(_build(db, environment, package).components)
+    for _, listed in _listed_components(db, environment, package):
+        found.update(listed)
+    return tuple(sorted(found))
+
+
+@query
+def _component(db: Database, environment: Environment, package: str, plugin: str) -> Executable:
+    found = environment.packages.get(package)
+    if found is None:
+        return Executable(None)
+    prefix, listed = next(_listed_components(db, environment, package), ("", {}))
+    library = os.path.join(prefix, listed.get(plugin, ""))
+    there = plugin in listed and Disk(db).is_file(library)
+    return Executable(library if there else None, (library,) if there else (), found.share)
+
+
+def _listed_components(db: Database, environment: Environment, package: str) -> Iterator[tuple[str, Mapping[str, str]]]:
+    """The prefixes that list components of a package, each with the libraries by class."""
     for prefix in environment.ament_prefixes:
         listed = Disk(db).content(os.path.join(prefix, _COMPONENTS, package))
         if listed is not None:
-            found |= {line.partition(";")[0].strip() for line in listed.splitlines()}
-    return tuple(sorted(found - {""}))
+            lines = (line.partition(";") for line in listed.splitlines())
+            yield prefix, {cls.strip(): library.strip() for cls, _, library in lines if cls.strip()}
 
 
 def _folders(db: Database, environment: Environment, package: str, share: str) -> Iterator[str]:

@@ -26,6 +26,9 @@ class Executables(Protocol):
     def find(self, package: str, name: str) -> Executable:
         """The executable as roslaunch finds it."""
 
+    def component(self, package: str, plugin: str) -> Executable:
+        """The library that a container of ROS 2 loads for a class."""
+
 
 def without_dots(disk: Disk, path: str) -> str | None:
     """`path` without `..`, None where that goes up from a folder that is not there.

@@ -50,6 +50,11 @@ def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = st
     return best[2] if best else None
 
 
+def nearest_class(name: str, candidates: Iterable[str]) -> str | None:
+    """Likewise for the name of a C++ class, of which the namespaces may be wrong or missing."""
+    return nearest(name, candidates) or nearest(name, candidates, key=lambda each: each.rpartition("::")[2])
+
+
 def is_slip(name: str, other: str) -> bool:
     """Whether they are one small edit apart, two of long names, and have the same numbers: evidence enough for a change
     that is made for the user, or for calling an unknown name wrong."""

@@ -26,6 +26,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if found.path is not None or found.package_path is None or not program_known(node):
             continue
+        if node.kind == "composable":
+            continue  # a library, of which PKG006 speaks
         if was_removed(context, node):
             continue
         location = attribute_location(context, node, context.tree.ros.executable)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.nearest import did_you_mean, nearest_class
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -18,7 +18,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # A word of the build files that is not understood as a registration may well be one.
         if not registered or node.plugin in registered or executables.is_build_target(node.package, node.plugin):
             continue
-        near = nearest(node.plugin, registered) or nearest(node.plugin, registered, key=_class)
+        near = nearest_class(node.plugin, registered)
         location = attribute_location(context, node, "plugin")
         yield rule.finding(
             f"package '{node.package}' registers no component '{node.plugin}'; it registers {len(registered)}"
@@ -29,10 +29,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=include_chain(node.origin),
             fixes=rename(context, location, node.plugin, near) if near else (),
         )
-
-
-def _class(name: str) -> str:
-    return name.rpartition("::")[2]
 
 
 RULE = Rule(

@@ -5,19 +5,36 @@ from __future__ import annotations
 from functools import lru_cache
 
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.rules.nearest import did_you_mean, nearest_class
+from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.tracing.interface import Interface, Outcome
 
 
-def not_run(node: LaunchNode, reason: str | None = None) -> Interface:
-    """An empty interface that says why: what the launch file leaves unknown, no executable, or else `reason`."""
+def not_run(node: LaunchNode, executables: ExecutableNames, reason: str | None = None) -> Interface:
+    """An empty interface that says why: what the launch file leaves unknown, nothing that could be run, or else
+    `reason`."""
     if node.unknowns:
         first = node.unknowns[0]
         reason = f"{first.what} is not known ({first.reason})"
-    elif node.resolved.path is None and node.resolved.not_executable:
-        reason = f"'{node.resolved.not_executable[0]}' is not executable"
     elif node.resolved.path is None:
-        reason = f"there is no executable {node.executable!r} in package {node.package!r}"
+        reason = _why_not_there(node, executables)
     return _not_run(reason)
+
+
+def _why_not_there(node: LaunchNode, executables: ExecutableNames) -> str:
+    if node.resolved.not_executable:
+        return f"'{node.resolved.not_executable[0]}' is not executable"
+    if node.package and node.resolved.package_path is None:
+        return f"package {node.package!r} is not installed here"
+    if node.plugin is None:
+        return f"there is no executable {node.executable!r} in package {node.package!r}"
+    registered = executables.components(node.package)
+    if node.plugin in registered:
+        return "it is not built yet"
+    if not registered:
+        return f"no component of package {node.package!r} is known here"
+    near = nearest_class(node.plugin, registered)
+    return f"package {node.package!r} registers no component {node.plugin!r}{did_you_mean(near)}"
 
 
 @lru_cache(maxsize=1024)

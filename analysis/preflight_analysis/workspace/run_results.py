@@ -9,6 +9,7 @@ from dataclasses import field
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.incremental.query import Input
+from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.tracing.interface import PENDING, Interface
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
@@ -33,11 +34,13 @@ class RunResults:
         """Whether the first runs are under way, and nothing is known yet."""
         return self.pending and self.why_not_run is None and not self.interfaces
 
-    def of(self, tree: LaunchTree) -> tuple[list[Interface], str | None]:
+    def of(self, tree: LaunchTree, executables: ExecutableNames) -> tuple[list[Interface], str | None]:
         """The interfaces of the nodes of a tree, in order, and why none of them was run, None where one was."""
         known, why, keys = self.interfaces, self.why_not_run, node_keys(tree)
         reason = why or (PENDING if self.pending else NOT_ASKED_FOR)
-        interfaces = [known.get(key) or not_run(node, reason) for key, node in zip(keys, tree.nodes, strict=True)]
+        interfaces = [
+            known.get(key) or not_run(node, executables, reason) for key, node in zip(keys, tree.nodes, strict=True)
+        ]
         # Where earlier runs tell of some, those that were not run say so themselves.
         return interfaces, None if any(key in known for key in keys) else why
 

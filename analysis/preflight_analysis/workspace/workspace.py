@@ -273,7 +273,7 @@ class Workspace:
     def _ros2_request(self, node: LaunchNode, documents: Mapping[str, Document]) -> TraceRequest | None:
         """How to run a node of ROS 2: one that is written in Python, or a program."""
         path = node.resolved.path
-        if path is None or node.unknowns or node.kind not in ("node", "lifecycle"):
+        if path is None or node.unknowns or node.kind not in ("node", "lifecycle", "container"):
             return None
         if node.resolved.entry_point is None and not is_python(path) and not preload.applies(path):
             return None
@@ -469,7 +469,9 @@ def _analysed(db: Database, workspace: Workspace, path: str, args: tuple[tuple[s
     analysis = analysis.with_branches(BRANCHES(db, workspace, root))
     if results.awaited and any(request is not None for request in workspace.requests(analysis)):
         return _judged(_going_on(analysis, before))
-    return _judged(workspace.with_interfaces(analysis, *results.of(analysis.tree), before))
+    return _judged(
+        workspace.with_interfaces(analysis, *results.of(analysis.tree, analysis.context.executables), before)
+    )
 
 
 def _going_on(analysis: Analysis, before: Analysis | None) -> Analysis:
@@ -486,11 +488,12 @@ def _judged(analysis: Analysis) -> Analysis:
 
 @query(limit=_MAX_AHEAD)
 def _ahead_of_runs(db: Database, workspace: Workspace, analysis: Analysis) -> Analysis:
+    executables = analysis.context.executables
     if analysis.graph is None:
-        interfaces = [not_run(node) for node in analysis.tree.nodes]
+        interfaces = [not_run(node, executables) for node in analysis.tree.nodes]
     elif any(interface.pending for interface in analysis.graph.processes):
         pairs = zip(analysis.tree.nodes, analysis.graph.processes, strict=True)
-        interfaces = [not_run(node) if each.pending else each for node, each in pairs]
+        interfaces = [not_run(node, executables) if each.pending else each for node, each in pairs]
     else:
         return analysis
     return workspace.with_interfaces(analysis, interfaces, analysis.why_not_run)

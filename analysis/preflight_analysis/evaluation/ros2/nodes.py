@@ -70,27 +70,35 @@ def namespace_of(performer: Performer, action: Action, *, fatal: bool = True) ->
     return result, True
 
 
+class _Unknowns:
+    """What of a node's tag is not known."""
+
+    def __init__(self, performer: Performer, action: Action) -> None:
+        self._at = performer.place.origin(action.kind_span)[-1]
+        partial = performer.place.partial
+        self.found = [Unknown("the node", "its launch file was not run", self._at)] if partial else []
+
+    def text(self, result: Resolved, what: str) -> str:
+        """The text of a value, which is noted where it is not known."""
+        if not result.known:
+            self.found.append(Unknown(what, "it is not known", self._at))
+        return result.text
+
+
 def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", deferred: bool = False) -> None:
     """`<node>` and `<node_container>`; composable nodes of the container after it."""
     state, place = performer.state, performer.place
-    unknowns: list[Unknown] = []
-
-    def known(result: Resolved, what: str) -> str:
-        if not result.known:
-            unknowns.append(Unknown(what, "it is not known", place.origin(action.kind_span)[-1]))
-        return result.text
-
     executable = action.value("exec")
     if executable is None:
         return
-    if place.partial:
-        unknowns.append(Unknown("the node", "its launch file was not run", place.origin(action.kind_span)[-1]))
+    unknowns = _Unknowns(performer, action)
+    known = unknowns.text
     exec_name = known(performer.value(executable), "exec")
     package_value = action.value("pkg")
     package = known(performer.value(package_value), "pkg") if package_value is not None else ""
     name_value = action.value("name")
     name = known(performer.value(name_value), "name") if name_value is not None else None
-    if name is not None and name_value is not None and not unknowns and _NODE_NAME.fullmatch(name) is None:
+    if name is not None and name_value is not None and not unknowns.found and _NODE_NAME.fullmatch(name) is None:
         reason = "a name is a letter or underscore, then letters, digits and underscores"
         state.problem(InvalidName(name, "node", reason), place.origin(name_value.span))
         return
@@ -130,7 +138,7 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
             output=_output(performer, action),
             cwd=_text(performer, action, "cwd", "") or None,
             launch_prefix=_text(performer, action, "launch-prefix", "") or None,
-            unknowns=tuple(unknowns),
+            unknowns=tuple(unknowns.found),
             named=name is not None,
             params=to.effective(),
             param_sources=tuple(to.found),
@@ -157,30 +165,33 @@ def evaluate_composable(
         name_value = action.value("name")
         if package is None or plugin is None:
             continue
-        name = performer.value(name_value) if name_value is not None else None
+        unknowns = _Unknowns(performer, action)
+        name = unknowns.text(performer.value(name_value), "name") if name_value is not None else None
         ns, _ = namespace_of(performer, action, fatal=False)
-        namespace = ns.text if ns is not None else "/"
-        plugin_name = performer.value(plugin)
-        full = _full(namespace, name.text if name is not None else plugin_name.text.rpartition("::")[2])
+        namespace = unknowns.text(ns, "namespace") if ns is not None else "/"
+        package_name = unknowns.text(performer.value(package), "pkg")
+        plugin_name = unknowns.text(performer.value(plugin), "plugin")
+        full = _full(namespace, name if name is not None else plugin_name.rpartition("::")[2])
         to = Sources(full if name is not None else _full(namespace, "?"), composable=True)
         _collect(performer, action, to, must_exist=True)
         state.nodes.append(
             LaunchNode(
                 full,
                 namespace if namespace.endswith("/") else namespace + "/",
-                performer.value(package).text,
-                plugin_name.text,
+                package_name,
+                plugin_name,
                 "composable",
                 "",
                 tuple(_remaps(performer, action, full)),
                 (),
                 place.origin(action.head_span),
                 place.tag(action),
-                Executable(None),
+                state.executables.component(package_name, plugin_name),
+                unknowns=tuple(unknowns.found),
                 named=name is not None,
                 container=container,
                 container_location=place.origin(target)[-1] if target is not None else None,
-                plugin=plugin_name.text,
+                plugin=plugin_name,
                 params=to.effective(),
                 param_sources=tuple(to.found),
                 deferred=deferred,

@@ -1,0 +1,88 @@
+"""The reasons why nodes were not run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.workspace.run_results import NOT_ASKED_FOR
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.unbuilt_packages import manifest
+
+INSTALLED = "q::Talker;lib/libtalker.so\nq::Gone;lib/libgone.so\n"
+REGISTERED = 'project(p)\nadd_library(driver SHARED src/d.cpp)\nrclcpp_components_register_nodes(driver "p::Driver")\n'
+
+
+class Components:
+    """A workspace with the package `p`, which is not built, `q`, which is installed, and `plain` without components."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        for name, cmake in {"p": REGISTERED, "plain": "project(plain)\n"}.items():
+            self.write(f"src/{name}/package.xml", manifest(name, "ament_cmake"))
+            self.write(f"src/{name}/CMakeLists.txt", cmake)
+        self.write("install/share/ament_index/resource_index/packages/q", "")
+        self.write("install/share/ament_index/resource_index/rclcpp_components/q", INSTALLED)
+        self.write("install/lib/libtalker.so", "")
+        self.write("install/share/q/package.xml", manifest("q", "ament_cmake"))
+
+    def write(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def reasons(self, tags: str) -> dict[str, str | None]:
+        """The reason of each node of a launch, by its name."""
+        path = self.write("src/p/main.launch.xml", f"<launch>{tags}</launch>")
+        environment = detect_environment(str(self.folder), {}, root=str(self.folder / "nothing"))
+        workspace = Workspace(environment, Sources(), str(self.folder))
+        analysis = workspace.analysed(workspace.static(str(path)).root)
+        assert analysis.graph is not None
+        pairs = zip(analysis.tree.nodes, analysis.graph.processes, strict=True)
+        return {node.name: interface.outcome.reason for node, interface in pairs}
+
+
+@pytest.fixture
+def components(tmp_path: Path) -> Components:
+    return Components(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("package", "plugin", "reason"),
+    [
+        ("absent", "composition::Talker", "package 'absent' is not installed here"),
+        ("p", "p::Driver", "it is not built yet"),
+        ("p", "p::Drivr", "package 'p' registers no component 'p::Drivr'; did you mean 'p::Driver'?"),
+        ("p", "p::Lidar", "package 'p' registers no component 'p::Lidar'"),
+        ("q", "Talker", "package 'q' registers no component 'Talker'; did you mean 'q::Talker'?"),
+        ("q", "q::Gone", "it is not built yet"),
+        ("plain", "plain::Node", "no component of package 'plain' is known here"),
+        ("$(env NO_SUCH)", "p::Driver", "pkg is not known (it is not known)"),
+    ],
+)
+def test_why_a_component_cannot_be_run(components: Components, package: str, plugin: str, reason: str) -> None:
+    component = f'<composable_node pkg="{package}" plugin="{plugin}" name="n"/>'
+    container = f'<node_container pkg="p" exec="box" name="c" namespace="">{component}</node_container>'
+    assert components.reasons(container)["/n"] == reason
+    assert components.reasons(f'<load_composable_node target="c">{component}</load_composable_node>')["/n"] == reason
+
+
+@pytest.mark.parametrize(
+    ("package", "reason"),
+    [
+        ("absent", "package 'absent' is not installed here"),
+        ("p", "there is no executable 'box' in package 'p'"),
+    ],
+)
+@pytest.mark.parametrize("tag", ["node", "node_container"])
+def test_why_a_program_cannot_be_run(components: Components, tag: str, package: str, reason: str) -> None:
+    assert components.reasons(f'<{tag} pkg="{package}" exec="box" name="c" namespace=""/>') == {"/c": reason}
+
+
+def test_a_component_that_is_there_could_be_run(components: Components) -> None:
+    component = '<composable_node pkg="q" plugin="q::Talker" name="n"/>'
+    reasons = components.reasons(f'<load_composable_node target="c">{component}</load_composable_node>')
+    assert reasons == {"/n": NOT_ASKED_FOR}
