@@ -124,6 +124,7 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "flynneva/bno055": {"jazzy": "main"},
     "MAPIRlab/rf2o_laser_odometry": {"noetic": "ros1", "jazzy": "ros2"},
     "robo-friends/m-explore-ros2": {"jazzy": "main"},
+    "PickNikRobotics/picknik_controllers": {"jazzy": "main"},
     "open-rmf/rmf_ros2": {"jazzy": "jazzy"},
     "open-rmf/rmf_traffic_editor": {"jazzy": "jazzy"},
 }
