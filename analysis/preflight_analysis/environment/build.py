@@ -103,7 +103,7 @@ class Build:
         while pending:
             current = pending.pop(0)
             found.update(dict.fromkeys(current.sources))
-            for link in current.links:
+            for link in (each.rpartition("::")[2] for each in current.links):  # an alias has the package before it
                 if link in self.targets and link not in seen:
                     seen.add(link)
                     pending.append(self.targets[link])

@@ -98,6 +98,16 @@ class SourceAnalysis:
         """The controllers of ros2_control that a package exports; as the `plugin` of a `SourceKey` they are read."""
         return _cpp(self._environment, self._disk).controllers(package)
 
+    def plugins(self, package: str) -> tuple[str, ...]:
+        """The plugins that a package exports and `plugin` can read."""
+        return _cpp(self._environment, self._disk).plugins(package)
+
+    def plugin(self, name: str, given: str, params: LaunchParams, package: str | None = None) -> SourceInterface | None:
+        """What a plugin (`package::Name`) makes in the node that loads it, and declares there, as `given` mostly
+        (`~given.speed`). `package`: the one that has it, where that is known; `params` are those of `/node`."""
+        found = _read_plugin.answered(self._disk.db, params, self._environment, name, given, package)
+        return found if found is not _NOTHING else None
+
     def component(self, package: str, cls: str) -> Place | None:
         """Where the C++ class of a component is defined, None where its source is not there."""
         return _cpp(self._environment, self._disk).component(package, cls)
@@ -152,6 +162,12 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
         found = cpp.read(named, args, resolved, params, config)
     said = SourceInterface(found.endpoints, found.params, found.nodes)
     return replace(said, whole=found.whole) if said != _NOTHING else _NOTHING
+
+
+@query
+def _read_plugin(db: Database, environment: Environment, name: str, given: str, package: str | None) -> SourceInterface:
+    found = _cpp(environment, Disk(db)).read_plugin(name, package, given, KnownParams(db.ask, {}))
+    return SourceInterface(found.endpoints, found.params, whole=found.whole) if found is not None else _NOTHING
 
 
 @query(limit=_MAX_TREES)

@@ -11,11 +11,11 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
-from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main
+from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main, interpret_plugin
 from preflight_analysis.source.cpp_libraries import may_hide_ends
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.known_params import KnownParams
-from preflight_analysis.source.rclcpp_api import CONTROLLERS
+from preflight_analysis.source.rclcpp_api import CONTROLLERS, PLUGINS
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
 from preflight_analysis.source.rclcpp_calls import RclcppCalls
 from preflight_analysis.source.roscpp_api import LIBRARIES
@@ -23,6 +23,8 @@ from preflight_analysis.source.roscpp_calls import RoscppCalls
 from preflight_analysis.tracing.interface import Endpoint
 from preflight_analysis.tracing.nodelets import nodelet_of
 
+PLUGIN_NODE = "/node"
+"""The node that a plugin is read in."""
 _NODELETS = frozenset({"nodelet::Nodelet"})
 
 
@@ -75,7 +77,8 @@ class CppAnalysis:
         calls = RclcppCalls(name, params, self._has_type, partial(files.parameter_library, package))
         cls = plugin or files.build(package).component_programs.get(executable)
         if plugin is not None and "/" in plugin:
-            program, cls = files.plugin(plugin, CONTROLLERS, package) or (None, None)
+            controller = files.plugin(plugin, CONTROLLERS, package)
+            program, cls = (controller.program, controller.cls) if controller is not None else (None, None)
         else:
             program = files.component(package, cls) if cls is not None else files.executable(package, executable)
         if program is not None:
@@ -87,6 +90,24 @@ class CppAnalysis:
                 interpret_main(program, (executable, *args), calls)
         calls.finish()
         return calls.collected
+
+    def read_plugin(self, name: str, package: str | None, given: str, params: KnownParams) -> Collector | None:
+        """What a plugin (`package::Name`) makes in the node that loads it as `given`. `package`: the one that has it,
+        where that is known. None where none has, or nothing is known of how its base class gets parameters."""
+        files = CppFiles(self._packages, self._disk, RCLCPP_LIBRARIES)
+        found = files.plugin(name, PLUGINS, package)
+        if found is None:
+            return None
+        calls = RclcppCalls(PLUGIN_NODE, params, self._has_type, partial(files.parameter_library, found.package))
+        calls.includes = found.program.includes
+        _judge(found.program, calls)
+        interpret_plugin(found.program, found.cls, PLUGINS[found.base], given, calls)
+        calls.finish()
+        return calls.collected
+
+    def plugins(self, package: str) -> tuple[str, ...]:
+        """The plugins that a package exports of which is known how they get their parameters."""
+        return CppFiles(self._packages, self._disk).plugins(package, PLUGINS)
 
     def controllers(self, package: str) -> tuple[str, ...]:
         """The controllers of ros2_control that a package exports."""
@@ -102,10 +123,9 @@ class CppAnalysis:
     def _nodelet(self, files: CppFiles, plugin: str, calls: RoscppCalls) -> None:
         found = files.plugin(plugin, _NODELETS)
         if found is not None:
-            program, cls = found
-            calls.include(program.includes)
-            _judge(program, calls)
-            interpret_class(program, cls, "onInit", calls)
+            calls.include(found.program.includes)
+            _judge(found.program, calls)
+            interpret_class(found.program, found.cls, "onInit", calls)
 
 
 def _judge(program: CppProgram, calls: RoscppCalls | RclcppCalls) -> None:

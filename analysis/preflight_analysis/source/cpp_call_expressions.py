@@ -102,7 +102,7 @@ class CallExpressions(Objects):
             if function.instance is not None:
                 self._calls.notice(function.instance, call)
             return self._call_text(function.text, function.instance, args, self._given(function.text, types))
-        type_ = self._type(callee, scope)
+        type_ = self._type(callee, scope) if not taken else None  # `using nav2_util::declare_or_get_parameter;`
         if type_ is not None and (self._class(type_) is not None or type_.name != "::".join(p for p in path if p)):
             return self._make(type_, args, place, scope)
         if type_ is not None and (name in SMART_POINTERS or standard(type_.name) in STANDARD | CALLABLE):

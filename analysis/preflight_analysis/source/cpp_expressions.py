@@ -9,10 +9,10 @@ from tree_sitter import Node
 
 from preflight_analysis.source.branches import same
 from preflight_analysis.source.cpp_call_expressions import MAX_WAITING, CallExpressions
-from preflight_analysis.source.cpp_operators import MAX_ITEMS, binary, item, number, truth, unary
+from preflight_analysis.source.cpp_operators import MAX_ITEMS, binary, item, next_word, number, truth, unary
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import first_child, parameters_of, path_of, text_of
-from preflight_analysis.source.cpp_values import Calls, Fluent, Function, Instance, Reference, Scope
+from preflight_analysis.source.cpp_values import Calls, Fluent, Function, Instance, Reference, Scope, Stream
 from preflight_analysis.source.python_values import UNKNOWN
 
 MAX_STEPS = 80_000
@@ -115,9 +115,11 @@ class Expressions(CallExpressions):
         left = self._value(node.child_by_field_name("left"), scope)
         if operator == ">>" and not isinstance(left, int):
             read = self._lvalue(node.child_by_field_name("right"), scope)
-            if read is not None:
-                self._branches.store(read.names, read.name, UNKNOWN)
-            return UNKNOWN
+            is_text = read is not None and isinstance(read.names.get(read.name), str)
+            word = next_word(left) if isinstance(left, Stream) and is_text else UNKNOWN
+            if read is not None and word is not None:
+                self._branches.store(read.names, read.name, word)
+            return UNKNOWN if word is UNKNOWN else word is not None
         if operator not in ("&&", "||", "and", "or"):
             return binary(operator, left, self._value(node.child_by_field_name("right"), scope))
         stop = operator in ("||", "or")

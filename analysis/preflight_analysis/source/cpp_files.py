@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import PurePath
+from typing import NamedTuple
 
 from lxml import etree
 
@@ -36,6 +37,15 @@ def _file_text(db: Database, path: str) -> FileText | None:
     """What a file declares; None where there is none."""
     text = Disk(db).content(path)
     return parse(path, text) if text is not None else None
+
+
+class Plugin(NamedTuple):
+    """A class that a package exports for pluginlib, with the program that has it."""
+
+    program: CppProgram
+    cls: str
+    package: str
+    base: str
 
 
 class CppFiles:
@@ -87,19 +97,20 @@ class CppFiles:
         texts = (self._disk.content(source) or "" for source in target.sources)
         return any(found[1] == cls for text in texts for found in _REGISTERED.finditer(text))
 
-    def plugin(self, name: str, bases: Collection[str], of: str | None = None) -> tuple[CppProgram, str] | None:
-        """The program with the class that a plugin `package/Name` of one of the base classes is, and the name of the
-        class. `of`: the package that has it, where that is known."""
-        for package in self._having_plugins(name.partition("/")[0] if of is None else of):
-            for library, type_, plugin in self._plugins(package, bases):
-                if plugin == name or type_ == name.replace("/", "::"):
+    def plugin(self, name: str, bases: Collection[str], of: str | None = None) -> Plugin | None:
+        """The plugin `package/Name` (or `package::Name`) of one of the base classes. `of`: the package that has it,
+        where that is known."""
+        wanted = name.replace("/", "::")
+        for package in self._having_plugins(wanted.partition("::")[0] if of is None else of):
+            for library, type_, plugin, base in self._plugins(package, bases):
+                if wanted in (plugin.replace("/", "::"), type_):
                     target = self.build(package).library(PurePath(library).name)
-                    return (self._program(package, target), type_) if target is not None else None
+                    return Plugin(self._program(package, target), type_, package, base) if target is not None else None
         return None
 
     def plugins(self, package: str, bases: Collection[str]) -> tuple[str, ...]:
         """The names of the plugins of these base classes that a package exports."""
-        return tuple(dict.fromkeys(name for _, _, name in self._plugins(package, bases)))
+        return tuple(dict.fromkeys(name for _, _, name, _ in self._plugins(package, bases)))
 
     def _having_plugins(self, likely: str) -> Iterator[str]:
         """Packages in source form that may have a plugin: the one that its name begins with by convention, first."""
@@ -111,8 +122,8 @@ class CppFiles:
             if needs and self._disk.is_file(os.path.join(package.share, LISTS)):
                 yield name
 
-    def _plugins(self, package: str, bases: Collection[str]) -> Iterator[tuple[str, str, str]]:
-        """Library, class and name of each plugin that a package exports."""
+    def _plugins(self, package: str, bases: Collection[str]) -> Iterator[tuple[str, str, str, str]]:
+        """Library, class, name and base class of each plugin that a package exports."""
         found = self._packages.get(package)
         if found is None:
             return
@@ -129,8 +140,9 @@ class CppFiles:
             described = _xml(self._disk.content(os.path.normpath(os.path.join(found.share, path))))
             for library in described.iter("library") if described is not None else ():
                 for cls in library.iter("class"):
-                    if cls.get("base_class_type") in bases and (type_ := cls.get("type")):
-                        yield library.get("path") or "", type_, cls.get("name") or type_.replace("::", "/")
+                    base = cls.get("base_class_type")
+                    if base is not None and base in bases and (type_ := cls.get("type")):
+                        yield library.get("path") or "", type_, cls.get("name") or type_.replace("::", "/"), base
 
     def _program(self, package: str, target: Target) -> CppProgram:
         found: dict[str, FileText] = {}

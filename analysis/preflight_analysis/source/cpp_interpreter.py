@@ -20,6 +20,7 @@ from preflight_analysis.source.cpp_text import (
     CONDITIONAL,
     FieldText,
     FunctionText,
+    Parameter,
     Path,
     aliases_in,
     declarators,
@@ -29,11 +30,13 @@ from preflight_analysis.source.cpp_text import (
     path_of,
     text_of,
 )
+from preflight_analysis.source.cpp_types import standard
 from preflight_analysis.source.cpp_values import Argument, Calls, CppType, Instance, Scope
 from preflight_analysis.source.python_values import UNKNOWN
 
 _MAX_ITERATIONS = 64
 _FEW_ITERATIONS = 8
+_ACTIVATE = "activate"
 _FOREVER = frozenset({"(true)", "(1)"})
 
 
@@ -52,6 +55,12 @@ def interpret_class(program: CppProgram, name: str, method: str | None, calls: C
     return _Interpreter(program, calls).made(tuple(name.split("::")), method)
 
 
+def interpret_plugin(program: CppProgram, cls: str, method: str, name: str, calls: Calls) -> None:
+    """Make an object of a class of the program, and call the method of it that gets a node, and a name; then it is
+    activated."""
+    _Interpreter(program, calls).made(tuple(cls.split("::")), method, name)
+
+
 class _Interpreter(Expressions):
     def __init__(self, program: CppProgram, calls: Calls) -> None:
         super().__init__(program, calls)
@@ -65,7 +74,7 @@ class _Interpreter(Expressions):
         except (TooLargeError, RecursionError):
             self._calls.cut_short()
 
-    def made(self, path: Path, method: str | None) -> bool:
+    def made(self, path: Path, method: str | None, name: str | None = None) -> bool:
         text = self._program.classes.get(path) or self._program.lookup(self._program.classes, path[-1:], path[:-1])
         if text is None:
             return False
@@ -82,11 +91,27 @@ class _Interpreter(Expressions):
         except (TooLargeError, RecursionError):
             self._calls.cut_short()
             return True
-        found = self._method(instance, method, 0)
+        found = self._method(instance, method, 0 if name is None else None)
         if found is None:
             return False
-        self.run(found, instance, [])
+        if name is None:
+            self.run(found, instance, [])
+            return True
+        self.run(found, instance, [self._for_plugin(parameter, name, found) for parameter in found.parameters])
+        activate = self._method(instance, _ACTIVATE, 0)
+        if activate is not None:
+            self._late = self._branches.late = False
+            self.run(activate, instance, [])
         return True
+
+    def _for_plugin(self, parameter: Parameter, name: str, method: FunctionText) -> Any:
+        """What a plugin gets: its name, and an object of a class of the program that can be made of nothing."""
+        type_ = self._type(parameter.type, Scope({}, method.scope, method.file))
+        if type_ is None or standard(type_.name) == "std::string":
+            return name if type_ is not None else UNKNOWN
+        cls = self._class(type_)
+        made = self._program.functions.get((*cls.text.path, cls.text.name), ()) if cls is not None else ()
+        return self._object(cls, []) if cls is not None and any(not each.parameters for each in made) else UNKNOWN
 
     def _callbacks(self) -> None:
         self._late = self._branches.late = True

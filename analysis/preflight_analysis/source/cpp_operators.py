@@ -164,6 +164,16 @@ def text_of_stream(stream: Stream) -> Any:
     return _short("".join(part for part in parts if part is not None)) if None not in parts else UNKNOWN
 
 
+def next_word(stream: Stream) -> Any:
+    """What `>>` takes out of a stream: None where nothing is left, UNKNOWN if a part of it is not known."""
+    text = text_of_stream(stream)
+    if text is UNKNOWN:
+        return UNKNOWN
+    word, *rest = text.split(None, 1) or (None,)
+    stream.parts[:] = rest
+    return word
+
+
 def _short(value: Any) -> Any:
     if isinstance(value, str):
         return value if len(value) <= MAX_TEXT else UNKNOWN

@@ -29,6 +29,28 @@ CONTROLLERS = frozenset(
     f"controller_interface::{name}" for name in ("ControllerInterface", "ChainableControllerInterface")
 )
 """Of ros2_control: each has a node of its own with a lifecycle, and stands for it here."""
+PLUGINS: Mapping[str, str] = {
+    **dict.fromkeys(
+        (
+            *(f"nav2_core::{name}" for name in ("Behavior", "Controller", "GlobalPlanner", "Smoother")),
+            *(f"opennav_docking_core::{name}" for name in ("ChargingDock", "NonChargingDock")),
+            *(f"nav2_route::{name}" for name in ("EdgeCostFunction", "RouteOperation")),
+        ),
+        "configure",
+    ),
+    **dict.fromkeys(
+        (
+            *(f"nav2_core::{name}" for name in ("GoalChecker", "ProgressChecker", "WaypointTaskExecutor")),
+            "nav2_costmap_2d::Layer",
+            "dwb_core::TrajectoryCritic",
+            "dwb_core::TrajectoryGenerator",
+        ),
+        "initialize",
+    ),
+    "mppi::critics::CriticFunction": "on_configure",
+}
+"""The base classes of plugins that get a node and the name below which they declare its parameters, and by which of
+their methods."""
 CONTAINER = "rclcpp_components::ComponentManager"
 NODES: Mapping[str, bool] = {
     "rclcpp::Node": False,

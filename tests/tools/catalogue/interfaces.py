@@ -1,4 +1,4 @@
-"""What executables, components, nodelets and controllers do, as this project's analysis reads their source."""
+"""What executables, components, nodelets, controllers and plugins do, as this project's analysis reads their source."""
 
 from __future__ import annotations
 
@@ -22,12 +22,13 @@ from preflight_analysis.environment.model import Environment, Package, Packages
 from preflight_analysis.nodl.groups import GROUPS
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, SourceKey
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.source.plugins import plugin_params
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, NAMED, NAMING, OF_TESTS, RUN, SOURCES
+from tools.catalogue.sources import GENERATIONS, NAMED, NAMING, OF_TESTS, OTHER_VERSIONS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
@@ -67,8 +68,51 @@ def write_interfaces(sources: Path) -> None:
             laid = lay_out(sources, distro, Path(folder))
             repositories = sorted(laid.sources)
             done = pool.map(_of_repository, [laid] * len(repositories), repositories)
-            count = sum(_write(laid, package, found) for found_all in done for package, found in found_all)
+            elsewhere = _elsewhere(sources, pool) if GENERATIONS[distro] == 2 else {}
+            count = sum(
+                _write(laid, package, _with_elsewhere(found, package.name, elsewhere))
+                for found_all in done
+                for package, found in found_all
+            )
             print(f"{distro}: {count} nodes", flush=True)
+
+
+Elsewhere = dict[tuple[str, str], set[str]]
+"""The parameters of a plugin of a package."""
+
+
+def _elsewhere(sources: Path, pool: ProcessPoolExecutor) -> Elsewhere:
+    """What plugins declare in other versions than the one that is looked at."""
+    rows = [(repository, ref) for repository, refs in OTHER_VERSIONS.items() for ref in refs]
+    found: Elsewhere = {}
+    for each in pool.map(_of_version, [sources] * len(rows), rows):
+        for of, params in each.items():
+            found.setdefault(of, set()).update(params)
+    return found
+
+
+def _of_version(sources: Path, version: tuple[str, str]) -> Elsewhere:
+    with tempfile.TemporaryDirectory() as folder:
+        Snapshot.of(sources, *version).unpack(Path(folder) / "src")
+        environment = detect_environment(folder, {"ROS_VERSION": "2"}, root=str(Path(folder) / "nowhere"))
+        analysis = SourceAnalysis(environment, Disk())
+        return {
+            (package.name, name): {*about["parameters"]}
+            for package in environment.packages.values()
+            if not OF_TESTS.search(package.name)
+            for name, about in _plugins(analysis, package)
+        }
+
+
+def _with_elsewhere(
+    found: Mapping[str, Mapping[str, Any]], package: str, elsewhere: Elsewhere
+) -> Mapping[str, Mapping[str, Any]]:
+    plugins = dict(found["plugins"])
+    for (having, name), params in elsewhere.items():
+        more = sorted(params - plugins.get(name, {}).get("parameters", {}).keys())
+        if having == package and more:
+            plugins[name] = {**plugins.get(name, {}), "elsewhere": more}
+    return {**found, "plugins": plugins}
 
 
 def lay_out(sources: Path, distro: str, folder: Path) -> Laid:
@@ -140,7 +184,22 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
         said = _controller(analysis, SourceKey(None, None, package.name, "", controller, f"/{_NAME}", "", ()))
         if said is not None:
             controllers[controller] = said
-    return {"executables": executables, "components": components, "nodelets": nodelets, "controllers": controllers}
+    return {
+        "executables": executables,
+        "components": components,
+        "nodelets": nodelets,
+        "controllers": controllers,
+        "plugins": dict(_plugins(analysis, package)) if package.is_ament else {},
+    }
+
+
+def _plugins(analysis: SourceAnalysis, package: Package) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The parameters of the plugins that nodes load, by their names, as they stand below that of the plugin."""
+    for name in analysis.plugins(package.name):
+        found = plugin_params(analysis, name, package.name)
+        if found:
+            uses = (replace(use, name=param) for param, use in found.items())
+            yield name.replace("/", "::"), {"parameters": _params(uses)}
 
 
 def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | None:
@@ -243,10 +302,18 @@ def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
         ]
         if rows:
             facts[group] = rows
+    params = _params(use for use in said.params if not use.builtin)
+    if params:
+        facts["parameters"] = params
+    made_nodes = [made for made in said.nodes if not _of_arguments(made.given)]
+    if made_nodes:
+        facts["nodes"] = [[made.given, made.space, made.renamed] for made in made_nodes]
+    return facts
+
+
+def _params(uses: Iterable[ParamUse]) -> dict[str, Any]:
     params: dict[str, Any] = {}
-    for use in said.params:
-        if use.builtin:
-            continue
+    for use in uses:
         about = {
             **({"access": use.access} if use.access != "get" else {}),
             **({"type": use.type} if use.type else {}),
@@ -256,12 +323,7 @@ def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
             **({"range": [use.range.low, use.range.high, use.range.step]} if use.range is not None else {}),
         }
         params.setdefault(use.name, about)
-    if params:
-        facts["parameters"] = params
-    made_nodes = [made for made in said.nodes if not _of_arguments(made.given)]
-    if made_nodes:
-        facts["nodes"] = [[made.given, made.space, made.renamed] for made in made_nodes]
-    return facts
+    return params
 
 
 def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:

@@ -147,6 +147,8 @@ NAMED: Mapping[str, Mapping[str, Mapping[str, str]]] = {
 """Executables whose library names their node: by distribution, package and executable the name."""
 NAMING = frozenset({"robot_localization"})
 """Packages of whose nodes it is looked at which topics and services parameters name that have no default (ROS 2)."""
+OTHER_VERSIONS = {"ros-navigation/navigation2": ("humble", "kilted", "main")}
+"""Further branches of a repository that are in use: a parameter that a plugin has there is no misspelt one here."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
 OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
 """Names of packages that nobody launches."""
