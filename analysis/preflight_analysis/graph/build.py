@@ -57,7 +57,7 @@ def build_graph(
         merged,
         processes,
         *_all_channels(kept, made, external_topics),
-        tuple(chain.from_iterable(each.reads for each in made)),
+        tuple(each.reads for each in made),
         tuple(external_topics),
     )
 

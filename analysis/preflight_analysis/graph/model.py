@@ -5,6 +5,7 @@ from __future__ import annotations
 import fnmatch
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import chain
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
@@ -68,9 +69,15 @@ class Graph:
     topics: Mapping[str, Channel]
     services: Mapping[str, Channel]
     actions: Mapping[str, Channel]
-    param_reads: tuple[ParamRead, ...]
+    reads_of_nodes: tuple[tuple[ParamRead, ...], ...]
+    """The parameters that each node asks for, in the order of `interfaces`."""
     external_topics: tuple[str, ...] = ()
     """Patterns of the topics that something outside of the launch offers or wants."""
+
+    @cached_property
+    def param_reads(self) -> tuple[ParamRead, ...]:
+        """Those of all nodes, one node after another."""
+        return tuple(chain.from_iterable(self.reads_of_nodes))
 
     def channels(self, kind: ChannelKind) -> Mapping[str, Channel]:
         """All of a kind, by their names."""

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from itertools import chain, compress
-from operator import is_not, not_
-from typing import NamedTuple, TypeVar
 
 from rapidfuzz.distance import OSA
 
@@ -15,14 +13,15 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.name_tally import NO_NAMES, NameTally
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import each_namespace, grouped, namespace_of
+from preflight_analysis.rules.parameters import grouped, namespace_of
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
 
 _ASKING = ("get", "has")
-T = TypeVar("T")
+_LOOKING = ("list", "search")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,65 +43,38 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     Ask through `context.once`.
     """
     graph, kept = context.graph, context.kept
-    told = kept.each(reports_params, graph.interfaces) if graph is not None else ()
-    if graph is None or not any(told):
+    known = kept.each(reports_params, graph.interfaces) if graph is not None else ()
+    if graph is None or not any(known):
         return ()
-    params, nodes = context.tree.all_params, graph.tree.nodes
-    launch = kept.patched(_set_names, "", params, tuple(context.once(each_namespace)))
-    uses = tuple(kept.each(_use, graph.param_reads))
-    reads = kept.patched(_collect, "", uses, nodes, tuple(told), launch)
-    unasked = [*compress(params, kept.get(_are_unasked, "", launch, reads))]
-    if "/" in reads.names or not unasked:
+    nodes = graph.tree.nodes
+    found = kept.patched(
+        _matched,
+        "",
+        kept.grouped(namespace_of, "unread", context.tree.all_params),
+        kept.each(_asked_by, graph.reads_of_nodes),
+        kept.each(_name, nodes),
+        known,
+    )
+    if "/" in found.asked.counts:
         return ()
-    in_spaces = tuple(kept.grouped(namespace_of, "unasked", unasked).values())
-    around = tuple(kept.each(_around, in_spaces))
-    private, orphans = kept.patched(_by_holder, "", in_spaces, around, nodes, reads)
-    by_name = {node.name: node for node in nodes}
-    holders = [by_name[name] for name, _ in private]
-    all_unset = [*compress(graph.param_reads, reads.unset)]
-    unset = kept.grouped(_reader, "unset", all_unset)
-    groups = [group for _, group in private]
-    of_holders = kept.each_row(_of_holder, (groups, holders, [unset.get(id(holder), ()) for holder in holders]))
+    places = {node.name: at for at, node in enumerate(nodes)}
+    private = [(places[each.holder], each.unread) for each in found.spaces.values() if each.holder and each.unread]
+    holders = [nodes[at] for at, _ in private]
+    unset = [found.unset_of_nodes[at] for at, _ in private]
+    of_holders = kept.each_row(_of_holder, ([params for _, params in private], holders, unset))
     of_nobody: tuple[Unread, ...] = ()
-    if orphans and not reads.listed:
+    orphans = tuple(chain.from_iterable(each.unread for each in found.spaces.values() if each.holder == _NOBODY))
+    if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.
-        leaves = frozenset(names.leaf(param.name) for param in orphans)
-        near = filter(None, kept.each(_unless_far, all_unset, leaves, frozenset(map(namespace_of, orphans))))
-        of_told = tuple(read for read in near if read.node.name not in reads.opaque)
-        alone = graph.tree.complete and not reads.opaque
-        of_nobody = kept.get(_of_nobody, None, orphans, of_told, reads.sought, alone)
+        near = kept.each(_unless_far, found.unset_of_nodes, *kept.get(_leaves_and_spaces, "", orphans))
+        of_known = tuple(chain.from_iterable(compress(near, (node.name not in found.opaque for node in nodes))))
+        alone = graph.tree.complete and not found.opaque
+        of_nobody = kept.get(_of_nobody, None, orphans, of_known, found.sought, alone)
     return (*chain.from_iterable(of_holders), *of_nobody)
 
 
-_Placed = tuple[list[tuple[str, tuple[Param, ...]]], tuple[Param, ...]]
-
-
-def _by_holder(
-    before: Before[_Placed] | None,
-    groups: tuple[tuple[Param, ...], ...],
-    all_around: tuple[tuple[str, ...], ...],
-    nodes: tuple[LaunchNode, ...],
-    reads: _Reads,
-) -> _Placed:
-    """The parameters that no node asks for, with the names of the nodes whose they are; and those of no node. They are
-    given by namespace, with the namespaces around each. Of nodes of which it is not known what they read there are
-    none, nor of namespaces that somebody asks for as a whole."""
-    if before is not None:
-        (old_groups, _, old_nodes, old_reads), known = before
-        same_groups = len(old_groups) == len(groups) and not any(map(is_not, old_groups, groups))
-        if reads is old_reads and same_groups and _have_the_same_names(old_nodes, nodes):
-            return known
-    of_nodes = {node.name for node in nodes}
-    private: list[tuple[str, tuple[Param, ...]]] = []
-    orphans: list[Param] = []
-    for group, around in zip(groups, all_around, strict=True):
-        if reads.names.isdisjoint(around):
-            holder = next(filter(of_nodes.__contains__, around), None)
-            if holder is None:
-                orphans += group
-            elif holder not in reads.opaque:
-                private.append((holder, group))
-    return private, tuple(orphans)
+def _name(node: LaunchNode) -> str:
+    return node.name
 
 
 def reports_params(interface: Interface) -> bool:
@@ -123,150 +95,230 @@ def fits(value: object, read: ParamRead) -> bool:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _SetNames:
-    """The names of all parameters that the launch sets."""
+class _Asked:
+    """What one node asks for."""
 
-    names: Mapping[str, None]
-    """In the order of the parameters."""
-    spaces: AbstractSet[str]
-    """The namespaces that these are in, and those around them."""
-
-
-def _set_names(before: Before[_SetNames] | None, params: tuple[Param, ...], spaces: tuple[str, ...]) -> _SetNames:
-    """`spaces` has the namespace of each."""
-    if before is not None:
-        (old_params, _), known = before
-        if _have_the_same_names(old_params, params):
-            return known
-    return _SetNames(dict.fromkeys([param.name for param in params]), names.with_namespaces(spaces))
+    names: tuple[str, ...]
+    """Of parameters, once for each read."""
+    requested: Mapping[str, ParamRead]
+    """The first read of each that its own code asks for, by the name that it gives."""
+    made: tuple[str, ...]
+    """What it sets or deletes."""
+    searches: tuple[ParamRead, ...]
+    lists: bool
+    """Whether it asks for the names of all parameters: it may read any of them."""
 
 
-def _changed(before: Sequence[T], items: Sequence[T]) -> Iterator[tuple[T, T]]:
-    """The items that are other objects than those of before at their places, with these, of as many."""
-    return compress(zip(before, items, strict=True), map(is_not, before, items))
+_NOTHING = _Asked((), {}, (), (), False)
 
 
-def _have_the_same_names(before: Sequence[LaunchNode | Param], items: Sequence[LaunchNode | Param]) -> bool:
-    return len(before) == len(items) and all(old.name == item.name for old, item in _changed(before, items))
-
-
-class _Use(NamedTuple):
-    """What one read asks for: a name and its namespace, and the name as it is asked for, where a node's own code does
-    so. `other` is the read itself where it asks for no value but does something else."""
-
-    name: str
-    namespace: str
-    requested: str | None
-    other: ParamRead | None = None
-
-
-def _use(read: ParamRead) -> _Use:
-    if read.use.access not in _ASKING:
-        return _Use("", "", None, read)
-    name = read.name.rstrip("/") or "/"
-    return _Use(name, name.rpartition("/")[0], None if read.use.builtin else read.name)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Reads:
-    """What all nodes read. It is the same object while they read the same."""
-
-    names: AbstractSet[str]
-    above: AbstractSet[str]
-    """Every name above one of those: reading `/a/b` reads part of the value of `/a`."""
-    searched: frozenset[str]
-    unset: tuple[bool, ...]
-    """Of each read whether nothing sets what is asked for there, or anything below it, and nobody asked for it before,
-    for its own sake."""
-    opaque: AbstractSet[str]
-    """Full names of the nodes of which it is not known what they read."""
-    sought: tuple[ParamRead, ...]
-    """What nodes search for in their namespaces and nobody sets in any, each last name once."""
-    listed: bool
-    """Whether a node asks for the names of all parameters: it may read any of them."""
-
-
-def _say_the_same(before: Sequence[_Use], uses: Sequence[_Use]) -> bool:
-    return len(before) == len(uses) and all(old.other is None and old == use for old, use in _changed(before, uses))
-
-
-def _collect(
-    before: Before[_Reads] | None,
-    uses: tuple[_Use, ...],
-    nodes: tuple[LaunchNode, ...],
-    told: tuple[bool, ...],
-    launch: _SetNames,
-) -> _Reads:
-    """`uses` are those of all reads, `told` says of each node whether it is known what it reads."""
-    if before is not None:
-        (old_uses, old_nodes, old_told, old_launch), known = before
-        same_nodes = told == old_told and _have_the_same_names(old_nodes, nodes)
-        if launch is old_launch and same_nodes and _say_the_same(old_uses, uses):
-            return known
-    lists: list[ParamRead] = []
-    searches: list[ParamRead] = []
-    made: set[str] = set()
-    asked, spaces, requested, others = zip(*uses, strict=True) if uses else ((), (), (), ())
-    for read in filter(None, others):
-        if read.use.access == "list":
-            lists.append(read)
-        elif read.use.access == "search":
-            searches.append(read)
-        else:
-            made.add(read.name)
-    first = dict(zip(reversed(requested), range(len(uses) - 1, -1, -1), strict=True))
-    unset = {*map(first.get, first.keys() - launch.names.keys() - launch.spaces - made - {None})}
-    sought: dict[str, ParamRead] = {}
-    for read in searches:
-        sought.setdefault(_sought_leaf(read), read)
-    if sought:
-        for leaf in {names.leaf(name) for name in chain(launch.names, made)}.intersection(sought):
-            del sought[leaf]
-    return _Reads(
-        {*filter(None, asked), *made},
-        names.with_namespaces({*spaces, *(name.rpartition("/")[0] for name in made)}),
-        frozenset(read.use.name.strip("~/").partition("/")[0] for read in searches),
-        tuple(map(unset.__contains__, range(len(uses)))),
-        {
-            *(node.name for node in compress(nodes, map(not_, told))),
-            *(read.node.name for read in lists),
-        },
-        tuple(sought.values()),
-        bool(lists),
+def _asked_by(reads: tuple[ParamRead, ...]) -> _Asked:
+    asking = [read for read in reads if read.use.access in _ASKING]
+    others = [read for read in reads if read.use.access not in _ASKING]
+    requested: dict[str, ParamRead] = {}
+    for read in asking:
+        if not read.use.builtin:
+            requested.setdefault(read.name.rstrip("/") or "/", read)
+    return _Asked(
+        tuple(read.name.rstrip("/") or "/" for read in asking),
+        requested,
+        tuple(read.name for read in others if read.use.access not in _LOOKING),
+        tuple(read for read in others if read.use.access == "search"),
+        any(read.use.access == "list" for read in others),
     )
 
 
-def _are_unasked(launch: _SetNames, reads: _Reads) -> tuple[bool, ...]:
-    """Of each parameter whether nobody asks for it or for anything below it, nor searches for a name in it."""
-    covered = [*map((reads.names | reads.above).__contains__, launch.names)]
-    if reads.searched:
-        covered = [
-            is_covered or not reads.searched.isdisjoint(name.split("/"))
-            for is_covered, name in zip(covered, launch.names, strict=True)
-        ]
-    return tuple(map(not_, covered))
+_NOBODY = ""
 
 
-def _unless_far(read: ParamRead, leaves: frozenset[str], spaces: frozenset[str]) -> ParamRead | None:
-    namespace, _, leaf = read.name.rpartition("/")
-    return read if leaf in leaves or namespace in spaces else None
+@dataclass(frozen=True, slots=True, eq=False)
+class _Space:
+    """The parameters of one namespace."""
+
+    unread: tuple[Param, ...]
+    """Those that nobody asks for, nor for anything below them, nor searches for a name in them."""
+    holder: str | None
+    """The full name of the node whose they are, `_NOBODY`; None where somebody asks for them as a whole, and where it
+    is not known what that node reads."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Matched:
+    """What a launch sets, and what its nodes ask for."""
+
+    given: NameTally
+    """The names that are set."""
+    asked: NameTally
+    """The names that are asked for, or made by nodes."""
+    made: AbstractSet[str]
+    askers: Mapping[str, tuple[int, ...]]
+    """Which nodes, by their place, request a name."""
+    unset: Mapping[str, int]
+    """The names that are requested and nothing sets, nor anything below them, with the first node that requests it."""
+    unset_of_nodes: tuple[tuple[ParamRead, ...], ...]
+    """The reads in which each node is the first to request such a name."""
+    opaque: AbstractSet[str]
+    """Full names of the nodes of which it is not known what they read."""
+    searched: AbstractSet[str]
+    """The first parts of the names that are searched for."""
+    leaves: Mapping[str, int]
+    """The last parts of the names that are set, with how many of these there are."""
+    sought: tuple[ParamRead, ...]
+    """What nodes search for in their namespaces and nobody sets in any, each last part once."""
+    lists: bool
+    """Whether some node asks for the names of all parameters."""
+    around: Mapping[str, frozenset[str]]
+    """The namespaces, each with itself and those around it, without the root."""
+    spaces: Mapping[str, _Space]
+
+
+_Groups = Mapping[str, tuple[Param, ...]]
+
+
+def _matched(
+    before: Before[_Matched] | None,
+    groups: _Groups,
+    asked: tuple[_Asked, ...],
+    nodes: tuple[str, ...],
+    known: tuple[bool, ...],
+) -> _Matched:
+    """`groups` are the parameters by namespace; of each node `asked` is what it asks for, `nodes` its name, `known`
+    whether that is all.
+
+    What follows from names that neither came nor went is that of before.
+    """
+    old_groups: _Groups = {}
+    old_asked: tuple[_Asked, ...] = (_NOTHING,) * len(asked)
+    old_nodes: tuple[str, ...] = ()
+    last = _Matched(NO_NAMES, NO_NAMES, set(), {}, {}, ((),) * len(asked), set(), set(), {}, (), False, {}, {})
+    if before is not None and len(before[0][1]) == len(asked):
+        (old_groups, old_asked, old_nodes, _), last = before
+    new_groups = [space for space, group in groups.items() if old_groups.get(space) is not group]
+    new_groups += [space for space in old_groups if space not in groups]
+    given, given_news = last.given.changed(_names(old_groups, new_groups), _names(groups, new_groups))
+    rows = [at for at, (old, each) in enumerate(zip(old_asked, asked, strict=True)) if old is not each]
+    tally, asked_news = last.asked.changed(
+        [name for at in rows for name in (*old_asked[at].names, *old_asked[at].made)],
+        [name for at in rows for name in (*asked[at].names, *asked[at].made)],
+    )
+    made = {name for each in asked for name in each.made}
+
+    askers, unset = dict(last.askers), dict(last.unset)
+    requested = {name for at in rows for each in (old_asked[at], asked[at]) for name in each.requested}
+    for at in rows:
+        _replace_asker(askers, at, old_asked[at].requested.keys(), asked[at].requested.keys())
+    touched = {*rows}
+    for name in requested | given_news | (made ^ last.made):
+        was, who = unset.pop(name, None), askers.get(name)
+        if who is not None and name not in given and name not in made:
+            unset[name] = who[0]
+        touched.update(at for at in (was, unset.get(name)) if at is not None)
+    unset_of_nodes = list(last.unset_of_nodes)
+    for at in touched:
+        unset_of_nodes[at] = tuple(read for name, read in asked[at].requested.items() if unset.get(name) == at)
+
+    leaves = dict(last.leaves)
+    for name in given_news:
+        step = (name in given.counts) - (name in last.given.counts)
+        leaves[names.leaf(name)] = leaves.get(names.leaf(name), 0) + step
+    sought: dict[str, ParamRead] = {}
+    searches = [read for each in asked for read in each.searches]
+    leaves_made = set(map(names.leaf, made)) if searches else set()
+    for read in searches:
+        leaf = _sought_leaf(read)
+        if not leaves.get(leaf) and leaf not in leaves_made:
+            sought.setdefault(leaf, read)
+
+    opaque = {name for name, each, is_known in zip(nodes, asked, known, strict=True) if each.lists or not is_known}
+    searched = {read.use.name.strip("~/").partition("/")[0] for read in searches}
+    around = {space: last.around.get(space) or _around(space) for space in groups}
+    new_names = asked_news | (opaque ^ last.opaque) | {*nodes}.symmetric_difference(old_nodes)
+    new_spaces = {*groups} if searched != last.searched else {*new_groups, *map(_namespace, asked_news)}
+    if new_names:
+        new_spaces.update(space for space, spaces in around.items() if not new_names.isdisjoint(spaces))
+    of_nodes = frozenset(nodes)
+    return _Matched(
+        given,
+        tally,
+        made,
+        askers,
+        unset,
+        tuple(unset_of_nodes),
+        opaque,
+        searched,
+        leaves,
+        tuple(sought.values()),
+        any(each.lists for each in asked),
+        around,
+        {
+            space: _space(space, group, tally, searched, of_nodes, opaque)
+            if space in new_spaces
+            else last.spaces[space]
+            for space, group in groups.items()
+        },
+    )
+
+
+def _names(groups: _Groups, spaces: Iterable[str]) -> Iterator[str]:
+    return (param.name for space in spaces for param in groups.get(space, ()))
+
+
+def _replace_asker(askers: dict[str, tuple[int, ...]], at: int, old: AbstractSet[str], new: AbstractSet[str]) -> None:
+    for name in old - new:
+        others = tuple(each for each in askers[name] if each != at)
+        if others:
+            askers[name] = others
+        else:
+            del askers[name]
+    for name in new - old:
+        askers[name] = tuple(sorted((*askers.get(name, ()), at)))
+
+
+def _around(space: str) -> frozenset[str]:
+    return frozenset(names.with_namespaces((space,)))
+
+
+def _namespace(name: str) -> str:
+    return name.rpartition("/")[0]
+
+
+def _space(
+    space: str,
+    params: tuple[Param, ...],
+    asked: NameTally,
+    searched: AbstractSet[str],
+    nodes: AbstractSet[str],
+    opaque: AbstractSet[str],
+) -> _Space:
+    unread = tuple(param for param in params if param.name not in asked)
+    if searched:
+        unread = tuple(param for param in unread if searched.isdisjoint(param.name.split("/")))
+    holder: str | None = _NOBODY
+    while space:
+        if space in asked.counts:
+            return _Space(unread, None)
+        if space in nodes and holder == _NOBODY:
+            holder = space
+        space = _namespace(space)
+    return _Space(unread, None if holder in opaque else holder)
+
+
+def _unless_far(reads: tuple[ParamRead, ...], leaves: frozenset[str], spaces: frozenset[str]) -> tuple[ParamRead, ...]:
+    """Those of one node that have a last part or a namespace in common with others."""
+    found = []
+    for read in reads:
+        namespace, _, leaf = read.name.rpartition("/")
+        if leaf in leaves or namespace in spaces:
+            found.append(read)
+    return tuple(found)
+
+
+def _leaves_and_spaces(params: tuple[Param, ...]) -> tuple[frozenset[str], frozenset[str]]:
+    return frozenset(names.leaf(param.name) for param in params), frozenset(map(namespace_of, params))
 
 
 def _sought_leaf(read: ParamRead) -> str:
     return names.leaf(read.use.name.lstrip("~"))
-
-
-def _reader(read: ParamRead) -> int:
-    return id(read.node)
-
-
-def _around(group: tuple[Param, ...]) -> tuple[str, ...]:
-    """The namespaces that hold the parameters of one, the innermost first, without the root: `/a/b` and `/a` of
-    `/a/b/c`."""
-    found = [namespace_of(group[0])]
-    while found[-1]:
-        found.append(found[-1].rpartition("/")[0])
-    return tuple(found[:-1])
 
 
 def _of_holder(params: Iterable[Param], holder: LaunchNode, unset: tuple[ParamRead, ...]) -> tuple[Unread, ...]:
