@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.graph.model import Graph, ParamRead
@@ -30,7 +31,7 @@ def missing_params(context: Context) -> Mapping[int, tuple[Missing, ...]]:
     it stands here as not mandatory. Ask through `context.once`.
     """
     graph = context.graph
-    if graph is None or not graph.param_reads or not context.tree.complete:
+    if graph is None or not any(graph.reads_of_nodes) or not context.tree.complete:
         return {}
     missing = _missing(context, graph)
     interfaces = {id(node): each for node, each in zip(graph.tree.nodes, graph.interfaces, strict=True)}
@@ -38,13 +39,14 @@ def missing_params(context: Context) -> Mapping[int, tuple[Missing, ...]]:
 
 
 def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
-    params = graph.tree.params
-    unset = [r for r in filter(None, context.kept.each(_mandatory, graph.param_reads)) if r.name not in params]
+    params, kept = graph.tree.params, context.kept
+    maybe_missing = chain.from_iterable(kept.each(_mandatory_reads, graph.reads_of_nodes))
+    unset = [read for read in maybe_missing if read.name not in params]
     if not unset:
         return {}
     known = context.once(namespaces_around) | {command.param for command in graph.tree.commands}
-    known |= {read.name for read in filter(None, context.kept.each(_finding_elsewhere, graph.param_reads))}
-    with_default = set(filter(None, context.kept.each(_defaulted, graph.param_reads)))
+    known |= {name for names in kept.each(_found_elsewhere, graph.reads_of_nodes) for name in names}
+    with_default = {key for keys in kept.each(_defaulted, graph.reads_of_nodes) for key in keys}
     first: dict[tuple[int, str], ParamRead] = {}
     for read in unset:
         key = (id(read.node), read.name)
@@ -56,21 +58,25 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     return found
 
 
-def _mandatory(read: ParamRead) -> ParamRead | None:
-    """The read itself, if the node may lack the parameter."""
+def _mandatory_reads(reads: tuple[ParamRead, ...]) -> tuple[ParamRead, ...]:
+    """Those of one node that it may lack the parameter for."""
+    return tuple(filter(_is_mandatory, reads))
+
+
+def _is_mandatory(read: ParamRead) -> bool:
     use = read.use
     if use.builtin or not (use.access == "has" or (use.access == "get" and use.mandatory)):
-        return None
-    return None if is_for_tools(read.name) or f"_{use.name.strip('~')}:=" in read.node.args else read
+        return False
+    return not is_for_tools(read.name) and f"_{use.name.strip('~')}:=" not in read.node.args
 
 
-def _finding_elsewhere(read: ParamRead) -> ParamRead | None:
-    """The read itself, if the node makes the parameter or looks for it in other namespaces too."""
-    return read if read.use.access in ("set", "search") else None
+def _found_elsewhere(reads: tuple[ParamRead, ...]) -> tuple[str, ...]:
+    """The names that the node makes or looks for in other namespaces too."""
+    return tuple(read.name for read in reads if read.use.access in ("set", "search"))
 
 
-def _defaulted(read: ParamRead) -> tuple[int, str] | None:
-    return (id(read.node), read.name) if read.use.has_default else None
+def _defaulted(reads: tuple[ParamRead, ...]) -> tuple[tuple[int, str], ...]:
+    return tuple((id(read.node), read.name) for read in reads if read.use.has_default)
 
 
 def _last_words(interface: Interface, read: ParamRead) -> str | None:

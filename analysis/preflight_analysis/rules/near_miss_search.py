@@ -7,7 +7,7 @@ alike, while nodes come, go and are renamed. That no node is meant for itself is
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import field
 from operator import is_, itemgetter
 
@@ -97,8 +97,8 @@ class _Found:
     shapes: Mapping[str, _Shape] = field(default_factory=dict)
     search: Search = NOTHING
     marks: Counter[_Mark] = field(default_factory=Counter)
-    choices: Mapping[int, _Choice] = field(default_factory=dict)
-    """By the ids of the consumers, which they hold."""
+    choices: tuple[_Choice, ...] = ()
+    """Of all seekers, in their order."""
     near: tuple[NearMiss, ...] = ()
 
 
@@ -175,35 +175,55 @@ def _found(
     changed = {name for name, each in now.items() if known.candidates.get(name) is not each}
     changed |= known.candidates.keys() - now.keys()
     shapes = _shapes(known, now, changed)
-    searched = _searched(known.search, shapes.values(), seekers, now)
+    if shapes is known.shapes and _search_alike(known.choices, seekers):
+        searched = known.search
+    else:
+        searched = _searched(known.search, shapes.values(), seekers, now)
     marks, recounted = _marks(known, now, changed)
-    choices: dict[int, _Choice] = {}
-    for seeker in seekers:
-        best, was = searched.best[seeker.described], known.choices.get(id(seeker.consumer))
-        if (
-            was is None
-            or was.seeker is not seeker
-            or was.best is not best
-            or was_blind != blind
-            or seeker.kind in recounted
-            or (changed if was.looked_at is None else not changed.isdisjoint(was.looked_at))
-        ):
-            was = _choice(was, seeker, best, now, marks, blind)
-        choices[id(seeker.consumer)] = was
-    near = tuple(choice.near for choice in choices.values() if choice.near is not None)
+    # Hundreds of choices of which a handful is new: each test is one pass.
+    was = tuple(map({id(each.seeker): each for each in known.choices}.get, map(id, seekers)))
+    again = [each is None or each.looked_at is None or not changed.isdisjoint(each.looked_at) for each in was]
+    if searched is not known.search:
+        again = [
+            yes or each is None or searched.best[each.seeker.described] is not each.best
+            for yes, each in zip(again, was, strict=True)
+        ]
+    if recounted:
+        again = [yes or seeker.kind in recounted for yes, seeker in zip(again, seekers, strict=True)]
+    before_of = {id(each.seeker.consumer): each for each in known.choices} if any(again) else {}
+    choices = tuple(
+        each
+        if each is not None and not yes and was_blind == blind
+        else _choice(before_of.get(id(seeker.consumer)), seeker, searched.best[seeker.described], now, marks, blind)
+        for each, yes, seeker in zip(was, again, seekers, strict=True)
+    )
+    near = tuple(choice.near for choice in choices if choice.near is not None)
     if len(near) == len(known.near) and all(map(is_, near, known.near)):
         near = known.near
     return _Found(now, shapes, searched, marks, choices, near)
 
 
+def _search_alike(choices: Sequence[_Choice], seekers: Sequence[_Seeker]) -> bool:
+    """Whether seekers that are alike were looked for the last time."""
+    return len(choices) == len(seekers) and all(
+        choice.seeker is seeker or choice.seeker.described == seeker.described
+        for choice, seeker in zip(choices, seekers, strict=True)
+    )
+
+
 def _shapes(known: _Found, now: Mapping[str, _Candidate], changed: Iterable[str]) -> Mapping[str, _Shape]:
-    """Those of all candidates, by name, the ones of before where they are alike."""
-    shapes = {**known.shapes}
-    for name in changed:
-        old, new = shapes.pop(name, None), now[name].shape if name in now else None
-        if new is not None:
-            shapes[name] = old if old is not None and old.described == new.described else new
+    """Those of all candidates, by name, the ones of before where they are alike; the same mapping where all are."""
+    news = {name: now[name].shape if name in now else None for name in changed}
+    different = {name: new for name, new in news.items() if not _are_alike(known.shapes.get(name), new)}
+    if not different:
+        return known.shapes
+    shapes = {name: shape for name, shape in known.shapes.items() if name not in different}
+    shapes.update((name, shape) for name, shape in different.items() if shape is not None)
     return shapes
+
+
+def _are_alike(one: _Shape | None, other: _Shape | None) -> bool:
+    return one is other or (one is not None and other is not None and one.described == other.described)
 
 
 def _searched(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import compress
+from operator import is_not
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -26,6 +28,15 @@ def namespaces_around(context: Context) -> frozenset[str]:
 def each_namespace(context: Context) -> tuple[str, ...]:
     """That of each parameter. Ask through `context.once`."""
     return context.kept.each(namespace_of, context.tree.all_params)
+
+
+def changed_names(before: Sequence[Param], params: Sequence[Param]) -> set[str]:
+    """The names of the parameters that are other objects than before, or that came or went."""
+    if len(before) == len(params):
+        pairs = compress(zip(before, params, strict=True), map(is_not, before, params))
+        return {param.name for pair in pairs for param in pair}
+    old, new = {id(param): param for param in before}, {id(param): param for param in params}
+    return {param.name for param in (*(old[at] for at in old.keys() - new), *(new[at] for at in new.keys() - old))}
 
 
 def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
-from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.name_tally import NO_NAMES, NameTally
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.parameters import namespace_of
 from preflight_analysis.rules.places import related_node
@@ -29,10 +30,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     outside = [*filter(None, context.kept.each(_outside, tree.all_params))]
     if not outside:
         return
+    homeless = _homeless(context, outside)
+    if not homeless:
+        return
     homes = context.kept.get(_homes, "", tuple([node.name for node in tree.nodes]))
-    for prefix, params in _homeless(context, outside, homes).items():
+    for prefix, params in homeless.items():
         parent, _, leaf = prefix.rpartition("/")
-        near = _near(leaf, homes.children.get(parent, ()))
+        near = _near(leaf, homes.get(parent, ()))
         if near is None:
             if not tree.complete or not _is_alone(context, prefix, params):
                 continue
@@ -59,22 +63,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Homes:
-    """Where nodes live: their names, and for each namespace the names in it, of nodes and of namespaces with nodes."""
-
-    names: frozenset[str]
-    children: Mapping[str, set[str]]
-
-
-def _homes(nodes: tuple[str, ...]) -> _Homes:
+def _homes(nodes: tuple[str, ...]) -> Mapping[str, set[str]]:
+    """For each namespace the names in it, of nodes and of namespaces with nodes."""
     found: dict[str, set[str]] = {}
     for name in nodes:
         parent, _, leaf = name.rpartition("/")
         while leaf and leaf not in found.setdefault(parent, set()):
             found[parent].add(leaf)
             parent, _, leaf = parent.rpartition("/")
-    return _Homes(frozenset(nodes), found)
+    return found
 
 
 def _outside(param: Param) -> Param | None:
@@ -83,10 +80,13 @@ def _outside(param: Param) -> Param | None:
     return None if inside or is_for_tools(param.name) else param
 
 
-def _homeless(context: Context, params: Iterable[Param], homes: _Homes) -> dict[str, list[Param]]:
+def _homeless(context: Context, params: Iterable[Param]) -> dict[str, list[Param]]:
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
-    namespaces = context.kept.grouped(namespace_of, "outside", params)
-    at_fault = {namespace: prefix for namespace in namespaces if (prefix := _at_fault(namespace, homes)) is not None}
+    kept = context.kept
+    namespaces = kept.grouped(namespace_of, "outside", params)
+    homes = kept.patched(_tally, "homes", kept.each(_node_name, context.tree.nodes))
+    prefixes = zip(namespaces, kept.each(_at_fault, namespaces, homes), strict=True)
+    at_fault = {namespace: prefix for namespace, prefix in prefixes if prefix is not None}
     found: dict[str, list[Param]] = {}
     for param in params if at_fault else ():
         prefix = at_fault.get(namespace_of(param))
@@ -95,15 +95,25 @@ def _homeless(context: Context, params: Iterable[Param], homes: _Homes) -> dict[
     return found
 
 
-def _at_fault(namespace: str, homes: _Homes) -> str | None:
-    """The first part of the namespace in which nothing lives, None if it leads to a node or to where nodes live."""
+def _node_name(node: LaunchNode) -> str:
+    return node.name
+
+
+def _tally(before: Before[NameTally] | None, names: tuple[str, ...]) -> NameTally:
+    (old,), last = before if before is not None else (((),), NO_NAMES)
+    return last.changed(old, names)[0]
+
+
+def _at_fault(namespace: str, homes: NameTally) -> str | None:
+    """The first part of the namespace in which no node and no namespace of nodes is, None if it leads to one. `homes`
+    are the names of nodes."""
     prefix = ""
     for part in namespace.split("/")[1:]:
-        if part not in homes.children.get(prefix, ()):
-            return f"{prefix}/{part}"
         prefix = f"{prefix}/{part}"
-        if prefix in homes.names:
+        if prefix in homes.counts:
             break
+        if prefix not in homes.around:
+            return prefix
     return None
 
 

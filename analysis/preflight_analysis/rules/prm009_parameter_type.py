@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
+from itertools import chain
 from typing import Any
 
-from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.parameters import changed_names
 from preflight_analysis.rules.places import related_param_read
 from preflight_analysis.rules.problems import include_chain, shortened
 from preflight_analysis.rules.rule import Context, Rule
@@ -23,26 +28,59 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    params = graph.tree.params
     reported: set[tuple[str, str]] = set()
-    set_to = map(params.get, context.kept.each(_name_with_default, graph.param_reads))
-    for read, found in filter(None, context.kept.each_row(_refused, (graph.param_reads, set_to), rule)):
+    of_nodes = context.kept.each(_with_default, graph.reads_of_nodes)
+    refused = context.kept.patched(_refused, "", graph.tree, of_nodes, rule)
+    for read, found in chain.from_iterable(refused):
         if (read.name, read.node.name) not in reported:
             reported.add((read.name, read.node.name))
             yield found
 
 
-def _name_with_default(read: ParamRead) -> str:
-    """The name of a read whose default tells of what kind the value is; none for others."""
-    use = read.use
-    return read.name if use.has_default and not use.builtin and use.access == "get" else ""
+@dataclass(frozen=True, slots=True, eq=False)
+class _WithDefault:
+    """The reads of one node whose defaults tell of what kind the values are."""
+
+    reads: tuple[ParamRead, ...]
+    names: AbstractSet[str]
 
 
-def _refused(read: ParamRead, param: Param | None, rule: Rule) -> tuple[ParamRead, Finding] | None:
-    if param is None or type(param.value) is type(read.use.default):
-        return None
-    difference = _difference(param.value, read.use.default)
-    return (read, _finding(rule, param, read, *difference)) if difference is not None else None
+def _with_default(reads: tuple[ParamRead, ...]) -> _WithDefault:
+    found = tuple(read for read in reads if read.use.has_default and not read.use.builtin and read.use.access == "get")
+    return _WithDefault(found, {read.name for read in found})
+
+
+_Refused = tuple[tuple[ParamRead, Finding], ...]
+
+
+def _refused(
+    before: Before[list[_Refused]] | None, tree: LaunchTree, of_nodes: tuple[_WithDefault, ...], rule: Rule
+) -> list[_Refused]:
+    """For each node the reads that get a value of another kind."""
+    known: list[_Refused | None] = [None] * len(of_nodes)
+    if before is not None and len(before[0][1]) == len(of_nodes):
+        (old_tree, old_of_nodes, _), last = before
+        names = changed_names(old_tree.all_params, tree.all_params)
+        known = [
+            found if old is each and names.isdisjoint(each.names) else None
+            for found, old, each in zip(last, old_of_nodes, of_nodes, strict=True)
+        ]
+    params = tree.params
+    return [
+        found if found is not None else tuple(_refused_of(each.reads, params, rule))
+        for found, each in zip(known, of_nodes, strict=True)
+    ]
+
+
+def _refused_of(
+    reads: Iterable[ParamRead], params: Mapping[str, Param], rule: Rule
+) -> Iterator[tuple[ParamRead, Finding]]:
+    for read in reads:
+        param = params.get(read.name)
+        if param is not None and type(param.value) is not type(read.use.default):
+            difference = _difference(param.value, read.use.default)
+            if difference is not None:
+                yield read, _finding(rule, param, read, *difference)
 
 
 def _finding(

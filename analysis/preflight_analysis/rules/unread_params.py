@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from itertools import chain, compress
+from operator import is_not
+from typing import NamedTuple
 
 from rapidfuzz.distance import OSA
 
@@ -58,12 +60,12 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     if "/" in found.asked.counts:
         return ()
     places = {node.name: at for at, node in enumerate(nodes)}
-    private = [(places[each.holder], each.unread) for each in found.spaces.values() if each.holder and each.unread]
+    private = [(places[each.holder], each.unread) for each in found.private]
     holders = [nodes[at] for at, _ in private]
     unset = [found.unset_of_nodes[at] for at, _ in private]
     of_holders = kept.each_row(_of_holder, ([params for _, params in private], holders, unset))
     of_nobody: tuple[Unread, ...] = ()
-    orphans = tuple(chain.from_iterable(each.unread for each in found.spaces.values() if each.holder == _NOBODY))
+    orphans = found.orphans
     if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.
         near = kept.each(_unless_far, found.unset_of_nodes, *kept.get(_leaves_and_spaces, "", orphans))
@@ -142,6 +144,13 @@ class _Space:
     is not known what that node reads."""
 
 
+class _Held(NamedTuple):
+    """What is unread of the parameters of a node in one namespace."""
+
+    holder: str
+    unread: tuple[Param, ...]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _Matched:
     """What a launch sets, and what its nodes ask for."""
@@ -170,6 +179,10 @@ class _Matched:
     around: Mapping[str, frozenset[str]]
     """The namespaces, each with itself and those around it, without the root."""
     spaces: Mapping[str, _Space]
+    private: tuple[_Held, ...]
+    """Of nodes of which it is known what they read."""
+    orphans: tuple[Param, ...]
+    """What is unread in the namespaces of no node."""
 
 
 _Groups = Mapping[str, tuple[Param, ...]]
@@ -190,11 +203,15 @@ def _matched(
     old_groups: _Groups = {}
     old_asked: tuple[_Asked, ...] = (_NOTHING,) * len(asked)
     old_nodes: tuple[str, ...] = ()
-    last = _Matched(NO_NAMES, NO_NAMES, set(), {}, {}, ((),) * len(asked), set(), set(), {}, (), False, {}, {})
+    last = _Matched(NO_NAMES, NO_NAMES, set(), {}, {}, ((),) * len(asked), set(), set(), {}, (), False, {}, {}, (), ())
     if before is not None and len(before[0][1]) == len(asked):
         (old_groups, old_asked, old_nodes, _), last = before
-    new_groups = [space for space, group in groups.items() if old_groups.get(space) is not group]
-    new_groups += [space for space in old_groups if space not in groups]
+    same_spaces = [*groups] == [*old_groups]
+    if same_spaces:
+        new_groups = [*compress(groups, map(is_not, groups.values(), old_groups.values()))]
+    else:
+        new_groups = [space for space, group in groups.items() if old_groups.get(space) is not group]
+        new_groups += [space for space in old_groups if space not in groups]
     given, given_news = last.given.changed(_names(old_groups, new_groups), _names(groups, new_groups))
     rows = [at for at, (old, each) in enumerate(zip(old_asked, asked, strict=True)) if old is not each]
     tally, asked_news = last.asked.changed(
@@ -204,9 +221,9 @@ def _matched(
     made = {name for each in asked for name in each.made}
 
     askers, unset = dict(last.askers), dict(last.unset)
-    requested = {name for at in rows for each in (old_asked[at], asked[at]) for name in each.requested}
+    requested: set[str] = set()
     for at in rows:
-        _replace_asker(askers, at, old_asked[at].requested.keys(), asked[at].requested.keys())
+        requested |= _replace_asker(askers, at, old_asked[at].requested.keys(), asked[at].requested.keys())
     touched = {*rows}
     for name in requested | given_news | (made ^ last.made):
         was, who = unset.pop(name, None), askers.get(name)
@@ -231,12 +248,25 @@ def _matched(
 
     opaque = {name for name, each, is_known in zip(nodes, asked, known, strict=True) if each.lists or not is_known}
     searched = {read.use.name.strip("~/").partition("/")[0] for read in searches}
-    around = {space: last.around.get(space) or _around(space) for space in groups}
+    around = last.around if same_spaces else {space: last.around.get(space) or _around(space) for space in groups}
     new_names = asked_news | (opaque ^ last.opaque) | {*nodes}.symmetric_difference(old_nodes)
     new_spaces = {*groups} if searched != last.searched else {*new_groups, *map(_namespace, asked_news)}
     if new_names:
         new_spaces.update(space for space, spaces in around.items() if not new_names.isdisjoint(spaces))
     of_nodes = frozenset(nodes)
+    of_new = {
+        space: _space(space, groups[space], tally, searched, of_nodes, opaque)
+        for space in new_spaces
+        if space in groups
+    }
+    spaces = {**last.spaces, **of_new} if same_spaces else {}
+    spaces = spaces or {space: of_new.get(space) or last.spaces[space] for space in groups}
+    replaced = {each.holder for space in new_spaces for each in (last.spaces.get(space), of_new.get(space)) if each}
+    private, orphans = last.private, last.orphans
+    if not same_spaces or not replaced <= {None, _NOBODY}:
+        private = tuple(_Held(each.holder, each.unread) for each in spaces.values() if each.holder and each.unread)
+    if not same_spaces or _NOBODY in replaced:
+        orphans = tuple(chain.from_iterable(each.unread for each in spaces.values() if each.holder == _NOBODY))
     return _Matched(
         given,
         tally,
@@ -250,12 +280,9 @@ def _matched(
         tuple(sought.values()),
         any(each.lists for each in asked),
         around,
-        {
-            space: _space(space, group, tally, searched, of_nodes, opaque)
-            if space in new_spaces
-            else last.spaces[space]
-            for space, group in groups.items()
-        },
+        spaces,
+        private,
+        orphans,
     )
 
 
@@ -263,7 +290,10 @@ def _names(groups: _Groups, spaces: Iterable[str]) -> Iterator[str]:
     return (param.name for space in spaces for param in groups.get(space, ()))
 
 
-def _replace_asker(askers: dict[str, tuple[int, ...]], at: int, old: AbstractSet[str], new: AbstractSet[str]) -> None:
+def _replace_asker(
+    askers: dict[str, tuple[int, ...]], at: int, old: AbstractSet[str], new: AbstractSet[str]
+) -> set[str]:
+    """The names that a node requests are others now; which of them those are."""
     for name in old - new:
         others = tuple(each for each in askers[name] if each != at)
         if others:
@@ -272,6 +302,7 @@ def _replace_asker(askers: dict[str, tuple[int, ...]], at: int, old: AbstractSet
             del askers[name]
     for name in new - old:
         askers[name] = tuple(sorted((*askers.get(name, ()), at)))
+    return {*(old ^ new)}
 
 
 def _around(space: str) -> frozenset[str]:
