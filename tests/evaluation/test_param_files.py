@@ -1,6 +1,6 @@
 """Parameter files of ROS 2, whatever stands in them."""
 
-from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.evaluation.ros2.param_files import read_made_param_file
 
 
 def bomb(leaf: str, mark: str) -> str:
@@ -14,18 +14,18 @@ def bomb(leaf: str, mark: str) -> str:
 def test_aliases_of_aliases_end() -> None:
     for leaf in ("{}", "1"):
         for mark in ("ros__parameters", "inner"):
-            assert len(read_param_file(bomb(leaf, mark)).sections) <= 1
+            assert len(read_made_param_file(bomb(leaf, mark)).sections) <= 1
 
 
 def test_a_list_of_lists_of_lists_ends() -> None:
     lines = ["a0: &a0 [1, 2]", *(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 30))]
-    (section,) = read_param_file("\n".join([*lines, "node: {ros__parameters: {x: *a29}}"])).sections
+    (section,) = read_made_param_file("\n".join([*lines, "node: {ros__parameters: {x: *a29}}"])).sections
     assert section.params[0].value == [None] * 10
 
 
 def test_patterns() -> None:
     def fits(pattern: str, node: str) -> bool:
-        (section,) = read_param_file(f'"{pattern}": {{ros__parameters: {{a: 1}}}}').sections
+        (section,) = read_made_param_file(f'"{pattern}": {{ros__parameters: {{a: 1}}}}').sections
         return section.fits(node)
 
     assert fits("/**", "/a/b/c")
@@ -38,7 +38,7 @@ def test_patterns() -> None:
 
 def test_sections_that_reach_a_node_are_found_by_name_and_in_order() -> None:
     keys = ("a", "/**", "b", "/x/a", "/*", "/a", "/x/**", "/**/a", "/x/*")
-    file = read_param_file("".join(f'"{key}": {{ros__parameters: {{p: 1}}}}\n' for key in keys))
+    file = read_made_param_file("".join(f'"{key}": {{ros__parameters: {{p: 1}}}}\n' for key in keys))
     for node in ("/a", "/b", "/c", "/x/a", "/x/y/a"):
         for composable in (False, True):
             fitting = [section for section in file.sections if section.reaches(node, composable=composable)]

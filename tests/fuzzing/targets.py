@@ -35,7 +35,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST, find_packages
 from preflight_analysis.environment.setup_py import read_python_build
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.ros2.param_files import read_flat_file, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import read_made_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.findings.baseline import read_baseline
@@ -415,9 +415,7 @@ def ros1_params(data: bytes) -> None:
 
 def ros2_params(data: bytes) -> None:
     text = text_of(data)
-    found = read_param_file(text)
-    check_spans(found, text)
-    check_spans(read_flat_file(text), text)
+    check_spans(read_made_param_file(text), text)
     check_spans(parse_yaml("/x.yaml", text).document, text)
     look(2, {"config/params.yaml": text, "launch/x.launch.xml": _ROS2_PARAMS}, "launch/x.launch.xml")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
@@ -48,10 +48,11 @@ def debian_package(name: str, distro: str) -> str:
     return f"ros-{distro}-{name.replace('_', '-')}"
 
 
-def nearest_released(name: str, generation: int, edits: int) -> Iterator[str]:
+@lru_cache(maxsize=1024)
+def nearest_released(name: str, generation: int, edits: int) -> tuple[str, ...]:
     """The packages of a generation, in whichever distribution, that are at most so many edits away; nearest first."""
     near = process.extract(name, _names(generation), scorer=OSA.distance, score_cutoff=edits, limit=4)
-    yield from (found for found, distance, _ in near if distance)
+    return tuple(found for found, distance, _ in near if distance)
 
 
 @lru_cache(maxsize=2)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.movable import Movable
 from preflight_analysis.documents.span import LineIndex, Location, Span, version
+from preflight_analysis.incremental.once import Once
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +100,7 @@ Node = Element | Comment | Text
 
 
 @dataclass(frozen=True, slots=True)
-class Document:
+class Document(Once):
     """One file's text and what it parses to. `digest` names the text; those with equal ones differ in their lines at
     most.
 

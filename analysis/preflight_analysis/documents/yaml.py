@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import Any, ClassVar
 
 import yaml
+from yaml.constructor import SafeConstructor
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, SyntaxProblem
@@ -37,17 +38,29 @@ CONSTRUCTION_ERRORS = (
 """What PyYAML raises for a text that is no value of its tag (`!!bool x`, `2024-13-45`) or nested too deeply."""
 
 
-class PlainLoader(yaml.SafeLoader):
-    """PyYAML's, which also makes integers that Python refuses to write: `0x` and thousands of digits."""
-
-
-def _integer(loader: yaml.SafeLoader, node: yaml.ScalarNode) -> int:
-    value: int = loader.construct_yaml_int(node)
+def _integer(constructor: SafeConstructor, node: yaml.ScalarNode) -> int:
+    value: int = constructor.construct_yaml_int(node)
     str(value)  # raises ValueError
     return value
 
 
-PlainLoader.add_constructor("tag:yaml.org,2002:int", _integer)
+class _PlainConstructor(SafeConstructor):
+    """PyYAML's, which also makes integers that Python refuses to write: `0x` and thousands of digits."""
+
+    yaml_constructors: ClassVar[dict[str | None, Any]] = {
+        **SafeConstructor.yaml_constructors,
+        "tag:yaml.org,2002:int": _integer,
+    }
+
+
+class PlainLoader(_PlainConstructor, yaml.SafeLoader):
+    """PyYAML's with that constructor."""
+
+
+def constructed(node: yaml.Node) -> Any:
+    """The value of a node as plain data, by the rules of YAML 1.1. Raises one of `CONSTRUCTION_ERRORS`."""
+    # A loader reads a text, too: to make one takes ten times as long, and there is a value for each parameter.
+    return _PlainConstructor().construct_object(node, deep=True)
 
 
 def compose(text: str, loader: type[yaml.SafeLoader] = yaml.SafeLoader) -> yaml.Node | None:

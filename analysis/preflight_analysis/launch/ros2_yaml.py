@@ -11,7 +11,7 @@ import yaml
 from preflight_analysis.documents.document import Comment, Document, SpannedText
 from preflight_analysis.documents.hash_comments import above
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, YamlDocument, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, YamlDocument, constructed, span_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Literal, Typed, Value
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
 
@@ -135,7 +135,7 @@ def _scalar(node: yaml.ScalarNode) -> object:
     if node.tag == "tag:yaml.org,2002:str":
         return str(node.value)
     try:
-        value = PlainLoader("").construct_object(node)
+        value = constructed(node)
     except CONSTRUCTION_ERRORS:
         return str(node.value)
     return value if value is None or isinstance(value, (bool, int, float, str)) else str(node.value)

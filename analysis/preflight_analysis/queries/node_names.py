@@ -156,7 +156,7 @@ def _in_parameter_files(
     name = names.leaf(owner.name)
     for path in dict.fromkeys(source.path for source in owner.param_sources if source.path is not None):
         document = context.document(path)
-        for section in read_param_file(document.text).sections if document is not None else ():
+        for section in read_param_file(document).sections if document is not None else ():
             if not section.fits(owner.name) or names.leaf(section.pattern) != name:
                 continue
             others = any(

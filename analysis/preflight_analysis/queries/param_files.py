@@ -75,7 +75,7 @@ def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover
 
 def _at(analysis: Analysis, path: str, offset: int) -> tuple[Section, FileParam | None, Span] | None:
     document = analysis.documents.get(path)
-    for section in read_param_file(document.text).sections if document is not None else ():
+    for section in read_param_file(document).sections if document is not None else ():
         for span in section.spans:
             if span.contains(offset):
                 return section, None, span

@@ -45,7 +45,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         document = context.disk.text(path)
         if path in given or not isinstance(document, Document):
             continue
-        file = read_param_file(document.text)
+        file = read_param_file(document)
         # Only what has a section of a node is one for certain.
         for name, span in file.unmarked[:1] if file.sections else ():
             message = prm012.MESSAGE.format(name, MARK)
@@ -53,7 +53,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         for what, span in file.refused[:1]:
             message = f"{what}; the client libraries refuse the whole file for it, and no node that gets it starts"
             yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
-        for missing in prm018.missing_in(document.text):
+        for missing in document.once(prm018.missing_in):
             yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")
 
 

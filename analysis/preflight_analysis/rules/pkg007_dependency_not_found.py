@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with, system_keys
 from preflight_analysis.documents.document import Document
@@ -56,6 +57,7 @@ def _unknown(context: Context, manifest: Document) -> Iterator[tuple[Span, str]]
             yield Span(*found.span(2)), name
 
 
+@lru_cache(maxsize=1024)
 def _near_key(name: str) -> str | None:
     """The package of the operating system of whose name this is a slip."""
     near = nearest(name, system_keys()) if name not in system_keys() else None

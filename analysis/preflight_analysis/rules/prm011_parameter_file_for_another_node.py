@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         document = context.documents.get(path)
         if not isinstance(document, Document):
             continue
-        file = read_param_file(document.text)
+        file = read_param_file(document)
         sections = file.sections
         if not sections or any("$(" in section.pattern for section in sections):
             continue  # launch may make any name of a substitution

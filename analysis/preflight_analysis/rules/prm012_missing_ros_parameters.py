@@ -18,7 +18,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             document = context.documents.get(path) if path is not None else None
             if path is None or path in seen or not isinstance(document, Document):
                 continue
-            file = read_param_file(document.text)
+            file = read_param_file(document)
             if node.kind == "composable" and not file.sections:
                 continue  # launch_ros reads it and gives it to the container as it stands
             seen.add(path)

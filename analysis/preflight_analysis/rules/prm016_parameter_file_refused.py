@@ -20,7 +20,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         document = context.documents.get(path)
         if not isinstance(document, Document):
             continue
-        for what, span in read_param_file(document.text).refused:
+        for what, span in read_param_file(document).refused:
             at = context.location(path, span)
             if at in reported or (substituted and "$(" in document.text[span.start : span.end]):
                 continue  # what a substitution comes to may be fine

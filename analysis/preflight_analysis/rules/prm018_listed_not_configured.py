@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from functools import lru_cache
 from itertools import chain
 from typing import NamedTuple
 
@@ -64,7 +63,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     found: list[tuple[str, Missing]] = []
     for path in getters:
         document = context.documents.get(path)
-        found += ((path, each) for each in missing_in(document.text)) if isinstance(document, Document) else ()
+        found += ((path, each) for each in document.once(missing_in)) if isinstance(document, Document) else ()
     if not found:
         return
     given = {param.name for node in context.tree.nodes for source in node.param_sources for param in source.params}
@@ -82,10 +81,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-@lru_cache(maxsize=64)
-def missing_in(text: str) -> tuple[Missing, ...]:
+def missing_in(document: Document) -> tuple[Missing, ...]:
     """Those of a parameter file."""
-    return tuple(found for section in read_param_file(text).sections for found in _missing(text, section))
+    return tuple(found for section in read_param_file(document).sections for found in _missing(document.text, section))
 
 
 def _missing(text: str, section: Section) -> Iterator[Missing]:

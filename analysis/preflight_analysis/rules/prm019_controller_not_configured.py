@@ -76,7 +76,7 @@ def _manager(context: Context, name: str) -> LaunchNode | None:
 def _has_section(context: Context, node: LaunchNode, name: str) -> bool:
     documents = (context.documents.get(each.path) for each in node.param_sources if each.path is not None)
     return any(
-        section.exact for each in documents if each is not None for section in read_param_file(each.text).reaching(name)
+        section.exact for each in documents if each is not None for section in read_param_file(each).reaching(name)
     )
 
 

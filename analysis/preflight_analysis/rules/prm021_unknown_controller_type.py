@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
 from itertools import chain
 from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.finding import Finding, Related
@@ -43,7 +43,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         getters.setdefault(path, getter)
     for path, getter in getters.items():
         document = context.documents.get(path)
-        for wrong in _wrong_in(document.text, distro) if document is not None else ():
+        for wrong in document.once(_wrong_in, distro) if document is not None else ():
             here = environment.packages.get(wrong.package)
             if here is not None and not is_installed(context, here):
                 continue  # the workspace's own may be another version
@@ -58,10 +58,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-@lru_cache(maxsize=64)
-def _wrong_in(text: str, distro: str) -> tuple[_Wrong, ...]:
+def _wrong_in(document: Document, distro: str) -> tuple[_Wrong, ...]:
     found = []
-    for param in (param for section in read_param_file(text).sections for param in section.params):
+    for param in (param for section in read_param_file(document).sections for param in section.params):
         type_ = param.value
         if param.name.endswith(".type") and isinstance(type_, str) and type_.count("/") == 1:
             package = type_.partition("/")[0]

@@ -15,9 +15,10 @@ from typing import Any, NamedTuple
 import yaml
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, PlainLoader, parse_yaml, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, constructed, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
 
 MARK = "ros__parameters"
@@ -72,12 +73,14 @@ class Section:
 class ParamFile:
     """What a parameter file says. `problem` is why it is no YAML, with its place; `unmarked` are keys that lead to
     values without `ros__parameters` above them, which nobody reads; `refused` is YAML for which rcl refuses the file:
-    what it is, and where."""
+    what it is, and where. `flat` are the parameters of a file without any `ros__parameters`, which `launch_ros` gives
+    to a component as they stand."""
 
     sections: tuple[Section, ...]
     problem: tuple[str, Span] | None = None
     unmarked: tuple[tuple[str, Span], ...] = ()
     refused: tuple[tuple[str, Span], ...] = ()
+    flat: tuple[FileParam, ...] = ()
 
     def reaching(self, node: str, *, composable: bool = False) -> list[Section]:
         """The sections that reach the node of this full name, in order. A file may be shared by hundreds of nodes with
@@ -98,23 +101,31 @@ class ParamFile:
         return [at for at, section in enumerate(self.sections) if not section.exact]
 
 
-@lru_cache(maxsize=64)
-def read_param_file(text: str) -> ParamFile:
+def read_param_file(document: Document) -> ParamFile:
     """The sections of a parameter file in the order in which they are written."""
+    return document.once(_of_document)
+
+
+def _of_document(document: Document) -> ParamFile:
+    return _read(document.text)
+
+
+@lru_cache(maxsize=64)
+def read_made_param_file(text: str) -> ParamFile:
+    """As `read_param_file`, of a text that stands in no file: one whose substitutions were made, or that a run of a
+    launch file wrote."""
+    return _read(text)
+
+
+def _read(text: str) -> ParamFile:
     parsed = parse_yaml("", text)
     problems = parsed.document.problems
     problem = (problems[0].message, problems[0].span) if problems else None
     reader = _Reader()
     if isinstance(parsed.node, yaml.MappingNode):
         reader.nodes(parsed.node, (), (), 0)
-    return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused))
-
-
-@lru_cache(maxsize=64)
-def read_flat_file(text: str) -> tuple[FileParam, ...]:
-    """The parameters of a file without any `ros__parameters`, which `launch_ros` gives to a component as they stand."""
-    node = parse_yaml("", text).node
-    return tuple(_Reader().params(node)) if isinstance(node, yaml.MappingNode) else ()
+    flat = _Reader().params(parsed.node) if not reader.sections and isinstance(parsed.node, yaml.MappingNode) else ()
+    return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused), tuple(flat))
 
 
 class _Reader:
@@ -169,7 +180,7 @@ def plain(node: yaml.Node) -> Any:
     if isinstance(node, yaml.SequenceNode):
         return [plain(each) if isinstance(each, yaml.ScalarNode) else None for each in node.value]
     try:
-        return PlainLoader("").construct_object(node, deep=True)
+        return constructed(node)
     except CONSTRUCTION_ERRORS:
         return str(getattr(node, "value", ""))
 

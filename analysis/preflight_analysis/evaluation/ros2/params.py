@@ -22,7 +22,7 @@ from preflight_analysis.evaluation.ros2.param_files import (
     FileParam,
     ParamFile,
     Section,
-    read_flat_file,
+    read_made_param_file,
     read_param_file,
 )
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
@@ -180,14 +180,15 @@ def file_source(
         text = result.text
     if is_unknown(text):
         state.note_unknown(path, "values in it are not known", origin[-1])
-    file = read_param_file(text)
+    made = state.text_made(path) is not None
+    file = read_made_param_file(text) if made or substitute else read_param_file(found)
     if file.problem is not None:
         message, span = file.problem
-        at = origin if state.text_made(path) is not None else (*origin, found.lines.location(path, span))
+        at = origin if made else (*origin, found.lines.location(path, span))
         fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
-    return _of_file(file, text, path, lines, origin, to, gone=state.text_made(path) is not None)
+    return _of_file(file, path, lines, origin, to, gone=made)
 
 
 def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:
@@ -199,7 +200,7 @@ def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -
 def _for_any_name(source: ParamSource, documents: Mapping[str, Document]) -> tuple[Section, ...]:
     document = _as_it_stands(source, documents)
     if document is not None:
-        return read_param_file(document.text).sections
+        return read_param_file(document).sections
     nowhere = Span(0, 0)
     return tuple(
         Section(EVERY, (), (FileParam(param.name, param.value, param.value, nowhere, nowhere),), key)
@@ -223,8 +224,8 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
         if source.path is None or document is None:
             to.add(source)
         else:
-            file = read_param_file(document.text)
-            to.add(_of_file(file, document.text, source.path, document.lines, source.origin, to))
+            file = read_param_file(document)
+            to.add(_of_file(file, source.path, document.lines, source.origin, to))
     return node._replace(
         name=name, name_from_code=True, name_inferred=inferred, params=to.effective(), param_sources=tuple(to.found)
     )
@@ -232,7 +233,6 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
 
 def _of_file(
     file: ParamFile,
-    text: str,
     path: str,
     lines: LineIndex | None,
     origin: Origin,
@@ -246,7 +246,7 @@ def _of_file(
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
         if not file.sections:
-            reaching = [Section(EVERY, (), read_flat_file(text), EVERY)]
+            reaching = [Section(EVERY, (), file.flat, EVERY)]
     params, keys = [], []
     for section in reaching:
         for param in section.params:

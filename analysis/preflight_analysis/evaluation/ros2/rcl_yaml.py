@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import yaml
+from yaml.resolver import Resolver
 
 _TRUE = frozenset(("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"))
 _FALSE = frozenset(("N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"))
@@ -23,6 +24,7 @@ _DOUBLE = re.compile(
 )
 _MOST = 2**63
 _STRING_TAG = "tag:yaml.org,2002:str"
+_RESOLVER: Any = Resolver()
 _MAX_TEXT = 400
 
 
@@ -63,8 +65,7 @@ def _double(text: str, convert: Callable[[], float]) -> float | str:
 
 def _is_marked(node: yaml.ScalarNode) -> bool:
     """Whether a tag says that it is a text; PyYAML gives the same tag to what it takes for one by itself."""
-    resolver: Any = yaml.SafeLoader("")
-    return node.tag == _STRING_TAG and resolver.resolve(yaml.ScalarNode, node.value, (True, False)) != _STRING_TAG
+    return node.tag == _STRING_TAG and _RESOLVER.resolve(yaml.ScalarNode, node.value, (True, False)) != _STRING_TAG
 
 
 def value(node: yaml.Node) -> Any:
