@@ -233,3 +233,65 @@ def test_an_edit_evaluates_the_include_that_it_touches(tmp_path: Path, monkeypat
         sources.open(str(root), f"<launch>\n\n{tags.format(inner, node, ns)}</launch>")
         tree = remembering(sources.db, surroundings, str(root))
         assert (evaluated, f"/{ns}/inner/node" in {node.name for node in tree.nodes}) == (again, True)
+
+
+ASKING = """\
+<launch>
+<arg name="rate"/><arg name="frame" default="odom"/><arg name="level" default="1"/>
+<node pkg="p" type="t" name="plain"/>
+<node pkg="p" type="t" name="framed"><param name="frame" value="$(arg frame)"/></node>
+<node pkg="p" type="t" name="eval" if="$(eval rate > 3)"/>
+<rosparam subst_value="true">{a: $(arg level)}</rosparam>
+<include file="$(dirname)/below.launch" pass_all_args="true"/>
+</launch>
+"""
+PASSING = (
+    {"rate": "5"},
+    {"rate": "5", "frame": "map"},
+    {"rate": "2", "frame": "map"},
+    {"rate": "x"},
+    {},
+    {"frame": "map", "unknown": "1"},
+    {"rate": "5", "level": "2"},
+    {"rate": "5"},
+)
+
+
+@pytest.mark.parametrize("all_args", [False, True])
+def test_arguments_of_an_include_come_and_go_and_change(tmp_path: Path, all_args: bool) -> None:
+    (tmp_path / "inner.launch").write_text(ASKING)
+    below = '<launch><arg name="rate" default="1"/><param name="b" value="$(arg rate) $(arg level)"/></launch>'
+    (tmp_path / "below.launch").write_text(below)
+    root, twice = tmp_path / "root.launch", Twice(tmp_path)
+    head = f'<include file="{tmp_path}/inner.launch"' + (' pass_all_args="true">' if all_args else ">")
+    for passed in PASSING:
+        tags = "\n".join(f'<arg name="{name}" value="{value}"/>' for name, value in passed.items())
+        twice.sources.open(str(root), f"<launch>\n{tags if all_args else ''}\n{head}\n{tags}\n</include>\n</launch>")
+        twice.tree(root)
+
+
+def test_an_argument_is_for_those_that_ask_for_it(tmp_path: Path) -> None:
+    inner, root, twice = tmp_path / "inner.launch", tmp_path / "root.launch", Twice(tmp_path)
+    inner.write_text(
+        ASKING.replace(' pass_all_args="true"', "").replace("<include", "<!--").replace("/>\n</l", "-->\n</l")
+    )
+    nodes = []
+    for frame in ("map", "odom", "world", "map"):
+        args = f'<arg name="rate" value="5"/><arg name="frame" value="{frame}"/>'
+        twice.sources.open(str(root), f'<launch><include file="{inner}">{args}</include></launch>')
+        twice.tree(root)
+        nodes.append({node.name: node for node in twice.remembered.nodes})
+    for name in ("/plain", "/eval"):
+        assert all(each[name] is nodes[0][name] for each in nodes)
+    assert nodes[0]["/framed"] is not nodes[1]["/framed"]
+
+
+def test_an_edit_below_asks_for_an_argument_that_nobody_asked_for(tmp_path: Path) -> None:
+    inner, root, yaml = (tmp_path / name for name in ("inner.launch", "root.launch", "p.yaml"))
+    args = '<arg name="rate" value="5"/><arg name="other" value="6"/>'
+    root.write_text(f'<launch><include file="{inner}">{args}</include></launch>')
+    inner.write_text(f'<launch><rosparam param="p" subst_value="true" file="{yaml}"/></launch>')
+    twice = Twice(tmp_path)
+    for name, value in (("rate", 5), ("other", 6), ("rate", 5)):
+        twice.sources.open(str(yaml), f"$(eval {name})")
+        assert twice.tree(root).params["/p"].value == value

@@ -419,6 +419,47 @@ def test_equal_values_for_other_answers_are_one_object() -> None:
     assert third == ("long", 2)
 
 
+def test_parts_are_taken_over_where_other_answers_are_given() -> None:
+    db = Database()
+    change(db, "list", "a b")
+    change(db, "a", "plain")
+    change(db, "b", "what is ?")
+
+    @query
+    def said(db: Database) -> tuple[str, ...]:
+        meant = db.ask("meant")
+        words = TEXT(db, "list").split()
+        look = {"meant": meant}.get
+        return tuple(db.part_answered(word, partial(_saying, db, word, meant), look) for word in words)
+
+    MADE.clear()
+    for word, made in (("X", ["a", "b"]), ("Y", ["b"]), ("Z", ["b"])):
+        assert said.answered(db, Answering(lambda _, word=word: word, [])) == ("PLAIN", f"WHAT IS ? {word}")
+        assert made == MADE
+        MADE.clear()
+
+
+def test_what_is_made_of_a_question_that_nobody_answers_is_no_value() -> None:
+    db = Database()
+    change(db, "a", "1")
+    answers = Answering({"1": "one", "2": "two"}.__getitem__, [])
+
+    @query
+    def forgiving(db: Database) -> str:
+        try:
+            return str(db.ask(TEXT(db, "a")))
+        except Exception:
+            return "nobody knows"
+
+    @query
+    def asking(db: Database) -> str:
+        return forgiving.answered(db, answers)
+
+    assert asking(db) == "one"
+    change(db, "a", "2")
+    assert asking(db) == "two"
+
+
 def test_many_are_asked_for_at_once() -> None:
     it, asked = Made(), list[Any]()
     answers = Answering(str, asked)

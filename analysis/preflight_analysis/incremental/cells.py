@@ -114,6 +114,10 @@ def would_answer(answers: Answers, cell: Cell) -> bool:
     return True
 
 
+class NotAsked(BaseException):
+    """A function asks what it did not ask the last time. No `Exception`: what it would make of one is no value."""
+
+
 class AsLastTime:
     """Answers what a cell asked when it was made. It does not know what else its asker would have answered."""
 
@@ -122,8 +126,11 @@ class AsLastTime:
         self._answers = answers
 
     def look(self, question: Hashable) -> object:
-        """What was answered then."""
-        return self._answers[question]
+        """What was answered then. Raises `NotAsked`."""
+        try:
+            return self._answers[question]
+        except KeyError:
+            raise NotAsked from None
 
     def alike(self, number: int, questions: Iterable[object]) -> bool:
         """Whether it is of the same asker."""

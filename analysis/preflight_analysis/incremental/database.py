@@ -31,6 +31,7 @@ from preflight_analysis.incremental.cells import (
     AsLastTime,
     Cell,
     Making,
+    NotAsked,
     Part,
     Parts,
     ThreadState,
@@ -63,6 +64,14 @@ class Cancelled(BaseException):
 
 class CycleError(RuntimeError):
     """A query needs its own value."""
+
+
+def _beside(kind: Query[Any, Any], key: Key, others: Sequence[Cell]) -> Cell:
+    """A cell for other answers, which takes over parts of the last value."""
+    cell = Cell(kind, key)
+    if others:
+        cell.parts = others[-1].parts
+    return cell
 
 
 def _no_answer(question: Hashable) -> object:
@@ -267,10 +276,10 @@ class Database:
 
     def _answered_cell(self, kind: Query[Any, Any], key: Key, answers: Answers) -> Cell:
         cells = self._answered.setdefault((kind, key), [])
-        cell = next((each for each in cells[::-1] if would_answer(answers, each)), None) or Cell(kind, key)
+        cell = next((each for each in cells[::-1] if would_answer(answers, each)), None) or _beside(kind, key, cells)
         if self._make_for(answers, cell) and not would_answer(answers, cell):
             # Somebody asked for it at the same time, and answered otherwise what the function asks now.
-            cell = Cell(kind, key)
+            cell = _beside(kind, key, cells)
             self._make_for(answers, cell)
         if not cells or cells[-1] is not cell:
             with self._condition:
@@ -375,7 +384,7 @@ class Database:
                     self._bring_up_to_date(cell)
                 else:
                     self._bring_up_to_date_for(AsLastTime(cell.answered_by, cell.answers), cell)
-            except Exception:
+            except (Exception, NotAsked):
                 return False  # who asks for it in earnest shall see that
         return cell.changed_at <= since
 

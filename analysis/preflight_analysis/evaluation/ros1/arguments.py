@@ -9,7 +9,8 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import FixedArgument, IncludeArgumentWithoutValue, RedeclaredArgument
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
-from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.scope_arguments import ArgValue
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.tags import evaluate_env
 from preflight_analysis.evaluation.tree import Arg, Use
@@ -50,20 +51,20 @@ def evaluate_arg(state: State, scope: Scope, action: Action) -> None:
     if value is not None and default is not None:
         state.problem(ConflictingAttributes("arg", ("value", "default")), scope.origin(action.kind_span))
         default = None
-    if name in scope.declared and not scope.pass_all_args:
-        first = scope.declared[name]
+    arguments = scope.arguments
+    if (first := arguments.declaration(name)) is not None and not scope.pass_all_args:
         state.problem(RedeclaredArgument(name, first, passed=False), scope.origin(span))
         return
-    scope.declared.setdefault(name, location)
-    given = scope.args.get(name)
+    arguments.declare(name, location)
+    given = arguments.get(name)
     if value is not None:
         if given is not None and not scope.pass_all_args:
             state.problem(FixedArgument(name), scope.chain or scope.origin(span))
         else:
-            scope.args[name] = ArgValue(value.text if value.known else None, scope.origin(span))
+            arguments.set(name, ArgValue(value.text if value.known else None, scope.origin(span)))
     elif default is not None and given is None:
-        scope.args[name] = ArgValue(default.text if default.known else None, scope.origin(span))
-    now = scope.args.get(name)
+        arguments.set(name, ArgValue(default.text if default.known else None, scope.origin(span)))
+    now = arguments.get(name)
     state.uses.append(
         Use("declaration", location, name, now.text if now else None, None, (now.origin if now else None) or ())
     )
@@ -79,7 +80,7 @@ def passed_args(
     passed: dict[str, ArgValue] = {}
     seen: dict[str, Location] = {}
     if pass_all:
-        passed = dict(scope.args)
+        passed = dict(scope.arguments.given)
     without: list[tuple[str, Span]] = []
     for child in action.children:
         kind = child.kind.lower()
@@ -120,7 +121,7 @@ def are_those_of(scope: Scope, path: str, passed: Mapping[str, ArgValue]) -> boo
     at: Scope | None = scope
     wanted = {name: value.text for name, value in passed.items()}
     while at is not None:
-        if at.file == path and all(at.args.get(n) is not None and at.args[n].text == t for n, t in wanted.items()):
+        if at.file == path and all((v := at.arguments.get(n)) is not None and v.text == t for n, t in wanted.items()):
             return True
         at = at.parent
     return False
@@ -130,12 +131,12 @@ def declared_args(scope: Scope, launch_file: LaunchFile) -> dict[str, Arg]:
     """The arguments that the file of a scope declares, with what they are there."""
     found: dict[str, Arg] = {}
     tags = [a for a in (launch_file.root.children if launch_file.root else ()) if a.kind == "arg"]
-    for name, location in scope.declared.items():
+    for name, location in scope.arguments.declared.items():
         tag = next((t for t in tags if (n := t.attribute("name")) and n.value.span == location.span), None)
         default = tag.value("default") if tag else None
         fixed = tag.value("value") if tag else None
         doc = tag.value("doc") if tag else None
-        given = scope.args.get(name)
+        given = scope.arguments.get(name)
         found[name] = Arg(
             name,
             given.text if given else None,

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from collections.abc import Set as AbstractSet
-from functools import partial
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
@@ -37,12 +36,13 @@ from preflight_analysis.evaluation.ros1.included import (
     Record,
     language_problems,
     passed_to,
-    tags_key_of,
 )
 from preflight_analysis.evaluation.ros1.nodes import evaluate_node
 from preflight_analysis.evaluation.ros1.params import evaluate_param, evaluate_rosparam
-from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
-from preflight_analysis.evaluation.ros1.state import State
+from preflight_analysis.evaluation.ros1.parts import MAX_REMEMBERED_DEPTH, Evaluate, remembered, within_tags
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.scope_arguments import Arguments, ArgValue, PassedArguments
+from preflight_analysis.evaluation.ros1.state import MAX_INCLUDES, State
 from preflight_analysis.evaluation.ros1.tags import (
     clear_params,
     evaluate_env,
@@ -53,17 +53,12 @@ from preflight_analysis.evaluation.ros1.tags import (
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
 from preflight_analysis.incremental.database import Database
-from preflight_analysis.incremental.hashed import Hashed
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
 
 MAX_DEPTH = 150
 """Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
-MAX_REMEMBERED_DEPTH = 24
-"""Of includes within each other; what is deeper is evaluated anew, as Python's stack has an end."""
-MAX_INCLUDES = 2_000
-"""Real launches stay below a few hundred; an include that multiplies itself does not."""
 NO_RESULTS = NoResults()
 
 
@@ -97,7 +92,7 @@ def evaluate(
     else:
         ns = args.get("__ns") or environment.variables.get("ROS_NAMESPACE") or "/"
         scope = Scope(path, found.document.lines, (), names.as_namespace(ns))
-        scope.args = {name: ArgValue(value, None) for name, value in args.items()}
+        scope.arguments = Arguments(values={name: ArgValue(value, None) for name, value in args.items()})
         _file(state, scope, found, None)
         state.args = declared_args(scope, found)
         if (asked_for := names_asked_for(found)) is not None:
@@ -176,10 +171,16 @@ def _conditions_of_launch(state: State, scope: Scope, root: Action) -> None:
 
 
 def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_machine: str | None) -> str | None:
-    within: Hashed | None = None
+    within: Hashable | None = None
     made = 0
     for action in actions:
         evaluate = _EVALUATED_APART.get(action.kind)
+        if action.kind == "arg":
+            evaluate_arg(state, scope, action)
+            continue
+        if action.kind == "rosparam":
+            evaluate_rosparam(state, scope, action)
+            continue
         if action.kind == "include" and scope.chain:
             # Included files are remembered anyhow; to try those within each other apart would double at each level.
             after = _include(state, scope, action, default_machine)
@@ -189,21 +190,17 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
         if evaluate is not None:
             # Those that follow each other have the same scope, but for the anonymous names that one of them makes.
             if within is None or len(scope.anonymous) != made:
-                within, made = _within(state, scope, default_machine), len(scope.anonymous)
-            after = _remembered(state, scope, action, default_machine, within, evaluate)
+                within, made = within_tags(state, scope, default_machine), len(scope.anonymous)
+            after = remembered(state, scope, action, within, _of_tag(evaluate, action, default_machine))
             if after != default_machine:
                 default_machine, within = after, None
             continue
         within = None
         match action.kind:
-            case "arg":
-                evaluate_arg(state, scope, action)
             case "group":
                 default_machine = _group(state, scope, action, default_machine)
             case "param":
                 evaluate_param(state, scope, action)
-            case "rosparam":
-                evaluate_rosparam(state, scope, action)
             case "remap":
                 remap = evaluate_remap(state, scope, action, inside_node=False)
                 if remap is not None:
@@ -215,51 +212,8 @@ def _actions(state: State, scope: Scope, actions: tuple[Action, ...], default_ma
     return default_machine
 
 
-def _within(state: State, scope: Scope, default_machine: str | None) -> Hashed | None:
-    """All of a scope that nodes and includes in it depend on, the same object while that is equal; None where nothing
-    of them can be remembered."""
-    db = state.files.db
-    if not db.is_making or state.outline or len(scope.chain) > MAX_REMEMBERED_DEPTH:
-        return None
-    key = tags_key_of(scope, default_machine)
-    if key is None:
-        return None
-    hashed = Hashed(key)
-    return db.part(hashed, lambda: hashed)
-
-
-def _remembered(
-    state: State,
-    scope: Scope,
-    action: Action,
-    default_machine: str | None,
-    within: Hashed | None,
-    evaluate: _Evaluate,
-) -> str | None:
-    """As `evaluate`: what the tag added in the same scope is added again, where it says and stands the same. `within`
-    is all of the scope that it depends on; None where nothing can be remembered."""
-    if within is None:
-        return evaluate(state, scope, action, default_machine)
-    lines, source = scope.lines.lines_of(action.span), scope.lines.text[slice(*action.span)]
-    key = within, source, action.span.start - lines[0].start, lines
-    anonymous = dict(scope.anonymous)
-    record = state.files.db.part(key, partial(_tag_alone, state, scope, action, default_machine, evaluate))
-    if record is not None and state.absorb(record, MAX_INCLUDES):
-        return record.default_machine
-    # A node's name is taken, say: then order matters, and it is evaluated in its place.
-    scope.anonymous = anonymous
-    return evaluate(state, scope, action, default_machine)
-
-
-def _tag_alone(
-    state: State, scope: Scope, action: Action, default_machine: str | None, evaluate: _Evaluate
-) -> Record | None:
-    """What a tag adds, whatever is around it; None where that depends on more than its scope, and where something is
-    wrong with the tag itself."""
-    inner = state.inner()
-    after = evaluate(inner, scope, action, default_machine)
-    wrong = any(problem.location.file == scope.file for problem in inner.problems)
-    return None if wrong or inner.depends_on_outside or inner.exhausted else inner.record(scope, after)
+def _of_tag(evaluate: _Evaluate, action: Action, default_machine: str | None) -> Evaluate:
+    return lambda state, scope: evaluate(state, scope, action, default_machine)
 
 
 def _node(state: State, scope: Scope, action: Action, default_machine: str | None) -> str | None:
@@ -327,12 +281,12 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     if found is None:
         return default_machine
     inside.file, inside.lines, inside.chain = path, found.document.lines, origin
-    inside.args, inside.declared, inside.anonymous, inside.pass_all_args = passed, {}, {}, pass_all
+    inside.arguments, inside.anonymous, inside.pass_all_args = Arguments(values=passed), {}, pass_all
     default_machine = _included_file(state, inside, found, default_machine)
     if not pass_all:
-        declared = tuple(sorted(inside.declared))
+        declared = tuple(sorted(inside.arguments.declared))
         for name, tag in tags.items():
-            if name not in inside.declared:
+            if name not in declared:
                 state.problem(UnknownIncludeArgument(name, declared, path), scope.origin(tag.span))
     return default_machine
 
@@ -348,12 +302,12 @@ def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default
     surroundings, passed = state.surroundings, passed_to(inside, default_machine)
     if surroundings is None or passed is None or len(inside.chain) > MAX_REMEMBERED_DEPTH:
         return _file(state, inside, launch_file, default_machine)
-    record = _alone(state.files.db, surroundings, passed)
+    record = _alone.answered(state.files.db, PassedArguments(inside.arguments), surroundings, passed)
     if record is None:
         state.depends_on_outside = True
         return _file(state, inside, launch_file, default_machine)
-    if state.absorb(record, MAX_INCLUDES):
-        inside.declared = dict(record.declared)
+    if state.absorb(record):
+        inside.arguments.declared.update(record.declared)
         return record.default_machine
     # A node's name is taken, say: then order matters, and all of it is evaluated in its place.
     state.surroundings = None
@@ -371,7 +325,7 @@ def _alone(db: Database, surroundings: Surroundings, passed: Passed) -> Record |
     found = files.launch_file(passed.file, 1)
     if isinstance(found, Unreadable):
         return None
-    scope = passed.scope(found.document.lines)
+    scope = passed.scope(found.document.lines, Arguments(lambda *question: db.ask(question)))
     after = _file(state, scope, found, passed.default_machine)
     state.inputs = {passed.file: state.digest(passed.file), **state.inputs}
     return None if state.depends_on_outside or state.exhausted else state.record(scope, after)

@@ -1,9 +1,9 @@
 """What includes come to, by which an edit evaluates the edited file again and what it changed of others.
 
-What an included file adds to a launch depends on what is passed to it (arguments, namespace, remaps, environment), on
-the files read below it, and on nothing else, but for a few tags (`State.depends_on_outside`); such includes are not
-remembered. Places in the files above are part of the result too, the include chain in each origin; they are the same
-where only text above the tag has changed.
+What an included file adds to a launch depends on what is passed to it (namespace, remaps, environment, and of the
+arguments those that it asks for), on the files read below it, and on nothing else, but for a few tags
+(`State.depends_on_outside`); such includes are not remembered. Places in the files above are part of the result too,
+the include chain in each origin; they are the same where only text above the tag has changed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin
 from preflight_analysis.evaluation.collector import Collected
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.evaluation.ros1.scope import ArgValue, Scope
+from preflight_analysis.evaluation.ros1.scope import Scope
+from preflight_analysis.evaluation.ros1.scope_arguments import Arguments
 from preflight_analysis.evaluation.tree import (
     Param,
     Remap,
@@ -40,7 +41,8 @@ class Record:
 
 
 class Passed(NamedTuple):
-    """All that the evaluation of an included file depends on beside its `Surroundings`."""
+    """All that the evaluation of an included file depends on beside its `Surroundings` and the arguments that it asks
+    for."""
 
     file: str
     ns: str
@@ -48,11 +50,10 @@ class Passed(NamedTuple):
     pass_all_args: bool
     default_machine: str | None
     chain: Origin
-    args: tuple[tuple[str, ArgValue], ...]
     env: tuple[tuple[str, str], ...]
     remaps: tuple[Remap, ...]
 
-    def scope(self, lines: LineIndex) -> Scope:
+    def scope(self, lines: LineIndex, arguments: Arguments) -> Scope:
         """The scope in which the file is evaluated; `lines` are its own."""
         outside = Scope(self.file, lines, self.chain, self.ns, own_remaps=list(self.remaps))
         return Scope(
@@ -62,7 +63,7 @@ class Passed(NamedTuple):
             self.ns,
             outside,
             env=list(self.env),
-            args=dict(self.args),
+            arguments=arguments,
             pass_all_args=self.pass_all_args,
             depth=self.depth,
         )
@@ -80,16 +81,15 @@ def passed_to(inside: Scope, default_machine: str | None) -> Passed | None:
         inside.pass_all_args,
         default_machine,
         inside.chain,
-        tuple(inside.args.items()),
         tuple(inside.env),
         tuple(inside.remaps()),
     )
 
 
 def tags_key_of(scope: Scope, default_machine: str | None) -> Hashable | None:
-    """All of a scope that the tags of nodes in it depend on; as for `passed_to`."""
+    """All of a scope that the tags of nodes in it depend on, but for arguments; as for `passed_to`."""
     passed = passed_to(scope, default_machine)
-    return None if passed is None else (passed, tuple(scope.declared.items()), tuple(scope.anonymous.items()))
+    return None if passed is None else (passed, tuple(scope.anonymous.items()))
 
 
 @query

@@ -24,6 +24,7 @@ from preflight_analysis.evaluation.problems import (
     YamlKeyTwice,
 )
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
+from preflight_analysis.evaluation.ros1.parts import remembered, within_parameters
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.ros1.substitute import resolve
@@ -148,6 +149,11 @@ def _file_use(scope: Scope, action: Action, attribute: str, path: str) -> Use:
 
 def evaluate_rosparam(state: State, scope: Scope, action: Action, *, node: str | None = None) -> None:
     """A `<rosparam>` (http://wiki.ros.org/roslaunch/XML/rosparam). `dump` and `delete` act at launch time only."""
+    within = within_parameters(state, scope, node)
+    remembered(state, scope, action, within, lambda state, scope: _evaluate_rosparam(state, scope, action, node))
+
+
+def _evaluate_rosparam(state: State, scope: Scope, action: Action, node: str | None) -> None:
     if not applies(state, scope, action):
         return
     attributes = Attributes(state, scope, action)

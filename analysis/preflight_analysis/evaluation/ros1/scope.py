@@ -10,17 +10,10 @@ from dataclasses import field, replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
+from preflight_analysis.evaluation.before import Before
 from preflight_analysis.evaluation.names import as_namespace, join
+from preflight_analysis.evaluation.ros1.scope_arguments import Arguments
 from preflight_analysis.evaluation.tree import Param, Remap
-
-
-@dataclass(frozen=True, slots=True)
-class ArgValue:
-    """An argument as seen in a scope. `text` None: not known (something it depends on is missing)."""
-
-    text: str | None
-    origin: Origin | None
-    """Where the value was given; None for the command line."""
 
 
 @dataclass(slots=True)
@@ -36,9 +29,7 @@ class Scope:
     own_remaps: list[Remap] = field(default_factory=list)
     private_params: list[Param] = field(default_factory=list)
     env: list[tuple[str, str]] = field(default_factory=list)
-    args: dict[str, ArgValue] = field(default_factory=dict)
-    declared: dict[str, Location] = field(default_factory=dict)
-    """`<arg>` tags seen in this file so far, by name."""
+    arguments: Arguments = field(default_factory=Arguments)
     anonymous: dict[str, str] = field(default_factory=dict)
     pass_all_args: bool = False
     depth: int = 0
@@ -67,23 +58,14 @@ class Scope:
             [],
             self.private_params or [],
             list(self.env),
-            dict(self.args),
-            dict(self.declared),
+            self.arguments.child(),
             dict(self.anonymous),
             depth=self.depth + 1,
         )
 
-    def copy(self) -> Scope:
-        """The same scope, to be changed without changing this one."""
-        return replace(
-            self,
-            own_remaps=list(self.own_remaps),
-            private_params=list(self.private_params),
-            env=list(self.env),
-            args=dict(self.args),
-            declared=dict(self.declared),
-            anonymous=dict(self.anonymous),
-        )
+    def part(self, before: Before) -> Scope:
+        """This scope as a tag in it sees it, which asks for its arguments."""
+        return replace(self, arguments=Arguments(before.ask))
 
     def add_remap(self, remap: Remap) -> None:
         """A later remap of the same name replaces the earlier one."""

@@ -17,6 +17,9 @@ from preflight_analysis.evaluation.tree import (
     Param,
 )
 
+MAX_INCLUDES = 2_000
+"""Real launches stay below a few hundred; an include that multiplies itself does not."""
+
 
 class State(Collector):
     """The growing result of a ROS 1 launch."""
@@ -74,15 +77,14 @@ class State(Collector):
     def record(self, inside: Scope, default_machine: str | None = None) -> Record:
         """All that was added in the scope `inside`, for which this state was made."""
         node_names = {name: place for name, place in self.node_names.items() if place is not None}
-        return Record(
-            self.collected(), node_names, self.params, tuple(self.clear_params), inside.declared, default_machine
-        )
+        declared, cleared = inside.arguments.declared, tuple(self.clear_params)
+        return Record(self.collected(), node_names, self.params, cleared, declared, default_machine)
 
-    def absorb(self, record: Record, most_includes: int) -> bool:
+    def absorb(self, record: Record) -> bool:
         """Add what an include added; not if its nodes' names are taken or there would be too many includes."""
         if not self.node_names.keys().isdisjoint(record.node_names):
             return False
-        if self.include_count + len(record.collected.includes) > most_includes:
+        if self.include_count + len(record.collected.includes) > MAX_INCLUDES:
             return False
         self.node_names.update(record.node_names)
         again = {name: self._replacing(record.params[name]) for name in self.params.keys() & record.params.keys()}

@@ -88,8 +88,7 @@ def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: 
         if part.command == "arg":
             if len(words) != 1:
                 raise _Failure(BadSubstitution(part.text, "$(arg name) takes exactly one name"))
-            declaration = scope.declared.get(words[0])
-            given = scope.args.get(words[0])
+            given, declaration = scope.arguments.get(words[0]), scope.arguments.declaration(words[0])
             origin = (given.origin if given else None) or ()
             target = declaration or (origin[-1] if origin else None)
             text = _arg(scope, words[0])
@@ -106,16 +105,18 @@ def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: 
 
 
 def _arg(scope: Scope, name: str) -> str:
-    given = scope.args.get(name)
+    arguments = scope.arguments
+    given = arguments.get(name)
     if given is not None:
         if given.text is None:
             raise _Failure
         return given.text
-    if name not in scope.declared:
-        raise _Failure(UndeclaredArgument(name, tuple(sorted({*scope.declared, *scope.args}))))
+    declaration = arguments.declaration(name)
+    if declaration is None:
+        raise _Failure(UndeclaredArgument(name, tuple(sorted(arguments.declared_names | arguments.given_names))))
     if scope.chain:
-        raise _Failure(MissingArgument(name, scope.file, tuple(sorted(scope.args))), scope.chain)
-    raise _Failure(ArgumentNeeded(name), (scope.declared[name],))
+        raise _Failure(MissingArgument(name, scope.file, tuple(sorted(arguments.given_names))), scope.chain)
+    raise _Failure(ArgumentNeeded(name), (declaration,))
 
 
 def _env(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
@@ -160,9 +161,7 @@ def _unknown_command(state: State, scope: Scope, part: Substitution, words: list
 
 def _eval(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     def by_name(name: str) -> object:
-        if name not in scope.args:
-            if name in scope.declared:
-                _arg(scope, name)
+        if scope.arguments.get(name) is None and scope.arguments.declaration(name) is None:
             raise KeyError(name)
         return values.convert(_arg(scope, name), "auto")
 

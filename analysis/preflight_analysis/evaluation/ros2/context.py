@@ -15,6 +15,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.variables import copied
+from preflight_analysis.evaluation.before import Before, Question
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.launch.python_classes import PythonClasses
 
@@ -61,26 +62,8 @@ class _Scope:
         return _Scope(dict(self.configurations), self.namespace, self.remaps, self.params, self.not_followed)
 
 
-Question = tuple[Hashable, ...]
-"""What is asked, and of what: `("configuration", "rate")`."""
-
-
 class NotByPartsError(Exception):
     """Something depends on the whole launch before it: no part of that can be evaluated by itself."""
-
-
-class Before:
-    """What a part of a launch asks of the launch before it, and the answers."""
-
-    def __init__(self, look: Callable[[Question], object]) -> None:
-        self._look = look
-        self.answers: dict[Question, object] = {}
-
-    def ask(self, *question: Hashable) -> Any:
-        """What is answered."""
-        if question not in self.answers:
-            self.answers[question] = self._look(question)
-        return self.answers[question]
 
 
 class _Done(NamedTuple):

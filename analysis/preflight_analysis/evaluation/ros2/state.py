@@ -10,10 +10,11 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.before import Before, Question
 from preflight_analysis.evaluation.collector import Collected, Collector
 from preflight_analysis.evaluation.commands import Commands
 from preflight_analysis.evaluation.files import Executables, Files
-from preflight_analysis.evaluation.ros2.context import Before, NotByPartsError, Question
+from preflight_analysis.evaluation.ros2.context import NotByPartsError
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Arg, Edited, Include
 from preflight_analysis.launch.problems import ProblemKind

@@ -11,6 +11,7 @@ from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Origin, Span
 from preflight_analysis.environment.launch_extensions import exposed_actions
+from preflight_analysis.evaluation.before import Before, Question
 from preflight_analysis.evaluation.problems import (
     ArgumentNotAChoice,
     LaunchFileNotRun,
@@ -22,13 +23,7 @@ from preflight_analysis.evaluation.problems import (
     PythonException,
     UnexpandedEntity,
 )
-from preflight_analysis.evaluation.ros2.context import (
-    Before,
-    Changes,
-    Context,
-    NotByPartsError,
-    Question,
-)
+from preflight_analysis.evaluation.ros2.context import Changes, Context, NotByPartsError
 from preflight_analysis.evaluation.ros2.declared import Declared
 from preflight_analysis.evaluation.ros2.entity import Entity, Part
 from preflight_analysis.evaluation.ros2.events import Events, Noted
