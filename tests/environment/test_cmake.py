@@ -221,6 +221,19 @@ def test_scripts(harness: Harness) -> None:
     assert build.made_of("x") is None
 
 
+def test_programs_in_folders_and_lists_of_files(harness: Harness) -> None:
+    for name, mode in (("a.py", 0o755), ("deep/b.py", 0o755), ("data.txt", 0o644)):
+        harness.write(f"scripts/{name}")
+        (harness.folder / "scripts" / name).chmod(mode)
+    harness.write("tool.py")
+    (harness.folder / "tool.py").chmod(0o755)
+    installed = "install(DIRECTORY scripts/ DESTINATION {0}) install(FILES tool.py DESTINATION {0})"
+    build = harness.build(f"project(demo)\n{installed.format('lib/${PROJECT_NAME}')}")
+    assert set(build.programs) == {"a.py", "b.py", "tool.py"}
+    assert harness.build(f"project(demo)\n{installed.format('share/${PROJECT_NAME}')}").programs == {}
+    assert harness.build("project(demo)\ninstall(DIRECTORY / ../.. DESTINATION lib/demo)").programs == {}
+
+
 def test_an_executable_of_several_files_is_told_by_the_one_with_its_name(harness: Harness) -> None:
     build = harness.build(
         "add_executable(Driver a.cpp driver.cpp)\nadd_executable(b a.cpp main.cpp)\nadd_executable(c)"

@@ -81,3 +81,16 @@ def test_files_that_come_and_go_are_installed_and_are_not(tmp_path: Path) -> Non
     assert sorted(data()) == ["l/a.launch.py", "l/b.launch.py"]
     (tmp_path / "launch/deep/er/b.launch.py").unlink()
     assert sorted(data()) == ["l/a.launch.py"]
+
+
+def test_programs_that_are_installed_as_they_are(tmp_path: Path) -> None:
+    for name in ("one.py", "two.py"):
+        (tmp_path / name).touch()
+    text = "from setuptools import setup\nsetup(name='p', {})\n"
+    given = "scripts=['one.py', 'gone.py'], data_files=[('lib/p', ['two.py'])]"
+    found = read_python_build(str(tmp_path), "p", disk_with({tmp_path / "setup.py": text.format(given)}))
+    assert dict(found.programs) == {name: str(tmp_path / name) for name in ("one.py", "two.py")}
+    assert found.all_programs
+    for unknown in ("scripts=named()", "entry_points=points()", "entry_points={'console_scripts': made()}", "**more"):
+        disk = disk_with({tmp_path / "setup.py": text.format(unknown)})
+        assert not read_python_build(str(tmp_path), "p", disk).all_programs, unknown

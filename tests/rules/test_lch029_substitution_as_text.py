@@ -1,7 +1,7 @@
 """LCH029: a substitution that is none."""
 
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 
 
 def test_what_looks_like_a_substitution_and_is_none() -> None:
@@ -68,6 +68,19 @@ def test_substitutions_in_a_parameter_file_of_ros2() -> None:
             mesh: $(find-pkg-share p)/arm.dae
                   ^^^^^^^^^^^^^^^^^^^ warning[LCH029] made with <param allow_substs="true"> only
     """)
+
+
+@pytest.mark.silent
+def test_a_namespace_that_is_not_known_is_nothing_in_the_yaml() -> None:
+    found = findings_of("""
+        <launch>
+          <arg name="veh" default="$(env NOBODY_SETS_THIS)"/>
+          <group ns="$(arg veh)"><node pkg="p" type="t" name="n"><rosparam file="$(find p)/n.yaml"/></node></group>
+        </launch>
+        //- /p/n.yaml
+        rate: 10
+    """)
+    assert "LCH029" not in {finding.rule for finding in found}
 
 
 @pytest.mark.silent

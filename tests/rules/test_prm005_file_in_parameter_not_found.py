@@ -131,13 +131,18 @@ def test_files_of_ros2_that_are_installed_elsewhere_or_made(tmp_path: Path) -> N
     share = tmp_path / "robot"
     (share / "rviz").mkdir(parents=True)
     (share / "rviz" / "view.rviz").touch()
-    (share / "CMakeLists.txt").write_text("install(FILES rviz/view.rviz DESTINATION share/robot/config)\n")
+    (share / "arm.xacro").touch()
+    (share / "CMakeLists.txt").write_text("""
+        install(FILES rviz/view.rviz DESTINATION share/robot/config)
+        set(MADE ${CMAKE_CURRENT_BINARY_DIR}/arm.urdf)
+        install(FILES ${MADE} DESTINATION share/${PROJECT_NAME})""")
     launch = share / "robot.launch.xml"
     launch.write_text("""
         <launch>
           <node pkg="robot" exec="rviz" name="rviz" args="-d $(find-pkg-share robot)/config/view.rviz"/>
           <node pkg="robot" exec="server" name="server">
             <param name="map" value="$(find-pkg-share robot)/config/view.rviz"/>
+            <param name="model" value="$(find-pkg-share robot)/arm.urdf"/>
             <param name="save_map_to" value="$(find-pkg-share robot)/office.yaml"/>
           </node>
           <executable cmd="ros2 run nav2_map_server map_saver_cli -f $(find-pkg-share robot)/office.yaml"/>

@@ -1,12 +1,15 @@
 """PRM008: the command of a parameter has no success."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
-from support.check import apply, check, findings_of
+from preflight_analysis.rules.registry import run_rules
+from support.check import analyse, apply, check, findings_of, read_fixture
 
 
 @pytest.mark.silent
@@ -195,6 +198,25 @@ def test_a_program_that_is_not_built_yet(tmp_path: Path) -> None:
         //- {package}/package.xml
         <package/>
     """)
+
+
+def test_a_file_that_the_build_makes(tmp_path: Path) -> None:
+    made = "install(FILES ${CMAKE_CURRENT_BINARY_DIR}/arm.urdf DESTINATION share/arm)"
+    (tmp_path / "CMakeLists.txt").write_text(made)
+    message = f"/usr/bin/cat: {tmp_path}/arm.urdf: No such file or directory"
+    failed = {"status": "failed", "reason": "code 1", "stderr_tail": [message]}
+    context = analyse(
+        read_fixture(f"""
+            <launch><param name="d" command="cat {tmp_path}/arm.urdf"/></launch>
+            //- commands
+            {json.dumps({f"cat {tmp_path}/arm.urdf": failed})}
+        """)
+    )
+    packages = {"arm": Package("arm", str(tmp_path), f"{tmp_path}/package.xml", build_type="ament_cmake")}
+    there = replace(context, environment=replace(context.environment, packages=packages))
+    assert [f.severity for f in run_rules(context) if f.rule == "PRM008"] == ["error"]
+    (finding,) = [f for f in run_rules(there) if f.rule == "PRM008"]
+    assert (finding.severity, finding.lack) == ("hint", Lack("build", "arm", "catkin build arm"))
 
 
 def test_a_node_that_crashes_without_the_value_of_a_failed_command_is_no_news_of_the_node() -> None:

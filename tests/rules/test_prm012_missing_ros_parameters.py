@@ -41,6 +41,23 @@ def test_a_component_takes_a_file_without_the_mark() -> None:
     """)
 
 
+@pytest.mark.silent
+def test_a_component_takes_the_sections_of_a_file() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node_container pkg="p" exec="x" name="c" namespace="">
+            <composable_node pkg="p" plugin="p::A" name="a"><param from="/a.yaml"/></composable_node>
+          </node_container>
+        </launch>
+        //- /a.yaml
+        x-common: {rate: 30}
+        a: {ros__parameters: {rate: 1}}
+        //- interfaces
+        {"/a": {"params": {"~rate": 1}}}
+    """)
+
+
 def _of_files(folder: Path, **files: str) -> list[Finding]:
     harness = PythonHarness(folder)
     for name, text in files.items():

@@ -2,10 +2,13 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.executables import ExecutableIndex
+from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.installed import lack_of_build
+from preflight_analysis.rules.installed import lack_of_build, lack_of_made, lack_said
 from support.check import analyse, check, findings_of, read_fixture
 
 
@@ -250,6 +253,23 @@ def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | No
     (finding,) = [each for each in found if each.rule == "TRC001"]
     assert (finding.lack and (finding.lack.kind, finding.lack.name)) == lack
     assert finding.severity == ("hint" if lack else "warning")
+
+
+def test_a_package_that_is_not_built_is_told_by_its_library_and_its_files(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text("""
+        add_library(planner_nodelet planner.cpp)
+        install(FILES ${CMAKE_BINARY_DIR}/arm.urdf DESTINATION share/${PROJECT_NAME})""")
+    manifest = f"{tmp_path}/package.xml"
+    packages = {"robot": Package("robot", str(tmp_path), manifest, build_type="ament_cmake")}
+    context = analyse(read_fixture("<launch/>"))
+    built = replace(context, environment=replace(context.environment, packages=packages))
+    built = replace(built, executables=ExecutableIndex(built.environment))
+    said = "for plugin Planner. Make sure that the library 'lib/libplanner_nodelet' actually exists."
+    lack = Lack("build", "robot", "catkin build robot")
+    assert lack_said(built, [said]) == lack
+    assert lack_of_made(built, f"{tmp_path}/arm.urdf") == lack
+    assert lack_said(built, [said.replace("planner", "other")]) is None
+    assert lack_of_made(built, f"{tmp_path}/other.urdf") is None
 
 
 def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None:

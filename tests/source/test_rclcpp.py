@@ -365,6 +365,50 @@ def test_what_a_lifecycle_node_makes_once_it_is_configured(harness: Harness) -> 
     assert [e.type for e in found.endpoints if e.name == "~/change_state"] == ["lifecycle_msgs/srv/ChangeState"]
 
 
+CONFIGURED = """
+#include "rclcpp_lifecycle/lifecycle_node.hpp"
+class Talker : public rclcpp_lifecycle::LifecycleNode {
+public:
+  Talker() : rclcpp_lifecycle::LifecycleNode("talker"), qos_(10) {}
+  CallbackReturn on_configure(const rclcpp_lifecycle::State &) override {
+    try {
+      this->declare_parameter<std::string>("durability", "transient_local");
+      const std::string durability = this->get_parameter("durability").as_string();
+      qos_ = profile(durability);
+      return CallbackReturn::SUCCESS;
+    } catch (const std::exception &) {
+      return CallbackReturn::FAILURE;
+    }
+  }
+  CallbackReturn on_activate(const rclcpp_lifecycle::State &) override {
+    try {
+      pub_ = this->create_publisher<std_msgs::msg::String>("chatter", qos_);
+      return CallbackReturn::SUCCESS;
+    } catch (const std::exception &) {
+      return CallbackReturn::FAILURE;
+    }
+  }
+private:
+  rclcpp::QoS profile(const std::string & durability) {
+    rclcpp::QoS qos(7);
+    if (durability == "transient_local") {
+      qos.durability(RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL);
+    } else {
+      qos.durability(RMW_QOS_POLICY_DURABILITY_VOLATILE);
+    }
+    return qos;
+  }
+  rclcpp::QoS qos_;
+};
+int main(int, char **) { auto node = std::make_shared<Talker>(); rclcpp::spin(node->get_node_base_interface()); }
+"""
+
+
+def test_a_profile_that_an_earlier_transition_makes(harness: Harness) -> None:
+    (publisher,) = (e for e in harness.read(CONFIGURED).endpoints if e.name == "chatter")
+    assert publisher.qos == {"reliability": "reliable", "durability": "transient_local", "depth": 7}
+
+
 @pytest.mark.parametrize(
     ("qos", "expected"),
     [

@@ -29,6 +29,9 @@ class Executables:
     def names(self, package: str) -> tuple[str, ...]:
         return tuple(self.by_package.get(package, ()))
 
+    def names_are_all(self, package: str) -> bool:
+        return True
+
     def is_build_target(self, package: str, name: str) -> bool:
         return False
 

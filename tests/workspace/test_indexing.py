@@ -140,6 +140,12 @@ def test_what_the_build_ignores_is_not_checked(harness: Harness) -> None:
     assert paths(tuple(index.entries)) == ["AMENT_IGNORE.launch", "COLCON_IGNORE.launch"]
 
 
+def test_what_eclipse_starts_programs_with_is_no_launch_file(harness: Harness) -> None:
+    harness.write("Debug.launch", '<?xml version="1.0"?>\n<launchConfiguration type="com.st.debug"/>')
+    harness.write("robot.launch", LEAF)
+    assert paths(tuple(harness.build().entries)) == ["robot.launch"]
+
+
 PYTHON = """
 from launch import LaunchDescription
 

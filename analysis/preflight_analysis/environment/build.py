@@ -11,6 +11,8 @@ from preflight_analysis.dataclass import dataclass
 
 LISTS = "CMakeLists.txt"
 """The name of a build file of CMake."""
+MADE = "<build>"
+"""The folder, below that of the source, that stands for where CMake makes files."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,15 +8,16 @@ would know.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.build import LISTS, Build, Installed, Program, Target
+from preflight_analysis.environment.build import LISTS, MADE, Build, Installed, Program, Target
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, commands
 from preflight_analysis.environment.cmake_values import (
     SOURCES,
@@ -29,8 +30,12 @@ from preflight_analysis.environment.cmake_values import (
     source_files,
     words_of,
 )
+from preflight_analysis.environment.walk import walk
 
 _MAX_COMMANDS = 20_000
+_MAX_FOLDERS = 500
+_MAX_PROGRAMS = 1_000
+"""Of one folder, and of how many folders, programs are looked for in what is installed."""
 _BRANCHES = ("else", "elseif")
 _INSTALLS_NOTHING = re.compile(
     r"(?:ament|catkin|check|cmake|cuda|find|get|gtest|include|link|pkg|pluginlib|pybind11|python|qt[456]?"
@@ -54,7 +59,13 @@ _FOLDERS = {
 _AT_BUILD = re.compile(r"\A\$<BUILD_INTERFACE:([^<>]*)>\Z")
 """A folder that only counts where the package is built, not where it is installed."""
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
-_PLACES = frozenset("TYPE DESTINATION PERMISSIONS CONFIGURATIONS COMPONENT OPTIONAL RENAME EXCLUDE_FROM_ALL".split())  # noqa: SIM905
+_PLACES = frozenset(
+    re.findall(
+        r"\w+",
+        "TYPE DESTINATION PERMISSIONS CONFIGURATIONS COMPONENT OPTIONAL RENAME EXCLUDE_FROM_ALL USE_SOURCE_PERMISSIONS "
+        "FILE_PERMISSIONS DIRECTORY_PERMISSIONS MESSAGE_NEVER FILES_MATCHING PATTERN REGEX",
+    )
+)
 
 
 def read_build(folder: str, package: str, disk: Disk, generation: int | None = None) -> Build:
@@ -122,6 +133,9 @@ class _Lists:
             return False
         here = {"CMAKE_CURRENT_SOURCE_DIR": folder, "CMAKE_CURRENT_LIST_DIR": folder}
         above = {"CMAKE_SOURCE_DIR": self._top, "PROJECT_SOURCE_DIR": self._top, **variables}
+        made = os.path.join(self._top, MADE)
+        here["CMAKE_CURRENT_BINARY_DIR"] = os.path.normpath(os.path.join(made, os.path.relpath(folder, self._top)))
+        above |= {"CMAKE_BINARY_DIR": made, "PROJECT_BINARY_DIR": made}
         self._block(commands(text), {**above, **here}, depth + 1)
         return True
 
@@ -220,6 +234,7 @@ class _Lists:
                 self._install(rest, folder, relayed=name == "catkin_install_python")
             case "install", [("DIRECTORY" | "FILES") as kind, *rest] if "DESTINATION" in rest[:-1]:
                 self._data(rest, folder, whole=kind == "DIRECTORY")
+                self._programs_of(rest, folder, f"lib/{variables['PROJECT_NAME']}")
             case "install", ["TARGETS" | "EXPORT", *_]:
                 pass
             case "package", [*_] if "INSTALL_TO_SHARE" in words:  # ament_auto_package
@@ -304,6 +319,24 @@ class _Lists:
             # A folder with a slash at its end stands for what is in it.
             name = "" if whole and word.endswith("/") else renamed or os.path.basename(path)
             self._installed.append(Installed(path, destination, name))
+
+    def _programs_of(self, words: Sequence[str], folder: str, where: str) -> None:
+        """The programs among the files, or below the folders, that are installed at `where` or below: `ros2 run` looks
+        at any depth. They keep their permissions at least where links are installed."""
+        destination = os.path.normpath(words[words.index("DESTINATION") + 1])
+        if destination != where and not destination.startswith(where + os.sep):
+            return
+        for word in itertools.takewhile(lambda word: word not in _PLACES, words):
+            path = os.path.normpath(os.path.join(folder, word))
+            below = walk(path) if f"{path}/".startswith(f"{self._top}/") else ()
+            for place, _, names in itertools.islice(below, _MAX_FOLDERS):
+                self._disk.names(place)  # it is made again as something in it comes or goes
+                self._add_programs(os.path.join(place, name) for name in names[:_MAX_PROGRAMS])
+            self._add_programs((path,))
+
+    def _add_programs(self, paths: Iterable[str]) -> None:
+        for path in filter(self._disk.is_program, paths):
+            self._programs.setdefault(os.path.basename(path), Program(path, False))
 
     def _install(self, words: Sequence[str], folder: str, relayed: bool) -> None:
         end = next((index for index, word in enumerate(words) if word in _PLACES), len(words))

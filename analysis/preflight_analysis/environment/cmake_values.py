@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.build import MADE
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Word
 from preflight_analysis.environment.walk import walk
 
@@ -39,8 +40,8 @@ def known_condition(condition: Sequence[Word], generation: int | None = None) ->
 
 
 def is_only_known_to_cmake(variables: Mapping[str, str]) -> Callable[[Word], bool]:
-    """Whether a word has a variable that is not known here."""
-    return lambda word: any(name not in variables for name in _VARIABLE.findall(word.text))
+    """Whether a word has a variable that is not known here, or is in a folder of what is made."""
+    return lambda word: any(MADE in variables.get(name, MADE) for name in _VARIABLE.findall(word.text))
 
 
 def words_of(words: Sequence[Word], variables: Mapping[str, str]) -> list[str]:

@@ -63,6 +63,11 @@ class ExecutableIndex:
         """
         return _names(self._db, self._environment, package)
 
+    def names_are_all(self, package: str) -> bool:
+        """Whether `names` are all: a `setup.py` may compute them in ways that are not followed."""
+        found = self._environment.packages.get(package)
+        return found is None or not found.is_ament or python_build(Disk(self._db), found).all_programs
+
     def components(self, package: str) -> tuple[str, ...]:
         """The classes of the package that a container can load, as the prefixes list them and as its `CMakeLists.txt`
         registers them, sorted; empty where nothing of that is known."""
@@ -111,7 +116,8 @@ def _find_ament(disk: Disk, environment: Environment, package: Package, name: st
         entry_point = f"{entry.module}:{entry.function}"
         return Executable(entry.file, (entry.file, *installed), package.share, entry_point=entry_point)
     program = cmake_build(disk, package).programs.get(name)
-    source = [program.path] if program is not None and disk.is_file(program.path) else []
+    script = program.path if program is not None else python_build(disk, package).programs.get(name)
+    source = [script] if script is not None and disk.is_file(script) else []
     candidates = (*installed, *source)
     return Executable(candidates[0] if candidates else None, candidates, package.share)
 
@@ -140,7 +146,8 @@ def _names(db: Database, environment: Environment, package: str) -> tuple[str, .
         return ()
     disk, build = Disk(db), _build(db, environment, package)
     of_ros2 = _is_ament(environment, found)
-    names = set(python_build(disk, found).scripts) if of_ros2 else set()
+    python = python_build(disk, found) if of_ros2 else None
+    names = {*python.scripts, *python.programs} if python is not None else set()
     for prefix in environment.ament_prefixes if of_ros2 else ():
         folder = os.path.join(prefix, "lib", package)
         names |= {name for name in disk.names(folder) if _is_runnable(db, os.path.join(folder, name))}

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.build import MADE
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
@@ -87,6 +88,18 @@ def _installed_by_cmake(disk: Disk, package: Package) -> Iterator[tuple[str, str
         destination = os.path.normpath(item.destination.replace("${PROJECT_NAME}", package.name)).lstrip("/")
         if destination == share or destination.startswith(share + "/"):
             yield os.path.normpath(os.path.join(destination[len(share) :].lstrip("/"), item.name)), item.source
+
+
+def made_by_build(disk: Disk, environment: Environment, path: str) -> Package | None:
+    """The package whose build makes the file that is then installed at this path."""
+    package = package_around(environment, path)
+    if package is None or not package.is_ament or package.build_type == "ament_python":
+        return None
+    below, made = os.path.relpath(path, package.share), os.path.join(package.share, MADE, "")
+    for where, source in _installed_by_cmake(disk, package):
+        if source.startswith(made) and (below == where or f"{below}/".startswith(f"{where}/") or where == "."):
+            return package
+    return None
 
 
 def installs_more(disk: Disk, package: Package) -> bool:

@@ -51,11 +51,15 @@ class EntryPoint:
 
 @dataclass(frozen=True, slots=True)
 class PythonBuild:
-    """`scripts` are the executables by name. `data` maps what is installed below `share/<package>/` (relative paths)
-    to the source. `complete`: all of the data files are known, so what is not in `data` is not installed."""
+    """`scripts` are the executables that entry points make, by name, `programs` the files of those that are installed
+    as they are. `data` maps what is installed below `share/<package>/` (relative paths)
+    to the source. `complete`: all of the data files are known, so what is not in `data` is not installed;
+    `all_programs`: likewise of `scripts` and `programs`."""
 
     scripts: Mapping[str, EntryPoint] = field(default_factory=dict)
+    programs: Mapping[str, str] = field(default_factory=dict)
     data: Mapping[str, str] = field(default_factory=dict)
+    all_programs: bool = True
     complete: bool = False
     file: str | None = None
     """The file that says so, where a fix goes."""
@@ -70,6 +74,7 @@ def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
     found = _Setup(folder, text, disk) if text is not None else None
     complete = found is not None and found.complete
     file = setup if found is not None else None
+    programs = list(found.programs) if found is not None else []
     for path, reader in (("setup.cfg", _from_cfg), ("pyproject.toml", _from_toml)):
         content = disk.content(os.path.join(folder, path))
         if content is not None:
@@ -78,15 +83,19 @@ def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
     if found is not None:
         for name, (target, line) in found.scripts.items():
             scripts[name] = _entry_point(folder, name, target, line, disk)
-        share = f"share/{package}"
+        share, lib = f"share/{package}", f"lib/{package}"
         for destination, sources in found.data_files:
             where = os.path.normpath(destination)
+            if where == lib or where.startswith(lib + "/"):
+                programs += sources
             if where != share and not where.startswith(share + "/"):
                 continue
             below = where[len(share) :].lstrip("/")
             for source in sources[:_MAX_FILES]:
                 data[os.path.join(below, os.path.basename(source))] = os.path.normpath(os.path.join(folder, source))
-    return PythonBuild(scripts, data, complete, file)
+    paths = (os.path.normpath(os.path.join(folder, program)) for program in programs[:_MAX_FILES])
+    by_name = {os.path.basename(path): path for path in paths if disk.is_file(path)}
+    return PythonBuild(scripts, by_name, data, found is None or found.all_programs, complete, file)
 
 
 def _entry_point(folder: str, name: str, target: str, line: int, disk: Disk) -> EntryPoint:
@@ -142,6 +151,8 @@ class _Setup:
         self._names: dict[str, Any] = {}
         self.scripts: dict[str, tuple[str, int]] = {}
         self.data_files: list[tuple[str, list[str]]] = []
+        self.programs: list[str] = []
+        self.all_programs = True
         self.complete = True
         self._steps = 0
         self._real = os.path.join(disk.real_path(folder), "")
@@ -193,10 +204,20 @@ class _Setup:
         for keyword in call.keywords:
             if keyword.arg == "entry_points":
                 self._entry_points(keyword.value)
+            elif keyword.arg == "scripts":
+                self._programs(keyword.value)
             elif keyword.arg == "data_files":
                 self._data_files(keyword.value)
             elif keyword.arg is None:
-                self.complete = False
+                self.complete = self.all_programs = False
+
+    def _programs(self, node: ast.expr) -> None:
+        try:
+            value = self._value(node)
+        except (_Unknown, RecursionError):
+            self.all_programs = False
+            return
+        self.programs += [path for path in value if isinstance(path, str)] if isinstance(value, (list, tuple)) else []
 
     def _append(self, call: ast.Call, method: str) -> None:
         target = call.func.value if isinstance(call.func, ast.Attribute) else None
@@ -212,6 +233,7 @@ class _Setup:
 
     def _entry_points(self, node: ast.expr) -> None:
         lists: list[ast.expr] = []
+        self.all_programs = self.all_programs and isinstance(node, ast.Dict)
         if isinstance(node, ast.Dict):
             for key, value in zip(node.keys, node.values, strict=True):
                 if isinstance(key, ast.Constant) and key.value == "console_scripts":
@@ -222,6 +244,7 @@ class _Setup:
                 try:
                     value = self._value(item)
                 except (_Unknown, RecursionError):
+                    self.all_programs = False
                     continue
                 lines = [v for v in value if isinstance(v, str)] if isinstance(value, list) else str(value).splitlines()
                 for name, target in _scripts(lines):

@@ -12,7 +12,7 @@ from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
-from preflight_analysis.rules.installed import lack_of_file
+from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
@@ -32,7 +32,7 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
-            lack = lack_of_file(context, path) if near is None else None
+            lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
+from preflight_analysis.environment.installed_paths import made_by_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
@@ -34,7 +35,8 @@ _NO_PROGRAM = re.compile(
 )
 """How `env` and shells say it of a program."""
 _NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
-"""How pluginlib says it of a package that has not been built."""
+_NO_LIBRARY = re.compile(r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]+?)(?:\.so)?' actually exists")
+"""How pluginlib says it of a package that has not been built, where a plugin has its package's name, and where not."""
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
 _NO_KEY = re.compile(r"KeyError: '(\w+)'")
 _NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
@@ -99,6 +101,12 @@ def lack_of_build(context: Context, package: str) -> Lack:
         return lack_of_package(context, package)
     build = "colcon build --packages-select" if context.tree.ros.ament else "catkin build"
     return Lack("build", package, f"{build} {package}")
+
+
+def lack_of_made(context: Context, path: str) -> Lack | None:
+    """A file that is there once its package is built; None for any other."""
+    package = made_by_build(context.disk, context.environment, path)
+    return lack_of_build(context, package.name) if package is not None else None
 
 
 def lack_of_variable(context: Context, name: str) -> Lack | None:
@@ -170,6 +178,8 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
             return None if slip else lack_of_program(context, program)
         if (found := _NOT_BUILT.search(line)) and found[1] in context.environment.packages:
             return lack_of_build(context, found[1])
+        if (found := _NO_LIBRARY.search(line)) and (package := _building(context, found[1])) is not None:
+            return lack_of_build(context, package)
         if found := _NO_MODULE.search(line):
             return lack_of_module(context, found[1])
         if found := _NO_PACKAGE.search(line):
@@ -177,3 +187,9 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
             wrong = name in context.environment.packages or near_package(context, name) is not None
             return None if wrong else lack_of_package(context, name)
     return None
+
+
+def _building(context: Context, library: str) -> str | None:
+    """The package that makes a library, as its build file says."""
+    packages = context.environment.packages
+    return next((name for name in packages if context.executables.is_build_target(name, library)), None)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from itertools import chain
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.findings.insertion import insert_attribute
@@ -44,9 +45,10 @@ def _left_in_node(node: LaunchNode) -> tuple[tuple[Param, str], ...]:
 
 
 def _left_in(param: Param) -> tuple[Param, str] | None:
-    """The parameter with the first substitution that is still in its value or name, if there is one."""
+    """The parameter with the first substitution that is still in its value or key, if there is one. The name may have
+    one before the key: that of a namespace which is not known."""
     value = param.value
-    texts = (param.name, *(value if isinstance(value, list) else (value,)))
+    texts = (names.leaf(param.name), *(value if isinstance(value, list) else (value,)))
     for text in texts:
         if isinstance(text, str) and "$(" in text and len(text) < _LONGEST and (found := _SUBSTITUTION.search(text)):
             return param, found[0]

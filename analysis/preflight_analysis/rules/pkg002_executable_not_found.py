@@ -43,7 +43,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(message, location, confidence="likely", related=chain, lack=lack)
             continue
         names = executables.names(node.package)
-        if context.tree.ros.ament and not names:
+        if context.tree.ros.ament and not (names and executables.names_are_all(node.package)):
             continue  # neither installed, nor with build files that say what it will have
         if not names and not _is_of_workspace(context, node.package):
             # Debian has the programs of a package apart from the rest of it.

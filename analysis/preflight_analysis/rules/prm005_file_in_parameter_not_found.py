@@ -11,7 +11,7 @@ from itertools import chain, compress
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
-from preflight_analysis.environment.installed_paths import installs_more, located, package_around
+from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
@@ -185,7 +185,8 @@ def _missing(text: str, context: Context) -> Iterator[str]:
         if inside is None or not normal.startswith(inside.rstrip("/") + "/"):
             continue
         below = normal[len(inside) :]
-        if not _made_when_run(below) and not _is_built(below, inside, context):
+        made = _made_when_run(below) or _is_built(below, inside, context)
+        if not made and made_by_build(context.disk, context.environment, normal) is None:
             yield normal
 
 

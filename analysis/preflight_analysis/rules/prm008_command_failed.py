@@ -14,6 +14,7 @@ from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules.installed import (
     lack_of_build,
     lack_of_file,
+    lack_of_made,
     lack_of_program,
     lack_of_variable,
     lack_said,
@@ -25,7 +26,9 @@ from preflight_analysis.rules.rule import Context, Rule
 _TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
 _ERROR = re.compile(r"\berror\b", re.IGNORECASE)
 _STDERR_LINES = 3
-_NO_FILE = re.compile(r"No such file or directory:? '?(/[^'\s]+)")
+_NO_FILE = re.compile(
+    r"No such file or directory:? '?(?P<after>/[^'\s]+)|(?P<before>/[^'\s:]+): No such file or directory"
+)
 _NO_INPUT = "xacro: error: expected exactly one input file"
 _NONE = re.compile(r"(?<![A-Za-z])None(?![A-Za-z])")
 _GETENV = re.compile(r"(?:getenv|environ\.get)\(\s*['\"](\w+)['\"]\s*\)")
@@ -56,8 +59,9 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
     message = _message(failed)
     severity: Severity | None = None
     if lack is None and (found := next(filter(None, map(_NO_FILE.search, failed.stderr)), None)) is not None:
-        lack = _variable_in(context, found[1], problem.origin)
-        if lack is None and is_ignored(context.disk, found[1]):
+        path = found["after"] or found["before"]
+        lack = _variable_in(context, path, problem.origin) or lack_of_made(context, path)
+        if lack is None and is_ignored(context.disk, path):
             severity, message = "info", f"{message}; git ignores the file, so it may be made on each machine"
     elif any(_NO_INPUT in line for line in failed.stderr):
         # An argument whose default is empty is how Python launch files say that it has to be given.

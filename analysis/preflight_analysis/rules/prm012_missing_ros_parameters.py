@@ -18,11 +18,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             document = context.documents.get(path) if path is not None else None
             if path is None or path in seen or not isinstance(document, Document):
                 continue
-            file = read_param_file(document)
-            if node.kind == "composable" and not file.sections:
-                continue  # launch_ros reads it and gives it to the container as it stands
+            if node.kind == "composable":
+                continue  # launch_ros reads it: it takes the sections that there are, or all of it
             seen.add(path)
-            for name, span in file.unmarked[:1]:
+            for name, span in read_param_file(document).unmarked[:1]:
                 related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
                 yield rule.finding(MESSAGE.format(name, MARK), context.location(path, span), related=related)
 
@@ -32,8 +31,8 @@ RULE = Rule(
     name="missing-ros-parameters",
     severity="error",
     what="Reports a value in a parameter file that stands below a node's name without `ros__parameters` between (ROS "
-    "2). The first one of a file is reported. A file for a component may do without: `launch_ros` reads it itself. In "
-    "a parameter file of the package that no node of the launch gets it is a warning.",
+    "2). The first one of a file is reported. A file for components may have such values: `launch_ros` reads it "
+    "itself. In a parameter file of the package that no node of the launch gets it is a warning.",
     why="The client libraries refuse the whole file, and the node does not start.",
     example="camera:\n  rate: 30",
     instead="camera:\n  ros__parameters:\n    rate: 30",

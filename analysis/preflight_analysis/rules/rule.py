@@ -37,6 +37,9 @@ class ExecutableNames(Protocol):
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether building the package will make the executable."""
 
+    def names_are_all(self, package: str) -> bool:
+        """Whether the package has no others than `names`, as far as its build files can be understood."""
+
     def components(self, package: str) -> tuple[str, ...]:
         """The classes that a container can load of the package, sorted; empty where nothing is known of them."""
 

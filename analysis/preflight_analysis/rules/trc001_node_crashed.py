@@ -9,11 +9,12 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.installed import lack_of_python, lack_said
+from preflight_analysis.rules.installed import lack_of_made, lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
+from preflight_analysis.tracing.request import split_args
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -42,14 +43,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity="info" if ours or reported else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
-            lack=_lack(context, outcome),
+            lack=_lack(context, node, outcome),
         )
 
 
-def _lack(context: Context, outcome: Outcome) -> Lack | None:
+def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:
+    if (made := next(filter(None, (lack_of_made(context, word) for word in _paths_of(node))), None)) is not None:
+        return made
     telling = telling_line(outcome.stderr_tail)
     said = lack_said(context, (outcome.reason or "", telling))
     return said if said is not None else lack_of_python(context, telling, outcome.stderr_tail)
+
+
+def _paths_of(node: LaunchNode) -> tuple[str, ...]:
+    return tuple(word for word in split_args(node.args) if word.startswith("/")) if "/" in node.args else ()
 
 
 def _failed(interface: Interface) -> bool:

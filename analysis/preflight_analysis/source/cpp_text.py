@@ -17,7 +17,7 @@ MAX_DEPTH = 40
 _LANGUAGE = Language(tree_sitter_cpp.language())
 _parsing = threading.Lock()
 _MACROS = re.compile(
-    r"\b(?:Q_OBJECT|Q_GADGET|EIGEN_MAKE_ALIGNED_OPERATOR_NEW|[A-Z][A-Z0-9_]*_(?:PUBLIC|EXPORT|LOCAL)"
+    r"\b(?:Q_OBJECT|Q_GADGET|EIGEN_MAKE_ALIGNED_OPERATOR_NEW|(?!RMW_QOS_)[A-Z][A-Z0-9_]*_(?:PUBLIC|EXPORT|LOCAL)"
     r"|RCLCPP_\w+_DEFINITIONS(?:_NOT_COPYABLE)?\(\s*[\w:]+\s*\))(?!\w)(?!\s*\()"
 )
 """What stands in a class without a semicolon, or in front of a name, and the parser takes for a part of it."""

@@ -29,6 +29,9 @@ SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"}
 MAX_INCLUDED = 200_000
 """How many includes are evaluated for one index."""
 _MAX_UPSTREAM = 100
+_HEAD = 2_000
+_ECLIPSE = "<launchConfiguration"
+"""The outermost element, which stands in that many characters."""
 _log = logging.getLogger(__name__)
 
 Report = Callable[[int, int, str], None]
@@ -283,6 +286,7 @@ def launch_files(folder: str, workspace: Workspace) -> list[str]:
             path = os.path.join(place, name)
             if name.endswith(LAUNCH_SUFFIXES):
                 is_one = not (ignored and _is_of_ament(path, workspace.sources))
+                is_one = is_one and (in_launch_folder or not _is_of_eclipse(path, workspace.sources))
             else:
                 placed = name.endswith(PYTHON_SUFFIX) and (in_launch_folder or _is_shared(workspace, path))
                 is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
@@ -300,6 +304,12 @@ def _is_shared(workspace: Workspace, path: str) -> bool:
 def _makes_launch_description(path: str, sources: Sources) -> bool:
     found = sources.text(path)
     return not isinstance(found, Unreadable) and LAUNCH_FUNCTION.search(found.text) is not None
+
+
+def _is_of_eclipse(path: str, sources: Sources) -> bool:
+    """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program."""
+    found = sources.text(path) if path.endswith(".launch") else None
+    return found is not None and not isinstance(found, Unreadable) and _ECLIPSE in found.text[:_HEAD]
 
 
 def _is_of_ament(path: str, sources: Sources) -> bool:
