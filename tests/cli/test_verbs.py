@@ -252,6 +252,10 @@ def test_a_launch_prefix_does_not_stand_in_the_way(harness: Harness, preflight: 
     )
     (node,) = preflight("graph", harness.launch_file, "--format", "json").json["nodes"]
     assert (node["interface_source"], node["outcome"]) == ("trace", "spinning")
+    without = "note: it was run without its launch-prefix 'xterm -e gdb -ex run --args'"
+    assert without in preflight("trace", harness.launch_file).out
+    harness.launch_file.write_text('<launch><node pkg="preflight_demo" type="talker.py" name="a"/></launch>')
+    assert "note:" not in preflight("trace", harness.launch_file).out
 
 
 def test_the_help_of_a_verb_has_its_own_exit_codes(preflight: Run) -> None:

@@ -67,6 +67,52 @@ def test_a_remapped_name_is_not_remapped_again() -> None:
     assert ends(graph) == {"/b": (["/n"], [])}
 
 
+NODELETS = """
+    <launch>
+      <node pkg="nodelet" type="nodelet" name="{manager}" ns="mgr" args="manager">
+        <remap from="/camera/picture" to="/chained"/>
+        <remap from="/camera/camera_info" to="/moved"/>
+        <remap from="relative" to="relative_moved"/>
+      </node>
+      <group ns="camera">
+        <node pkg="nodelet" type="nodelet" name="two" args="load vision/Of /mgr/manager">
+          <remap from="~image" to="picture"/>
+          <remap from="queued" to="camera_info"/>
+        </node>
+        <node pkg="nodelet" type="nodelet" name="three" args="load vision/Of /mgr/manager">
+          <remap from="camera_info" to="info_three"/>
+        </node>
+      </group>
+    </launch>
+    //- interfaces
+    {{"/camera/two": {{"publishers": {{"~image": "x/Y", "queued": "x/Y", "camera_info": "x/Y"}}}},
+      "/camera/three": {{"publishers": {{"~image": "x/Y", "camera_info": "x/Y", "/mgr/relative": "x/Y"}}}}}}
+"""
+
+
+def test_a_nodelet_has_the_remaps_of_its_manager_before_its_own() -> None:
+    """As a real manager does it."""
+    graph = graph_of(NODELETS.format(manager="manager"))
+    two, three = "/camera/two", "/camera/three"
+    assert {name: set(providers) for name, (providers, _) in ends(graph).items()} == {
+        "/chained": {two},
+        "/moved": {two, three},
+        "/camera/three/image": {three},
+        "/mgr/relative_moved": {three},
+    }
+
+
+def test_a_nodelet_whose_manager_is_elsewhere_has_its_own_remaps() -> None:
+    graph = graph_of(NODELETS.format(manager="another"))
+    assert sorted(graph.topics) == [
+        "/camera/camera_info",
+        "/camera/info_three",
+        "/camera/picture",
+        "/camera/three/image",
+        "/mgr/relative",
+    ]
+
+
 def test_a_remap_of_a_namespace_does_not_move_what_is_below_it() -> None:
     graph = graph_of("""
         <launch><node pkg="p" type="t" name="n"><remap from="camera" to="front"/></node></launch>

@@ -123,9 +123,11 @@ def test_a_nodelet_whose_library_is_not_built_is_as_if_it_had_not_been_run(
 
 def test_a_nodelet_whose_library_no_build_makes_crashes(tmp_path: Path) -> None:
     asked = TraceRequest("/n", "nodelet", "/usr/lib/nodelet/nodelet", ("standalone", "vision/Rectify"))
-    found = Tracer(nodelet_workspace(tmp_path, "vison"), None).trace(asked, threading.Event())
+    tracer = Tracer(nodelet_workspace(tmp_path, "vison"), TraceCache(tmp_path / "cache"))
+    found = tracer.trace(asked, threading.Event())
     assert found.outcome.status == "crashed"
     assert "the library 'lib/libvison' actually exists" in str(found.outcome.reason)
+    assert tracer.lookup(asked) is None, "the library may turn up"
 
 
 def test_a_nodelet_of_a_package_that_is_not_there_is_as_if_it_had_not_been_run(tmp_path: Path) -> None:

@@ -20,6 +20,8 @@ from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.processes import each_node
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.nodelets import nodelet_of
+from preflight_analysis.tracing.request import split_args
 
 _PROVIDERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
@@ -51,7 +53,8 @@ def build_graph(
         raise ValueError(f"{len(interfaces)} interfaces of {len(tree.nodes)} nodes")
     processes = kept.each_row(_process, (tree.nodes, interfaces))
     tree, merged = each_node(tree, processes, documents or {})
-    made = kept.each_row(_of_node, (tree.nodes, merged), tree.generation, moves_actions(distro))
+    columns = tree.nodes, merged, _managers(tree)
+    made = kept.each_row(_of_node, columns, tree.generation, moves_actions(distro))
     return Graph(
         tree,
         merged,
@@ -76,11 +79,26 @@ class _Made:
     reads: tuple[ParamRead, ...]
 
 
-def _of_node(node: LaunchNode, interface: Interface, generation: int, moves: bool) -> _Made:
+def _managers(tree: LaunchTree) -> list[LaunchNode | None]:
+    """Of each node of a tree the manager that it is loaded into as a nodelet, if the launch starts that."""
+    if not tree.ros.has_nodelets or not any(node.package == "nodelet" for node in tree.nodes):
+        return [None] * len(tree.nodes)
+    by_name = {node.name: node for node in tree.nodes}
+
+    def manager_of(node: LaunchNode) -> LaunchNode | None:
+        loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if node.package == "nodelet" else None
+        return by_name.get(names.resolve(loaded.manager, node.name)) if loaded is not None and loaded.manager else None
+
+    return [manager_of(node) for node in tree.nodes]
+
+
+def _of_node(node: LaunchNode, interface: Interface, manager: LaunchNode | None, generation: int, moves: bool) -> _Made:
     topics: list[Connection] = []
     services: list[Connection] = []
     actions: list[Connection] = []
     remaps = effective_remaps(node, generation)
+    if manager is not None:
+        remaps = _within(effective_remaps(manager, generation), remaps)
     of_actions: set[int] = set()
     for action in actions_of(interface.endpoints, generation):
         whole, parts = _connect_action(node, action, remaps, as_a_whole=moves)
@@ -109,6 +127,18 @@ def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap
         if source is not None:
             found[names.resolve(source, node.name)] = remap, names.resolve(remap.target, node.name)
     return found
+
+
+def _within(
+    outer: Mapping[str, tuple[Remap, str]], own: Mapping[str, tuple[Remap, str]]
+) -> dict[str, tuple[Remap, str]]:
+    """The remaps of a nodelet whose manager has `outer`. roscpp applies those of its process to both sides of what a
+    handle is given, so that the manager's win (`ros::NodeHandle::initRemappings`, seen with a real manager)."""
+
+    def moved(name: str) -> str:
+        return outer[name][1] if name in outer else name
+
+    return {**outer, **{moved(source): (remap, moved(target)) for source, (remap, target) in own.items()}}
 
 
 def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Remap, str]]) -> Connection:

@@ -296,6 +296,8 @@ def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
         if reads and not analysis.tree.ros.own_parameters:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]
         lines += [f"\n{escaped(note)}" for note in interface.notes]
+        if node.launch_prefix and interface.source == "trace":
+            lines += [f"\nRun without its `launch-prefix` {code(node.launch_prefix)}"]
     if analysis.tree.ros.own_parameters:
         lines += _own_params(analysis, node, interface or NOT_RUN)
     frames = frames_of(node, interface or NOT_RUN)

@@ -57,7 +57,7 @@ class KeptTraces:
         """Likewise, for exactly this request."""
         if self.cache is None:
             return None
-        alone = nodelets.standalone(request)
+        alone = nodelets.alone(request)
         try:
             planned = self.libraries[request.generation].planned() if preloaded(alone) else NO_PRELOAD
             found = self.cache.load(self.recipe(alone, planned.path), alone)

@@ -1,8 +1,10 @@
 """Nodelets that are loaded into a manager: `nodelet load pkg/Type manager`.
 
 The loader's process only asks the manager to load; that process makes the nodelet's topics, under the loader's name and
-namespace, with its remaps and parameters. `nodelet standalone pkg/Type` makes the same ones in one process, so that
-is what is run, and what the loader asks of the manager is added.
+namespace, with its remaps and parameters. What a nodelet asks of its process instead of its own handles (`~` in
+`ros::NodeHandle("~")` and `ros::param`, `ros::this_node::getName`) is the manager's. `nodelet standalone pkg/Type`
+makes the same in one process, so that is what is run: its process has a name of its own, the nodelet is loaded under
+the loader's, and what then has the name of the process is the manager's. What the loader asks of the manager is added.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.catkin_python import workspace_packages
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -29,19 +32,52 @@ def plugin(request: TraceRequest) -> str | None:
     return request.args[1] if request.args[0] in ("load", "standalone") else None
 
 
-def standalone(request: TraceRequest) -> TraceRequest:
+MANAGER = "preflight_manager"
+_SPACE = "preflight_manager_of"
+"""Name and namespace of the process in which a nodelet is run that is to be loaded into a manager, below the nodelet's
+namespace: the run is the same whichever manager it is."""
+
+
+def alone(request: TraceRequest) -> TraceRequest:
     """The request that shows what the nodelet does; any other request as it is."""
     if _manager(request) is None:
         return request
-    return replace(request, args=("standalone", request.args[1], *request.args[3:]))
+    rest = request.args[3:]
+    if any(":=" in word for word in rest):
+        # Private parameters and remaps, which the loader's process takes under its own name.
+        return replace(request, args=("standalone", request.args[1], *rest))
+    return replace(request, args=("load", request.args[1], MANAGER, *rest))
+
+
+def loaded_alone(request: TraceRequest) -> bool:
+    """Whether it is what `alone` makes of a nodelet that is to be loaded into a manager."""
+    return _manager(request) == MANAGER
+
+
+def in_process(node: str) -> str:
+    """The full name of the process that stands for the manager of a nodelet of this full name."""
+    return names.resolve(f"{_SPACE}/{MANAGER}", node)
 
 
 def with_manager(interface: Interface, request: TraceRequest) -> Interface:
-    """The interface of what `standalone(request)` runs as that of `request`: it calls its manager, and
-    keeps a bond with it."""
+    """The interface of what `alone(request)` runs as that of `request`: what it made in the name of its process is its
+    manager's, which it calls, and keeps a bond with."""
     manager = _manager(request)
     if manager is None:
         return interface
+    process = in_process(request.node) + "/"
+    space, real_space = names.parent(process), names.parent(names.resolve(manager, request.node))
+
+    def of_manager(name: str) -> str:
+        if name.startswith(process):
+            return f"{manager}/{name[len(process) :]}"
+        return real_space + name[len(space) :] if name.startswith(space) else name
+
+    interface = replace(
+        interface,
+        endpoints=tuple(replace(end, name=of_manager(end.name)) for end in interface.endpoints),
+        params=tuple(replace(use, name=of_manager(use.name)) for use in interface.params),
+    )
     # That much the launch file tells, whatever became of the run.
     source = interface.source if interface.known else "source"
     between = [Endpoint("client", f"{manager}/load_nodelet", "nodelet/NodeletLoad")]
@@ -55,6 +91,12 @@ _SLIP = 3
 """Edits between the name of a nodelet and the one that was meant, at most."""
 _NO_LIBRARY = re.compile(r"Could not find library corresponding to plugin .* library '([^']*)' actually exists")
 _NO_CLASS = re.compile(r"the class (\S+) with base class type nodelet::Nodelet does not exist\. Declared types are(.*)")
+
+
+def may_turn_up(found: Interface) -> bool:
+    """Whether a nodelet ended for something that no look at files tells of when it comes: a library or description."""
+    said = "\n".join(found.outcome.stderr_tail) if found.outcome.status == "crashed" else ""
+    return _NO_LIBRARY.search(said) is not None or _NO_CLASS.search(said) is not None
 
 
 def why_not_there(found: Interface, request: TraceRequest, environment: Environment) -> str | None:

@@ -9,7 +9,7 @@ from typing import Any, cast
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import stand_ins
+from preflight_analysis.tracing import nodelets, stand_ins
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
 from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, Outcome, ParamUse, Role
 from preflight_analysis.tracing.outcome import NOT_LOADED, outcome_of, seconds_of, stderr_tail
@@ -66,10 +66,13 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
     if request.ros.has_handles and not recipe.python:
         _correct_names(found, request.node, remaps)
+    process = request.node
+    if recipe.preload is not None and nodelets.loaded_alone(request):
+        process = nodelets.in_process(request.node)
     gone = _withdrawn(found)
     endpoints = tuple(
         e
-        for e in _endpoints(found, request.node, remaps)
+        for e in _endpoints(found, request.node, remaps, process)
         if not gone or (e.role, names.resolve(e.name, request.node, remaps)) not in gone
     )
     params, param_dependencies = _params(found)
@@ -123,8 +126,9 @@ def _correct_names(found: Gathered, node: str, remaps: Mapping[str, str]) -> Non
             found.endpoints[key] = replace(endpoint, name=full), full
 
 
-def _endpoints(found: Gathered, node: str, remaps: Mapping[str, str]) -> tuple[Endpoint, ...]:
-    """The union of both views: what the library told, and what only the master or a wait shows."""
+def _endpoints(found: Gathered, node: str, remaps: Mapping[str, str], process: str) -> tuple[Endpoint, ...]:
+    """The union of both views: what the library told, and what only the master or a wait shows. `process` is the name
+    that roscpp has for the node."""
     waited_for = {names.resolve(name, node, remaps) for kind, name, _, _ in found.waits if kind == "service"}
     endpoints = [
         # Waiting for a service is calling it, whatever the answer.
@@ -138,8 +142,8 @@ def _endpoints(found: Gathered, node: str, remaps: Mapping[str, str]) -> tuple[E
         if (role, name) in known:
             continue
         known.add((role, name))
-        private = name.removeprefix(node + "/")
-        if role == "service" and name.startswith(node + "/") and private in _LIBRARY_SERVICES:
+        private = name.removeprefix(process + "/")
+        if role == "service" and name.startswith(process + "/") and private in _LIBRARY_SERVICES:
             endpoints.append(Endpoint("service", "~" + private, _logger_type(private), builtin=True))
         else:
             builtin = (role, name) in (("publisher", "/rosout"), ("subscriber", "/clock"))

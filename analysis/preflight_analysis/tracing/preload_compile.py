@@ -39,7 +39,9 @@ class Watched:
 
 
 ROSCPP = Watched(
-    "roscpp", _AGENTS / "roscpp_preload.cpp", "_ZN3ros*; _ZNK3ros*; _ZN9actionlib*; _ZNK3tf2*; _ZNK7tf2_ros*;"
+    "roscpp",
+    _AGENTS / "roscpp_preload.cpp",
+    "_ZN3ros*; _ZNK3ros*; _ZN9actionlib*; _ZNK3tf2*; _ZNK7tf2_ros*; _ZN7nodelet6Loader4load*;",
 )
 RCL = Watched("rcl", _AGENTS / "rcl_preload.cpp", "rcl_*;")
 WATCHED = (ROSCPP, RCL)

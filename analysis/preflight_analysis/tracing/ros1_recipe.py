@@ -12,8 +12,9 @@ from collections.abc import Iterable, Sequence
 
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
+from preflight_analysis.tracing import nodelets
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing.agents.variables import SOURCES
+from preflight_analysis.tracing.agents.variables import NODELET, SOURCES
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -28,16 +29,22 @@ def make(
     interpreter, python = recipes.shebang_interpreter(user_python, request.executable, stable["PATH"])
     if python:
         stable |= _unbuilt(modules)
-    argv = [*interpreter, request.executable, *request.args]
+    args, remaps, process = request.args, request.remaps, request.node
+    env = recipes.inside(stable)
+    if nodelets.loaded_alone(request):
+        args = ("standalone", args[1], *args[3:])
+        if preload is not None:
+            # `~` is the process's, and what the nodelet's own is the remaps of the loader say.
+            remaps = tuple(names.resolve_remaps(remaps, request.node).items())
+            process, env[NODELET] = nodelets.in_process(request.node), request.node
+    argv = [*interpreter, request.executable, *args]
     remapped = python or preload is not None
     if remapped:
-        argv += [f"{source}:={target}" for source, target in request.remaps]
+        argv += [f"{source}:={target}" for source, target in remaps]
     # Of any other executable only the master's view is known, where names are remapped already. It gets no remaps, so
     # that there too the names are those before remapping, and the graph can apply them.
-    base = request.node.rpartition("/")[2]
+    namespace, _, base = process.rpartition("/")
     argv += [f"__name:={base}", f"__log:={recipes.LOG_FOLDER}/{base}.log"]
-    env = recipes.inside(stable)
-    namespace = names.parent(request.node).rstrip("/")
     if namespace:
         env["ROS_NAMESPACE"] = namespace
     if preload is not None:

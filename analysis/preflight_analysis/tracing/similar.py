@@ -47,7 +47,7 @@ def asked(node: LaunchNode, generation: int) -> Asked:
     """`generation` is that of ROS: the other one may have a node of the same name."""
     path = node.resolved.path or ""
     executable, args, entry_point = path or node.executable, split_args(node.args), node.resolved.entry_point
-    request = nodelets.standalone(
+    request = nodelets.alone(
         TraceRequest(node.name, node.package, executable, args, generation=generation, entry_point=entry_point)
     )
     return Asked(

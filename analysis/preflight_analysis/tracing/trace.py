@@ -68,7 +68,7 @@ class Tracer(KeptTraces):
             if found is not None:
                 return found
             try:
-                return self.finished(self._run(nodelets.standalone(request), cancel), request)
+                return self.finished(self._run(nodelets.alone(request), cancel), request)
             except Exception as error:
                 _log.exception("tracing %s failed", request.node)
                 return _not_run(f"the run failed: {error}")
@@ -120,7 +120,8 @@ class Tracer(KeptTraces):
             )
         if status.narrow and observed.interface.outcome.status == "crashed":
             observed = replace(observed, lasting=False, interface=_mark_speculative(observed.interface, status))
-        if self.cache is not None and observed.lasting and identity(request.executable) == before:
+        lasting = observed.lasting and not nodelets.may_turn_up(observed.interface)
+        if self.cache is not None and lasting and identity(request.executable) == before:
             self.cache.store(
                 recipe,
                 request,

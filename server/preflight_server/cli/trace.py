@@ -70,6 +70,8 @@ def _lines(node: LaunchNode, interface: Interface) -> Iterator[str]:
     if interface.looks:
         yield "  it asks which nodes, topics or services there are, and may do more where there are others"
     yield from (f"  note: {note}" for note in interface.notes)
+    if node.launch_prefix and interface.source == "trace":
+        yield f"  note: it was run without its launch-prefix '{node.launch_prefix}'"
 
 
 def _of(node: str | None) -> str:

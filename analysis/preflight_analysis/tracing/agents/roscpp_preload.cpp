@@ -113,6 +113,20 @@ EACH_TYPE(FUNCTION, "_ZN3ros5param9getCachedE" STRING)
 METHOD("has", void, "_ZNK3ros10NodeHandle8hasParamE" STRING)
 FUNCTION("has", void, "_ZN3ros5param3hasE" STRING)
 
+// `nodelet standalone` loads its nodelet under the name of the process.
+
+#define LOAD \
+  "_ZN7nodelet6Loader4loadE" STRING "S8_RKSt3mapIS6_S6_St4lessIS6_ESaISt4pairIS7_S6_EEERKSt6vectorIS6_SaIS6_EE"
+HOOK bool preflight_load(void* self, const std::string& name, const std::string& type, const void* remaps,
+                         const void* argv) __asm__(LOAD);
+HOOK bool preflight_load(void* self, const std::string& name, const std::string& type, const void* remaps,
+                         const void* argv) {
+  auto* load = REAL(LOAD, bool(void*, const std::string&, const std::string&, const void*, const void*));
+  auto* process = REAL_IF_ANY("_ZN3ros9this_node7getNameB5cxx11Ev", const std::string&());
+  bool is_ours = *nodelet_name() != 0 && process != nullptr && name == process();
+  return load(self, is_ours ? nodelet_name() : name, type, remaps, argv);
+}
+
 // The event loop.
 
 #define SPIN "_ZN3ros4spinEv"

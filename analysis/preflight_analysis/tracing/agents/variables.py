@@ -4,6 +4,8 @@ from __future__ import annotations
 
 EXPECTED = "PREFLIGHT_NODE"
 """The environment variable with the full name that the launch file gives a node of ROS 2."""
+NODELET = "PREFLIGHT_NODELET"
+"""The environment variable with the full name of a nodelet that is loaded under another name than its process has."""
 SHARES = "PREFLIGHT_SHARES"
 """The environment variable with the folders of packages that are there as source only, a JSON object."""
 SOURCES = "PREFLIGHT_SOURCES"

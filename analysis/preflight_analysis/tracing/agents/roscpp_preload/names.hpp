@@ -2,6 +2,7 @@
 #pragma once
 
 #include <dlfcn.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <atomic>
@@ -13,13 +14,26 @@ namespace preflight {
 
 std::string below(const std::string& space) { return space.empty() || space.back() != '/' ? space + "/" : space; }
 
+// The full name of a nodelet that is loaded under another name than its process has; empty for any other node.
+const char* nodelet_name() {
+  static const char* name = getenv("PREFLIGHT_NODELET");
+  return name == nullptr ? "" : name;
+}
+
+std::string own_name() {
+  if (*nodelet_name() != 0) return nodelet_name();
+  auto* name = REAL_IF_ANY("_ZN3ros9this_node7getNameB5cxx11Ev", const std::string&());
+  return name == nullptr ? "" : name();
+}
+
 // A name that was resolved through a handle, as the node could have given it to its default handle.
 std::string as_given(const NodeHandle* handle, const std::string& name, const std::string& full) {
-  auto* node_name = REAL_IF_ANY("_ZN3ros9this_node7getNameB5cxx11Ev", const std::string&());
   auto* node_space = REAL_IF_ANY("_ZN3ros9this_node12getNamespaceB5cxx11Ev", const std::string&());
-  if (node_name == nullptr || node_space == nullptr || (!name.empty() && name[0] == '/')) return full;
-  std::string own = below(node_name()), space = below(node_space());
+  std::string node_name = own_name();
+  if (node_name.empty() || node_space == nullptr || (!name.empty() && name[0] == '/')) return full;
+  std::string own = below(node_name), space = below(node_space());
   if (starts_with(full, own)) return "~" + full.substr(own.size());
+  if (*nodelet_name() != 0) return full;  // the namespace of the process is not the nodelet's
   if (!handle->given_name_space.empty() && handle->given_name_space[0] == '/') return full;
   return starts_with(full, space) ? full.substr(space.size()) : full;
 }
@@ -39,8 +53,7 @@ void tell_asked(const char* what) {
 
 Names names_of(const NodeHandle* handle, const std::string& name) {
   // The namespace of a handle may have been remapped, or made of the node's own; `~` is resolved at once.
-  auto* own = REAL_IF_ANY("_ZN3ros9this_node7getNameB5cxx11Ev", const std::string&());
-  if (!handle->given_name_space.empty() && (own == nullptr || handle->given_name_space != own())) {
+  if (!handle->given_name_space.empty() && handle->given_name_space != own_name()) {
     tell_asked("name");
     tell_asked("remaps");
   }
@@ -52,7 +65,9 @@ Names names_of(const NodeHandle* handle, const std::string& name) {
 
 Names names_of(const std::string& name) {
   auto* resolve = REAL_IF_ANY("_ZN3ros5names7resolveE" STRING "b", std::string(const std::string&, bool));
-  return {name, resolve == nullptr ? "" : resolve(name, true)};
+  std::string resolved = resolve == nullptr ? "" : resolve(name, true);
+  // What is asked for without a handle is asked for in the process's name, not in the nodelet's.
+  return {*nodelet_name() != 0 && !resolved.empty() ? resolved : name, resolved};
 }
 
 // Whether roscpp itself called, from the code at `place`.
