@@ -45,3 +45,7 @@ class PythonClasses:
     """The parameter that gives the children of a kind that are no objects of their own."""
     holders: frozenset[str]
     """The kinds whose parameter `actions` has actions."""
+
+
+NO_CLASSES = PythonClasses({}, {}, {}, frozenset())
+"""For what is no program."""

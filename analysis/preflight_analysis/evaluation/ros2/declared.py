@@ -18,6 +18,8 @@ MAX_FILES = 500
 PASSED = {"include": "arg", "inline": "arg_passed"}
 """Actions that pass arguments on, with the kind of child that does. An `inline` is a launch description by itself, in
 which an `arg` declares one."""
+_DEFERRED = ("timer", "ros_timer")
+_HOLDING = ("group", "inline", *_DEFERRED)
 
 Included = Callable[[LaunchFile, Action], LaunchFile | None]
 """The file that an include of a launch file leads to without any configuration."""
@@ -39,19 +41,58 @@ def required_arguments(launch_file: LaunchFile, included: Included) -> list[Decl
     """The arguments in the order in which they are met, each name once: one that has a default where it is met first
     is not required."""
     reader = _Reader(included)
-    if launch_file.root is not None:
-        reader.read(launch_file, launch_file.root.children, None)
+    reader.read(launch_file, launch_file.once(_steps_of), None)
     ways = {id(includes): includes for _, includes in reader.found if includes}
-    passed = {way: [name for include in includes for name in passed_names(include)] for way, includes in ways.items()}
+    passed = {way: [name for include in includes for name in include.passed] for way, includes in ways.items()}
     for declared, includes in reader.found:
         declared.passed = passed.get(id(includes), [])
     return [declared for declared, _ in reader.found]
 
 
-def passed_names(include: Action) -> list[str]:
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """An action that declares an argument, or that others may lie below."""
+
+    action: Action
+    has_condition: bool
+    passed: tuple[str, ...]
+    below: tuple[_Step, ...]
+
+    @property
+    def kind(self) -> str:
+        """That of the action."""
+        return self.action.kind
+
+
+def _steps_of(launch_file: LaunchFile) -> tuple[_Step, ...]:
+    """A file is gone through once for each file above it: what of it counts is looked for once."""
+    return _steps(launch_file.root.children) if launch_file.root is not None else ()
+
+
+def _steps(actions: Iterable[Action]) -> tuple[_Step, ...]:
+    found: list[_Step] = []
+    for action in actions:
+        if action.kind == "reset":
+            break  # launch looks no further
+        has_condition = action.attribute("if") is not None or action.attribute("unless") is not None
+        if action.kind in _HOLDING:
+            below = _steps(action.children) if _is_looked_into(action) else ()
+            found.append(_Step(action, has_condition, _passed_names(action), below))
+        elif action.kind in ("arg", "include"):
+            found.append(_Step(action, has_condition, _passed_names(action), ()))
+    return tuple(found)
+
+
+def _is_looked_into(action: Action) -> bool:
+    forwarding = action.value("forwarding") if action.kind == "group" else None
+    # Without, launch resets the configurations first.
+    return forwarding is None or forwarding.text.lower() not in ("false", "0")
+
+
+def _passed_names(action: Action) -> tuple[str, ...]:
     """The names of the arguments that an include passes, those that are plain text."""
-    values = (child.value("name") for child in include.children if child.kind == PASSED[include.kind])
-    return [value.text for value in values if value is not None and value.is_literal]
+    values = (child.value("name") for child in action.children if child.kind == PASSED.get(action.kind))
+    return tuple(value.text for value in values if value is not None and value.is_literal)
 
 
 class _Reader:
@@ -59,55 +100,46 @@ class _Reader:
         self._included = included
         self._names: set[str] = set()
         self._files: list[tuple[str, Location]] = []
-        self.found: list[tuple[Declared, list[Action] | None]] = []
+        self.found: list[tuple[Declared, list[_Step] | None]] = []
 
     def read(
-        self, file: LaunchFile, actions: Iterable[Action], includes: list[Action] | None, *, conditional: bool = False
+        self, file: LaunchFile, steps: Iterable[_Step], includes: list[_Step] | None, *, conditional: bool = False
     ) -> None:
         """As launch goes through them: the list of includes is shared between siblings below an include."""
-        for action in actions:
-            if action.kind == "arg":
-                self._declare(file, action, conditional, includes)
-            if action.kind == "reset":
-                return
+        for step in steps:
+            if step.kind == "arg":
+                self._declare(file, step, conditional, includes)
+                continue
             below = includes
-            if action.kind in PASSED:
+            if step.kind in PASSED:
                 if below is None:
                     below = []
-                below.append(action)
-            has_condition = action.attribute("if") is not None or action.attribute("unless") is not None
-            deferred = action.kind in ("timer", "ros_timer")
-            for inner_file, inner in self._sub(file, action):
-                self.read(inner_file, inner, below, conditional=has_condition or deferred)
-                if action.kind == "include":
-                    self._files.pop()
+                below.append(step)
+            conditional_below = step.has_condition or step.kind in _DEFERRED
+            if step.kind != "include":
+                self.read(file, step.below, below, conditional=conditional_below)
+            elif (found := self._below(file, step.action)) is not None:
+                self.read(found, found.once(_steps_of), below, conditional=conditional_below)
+                self._files.pop()
 
-    def _declare(self, file: LaunchFile, action: Action, conditional: bool, includes: list[Action] | None) -> None:
-        value = action.value("name")
+    def _declare(self, file: LaunchFile, step: _Step, conditional: bool, includes: list[_Step] | None) -> None:
+        value = step.action.value("name")
         if value is None or value.text in self._names:
             return
         self._names.add(value.text)
-        if conditional or any(action.attribute(name) is not None for name in ("default", "if", "unless")):
+        if conditional or step.has_condition or step.action.attribute("default") is not None:
             return
         include = self._files[-1][1] if self._files else None
-        self.found.append((Declared(value.text, file.document.location(action.head_span), include), includes))
+        self.found.append((Declared(value.text, file.document.location(step.action.head_span), include), includes))
 
-    def _sub(self, file: LaunchFile, action: Action) -> list[tuple[LaunchFile, tuple[Action, ...]]]:
-        if action.kind == "group":
-            forwarding = action.value("forwarding")
-            if forwarding is not None and forwarding.text.lower() in ("false", "0"):
-                return []  # launch resets the configurations first, and looks no further
-            return [(file, action.children)]
-        if action.kind in ("timer", "ros_timer", "inline"):
-            return [(file, action.children)]
-        if action.kind == "include":
-            found = self._included(file, action)
-            if found is None or found.root is None or len(self._files) > MAX_FILES:
-                return []
-            if any(found.path == path for path, _ in self._files):
-                return []
-            attribute = action.attribute("file")
-            span = attribute.value.span if attribute is not None else action.kind_span
-            self._files.append((found.path, file.document.location(span)))
-            return [(found, found.root.children)]
-        return []
+    def _below(self, file: LaunchFile, action: Action) -> LaunchFile | None:
+        """The file that an include leads to, which is being read from here on."""
+        found = self._included(file, action)
+        if found is None or found.root is None or len(self._files) > MAX_FILES:
+            return None
+        if any(found.path == path for path, _ in self._files):
+            return None
+        attribute = action.attribute("file")
+        span = attribute.value.span if attribute is not None else action.kind_span
+        self._files.append((found.path, file.document.location(span)))
+        return found

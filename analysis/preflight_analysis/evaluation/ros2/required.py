@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Origin
+from preflight_analysis.documents.span import LineIndex, Origin
 from preflight_analysis.evaluation.catalogued import data_of
 from preflight_analysis.evaluation.problems import ArgumentNeeded, MissingArgument, Problem
 from preflight_analysis.evaluation.ros2.context import Context
@@ -16,7 +16,11 @@ from preflight_analysis.evaluation.ros2.python_runs import recorded
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import Walk
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.evaluation.surroundings import Surroundings
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
+from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.launch.python_classes import NO_CLASSES
 from preflight_analysis.launch.read import PYTHON_SUFFIX
 
 
@@ -61,22 +65,43 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
         return None
     if any(part.command not in ("find-pkg-share", "find-pkg-prefix", "env") for part in value.substitutions):
         return None
-    quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
-    empty = Context(state.environment.variables, walk.context.python)
-    result = Performer(quiet, empty, Place(file.path, file.document.lines, ())).value(value)
-    if result.known:
-        path = state.located(os.path.normpath(os.path.join(state.cwd, result.text)))
+    within = state.surroundings
+    if within is not None:
+        path = _path_without_context(state.files.db, within, action.once(_file_of))
     else:
-        named = named_in_catalogue(quiet, empty, Place(file.path, file.document.lines, ()), value)
-        catalogued = data_of(named) if named is not None else None
-        if catalogued is None:
-            return None
-        path = catalogued
+        within = Surroundings(state.files, state.executables, state.environment, state.cwd, state.results)
+        path = _path(within, value)
+    if path is None:
+        return None
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
         return None
     if found.path.endswith(PYTHON_SUFFIX):
         # Whether it is executed at all is not known yet: launch keeps to itself what it raises now.
+        quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
         quiet.commands, quiet.inputs = state.commands, state.inputs
         found, _ = recorded(quiet, walk.context, found, (file.document.location(value.span),))
     return None if found.partial else found
+
+
+def _file_of(include: Action) -> Value | None:
+    """What an include names, wherever that stands."""
+    value = include.value("file")
+    return value.moved(-value.span.start) if value is not None else None
+
+
+@query
+def _path_without_context(db: Database, within: Surroundings, value: Value | None) -> str | None:
+    """As `_path`: each file above asks for it, in each launch."""
+    return _path(within, value) if value is not None else None
+
+
+def _path(within: Surroundings, value: Value) -> str | None:
+    """The file that a value leads to that asks for no launch configuration."""
+    quiet = State(within.files, within.executables, within.environment, within.cwd, within.commands)
+    empty, nowhere = Context(within.environment.variables, NO_CLASSES), Place("", LineIndex(""), ())
+    result = Performer(quiet, empty, nowhere).value(value)
+    if result.known:
+        return quiet.located(os.path.normpath(os.path.join(within.cwd, result.text)))
+    named = named_in_catalogue(quiet, empty, nowhere, value)
+    return data_of(named) if named is not None else None
