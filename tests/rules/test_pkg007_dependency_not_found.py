@@ -49,3 +49,15 @@ def test_what_somebody_knows_and_what_is_like_nothing() -> None:
         //- /lasr_driver/package.xml
         <package><name>lasr_driver</name><depend>laser_drivr</depend></package>
     """)
+
+
+@pytest.mark.silent
+def test_a_family_of_packages_that_is_not_here() -> None:
+    check("""
+        //- /mir_teleop/launch/all.launch
+        <launch/>
+        //- /mir_teleop/package.xml
+        <package format="2"><name>mir_teleop</name><depend>mcr_teleop</depend><depend>mcr_arm</depend></package>
+        //- /mir_arm/package.xml
+        <package/>
+    """)

@@ -30,6 +30,20 @@ def test_parameter_files_that_are_not_there() -> None:
     """)
 
 
+def test_a_name_that_says_that_it_has_to_be_given() -> None:
+    check("""
+        <launch>
+          <arg name="robot" default="$(optenv ROBOT !!NO_ROBOT_SET!!)"/>
+          <rosparam file="$(find p)/$(arg robot)/arm.yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] does not exist: a part of it has to be given
+          <rosparam file="$(find p)/note_settings/arm.yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[PRM002]
+          <rosparam>robot: !!NO_ROBOT_SET!!</rosparam>
+                           ^ info[PRM004]
+        </launch>
+    """)
+
+
 def test_a_file_that_the_robot_may_have_is_a_lack_of_this_machine() -> None:
     path = "/etc/opt/robot/calibration.yaml"
     (finding,) = check(f"""

@@ -236,6 +236,9 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
             ("variable", "ROS_DISTRO"),
         ),
         ("KeyError: 'ROS_DISTRO'", None),
+        ("Environment configuration is invalid: cannot locate rospack ([Errno 2])", ("program", "rospack")),
+        ("    f'at {\n    ^\nSyntaxError: unterminated string literal", ("program", "python3.12")),
+        ("    f'at {rate} Hz)\n    ^\nSyntaxError: unterminated string literal", None),
         (
             "  subprocess.run(['sudo'])\nFileNotFoundError: [Errno 2] No such file or directory: 'sudo'",
             ("program", "sudo"),
@@ -253,6 +256,20 @@ def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | No
     (finding,) = [each for each in found if each.rule == "TRC001"]
     assert (finding.lack and (finding.lack.kind, finding.lack.name)) == lack
     assert finding.severity == ("hint" if lack else "warning")
+
+
+def test_a_node_that_is_started_again_until_somebody_has_set_its_parameter() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n" respawn="true"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001]
+          <node pkg="p" type="t" name="m"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001]
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr": ["Could not find parameter x on parameter server"]},
+         "/m": {"status": "crashed", "exit_code": 1, "stderr": ["Could not find parameter x on parameter server"]}}
+    """)
 
 
 def test_a_package_that_is_not_built_is_told_by_its_library_and_its_files(tmp_path: Path) -> None:

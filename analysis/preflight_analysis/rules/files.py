@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import UnreadablePath
@@ -16,6 +18,8 @@ from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
+
+_NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
 
 
 def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
@@ -32,10 +36,20 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
+            if says_not_set(path):
+                severity, message = "info", f"{message}: a part of it has to be given"
+            elif near is None and is_ignored(context.disk, path):
+                severity, message = "info", f"{message}; git ignores it, so it may be made on each machine"
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check
+
+
+def says_not_set(text: str) -> bool:
+    """Whether a value is there to be replaced, as `$(optenv ROBOT !!NO_ROBOT_SET!!)` is: by a variable, or by an
+    argument whose default it is."""
+    return _NOT_SET.search(text) is not None
 
 
 def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:

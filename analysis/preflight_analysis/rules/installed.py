@@ -32,14 +32,17 @@ _NO_PACKAGE = re.compile(
 """How rospkg, roslib, xacro and ament_index say that a package is not there."""
 _NO_PROGRAM = re.compile(
     r"there is no '([\w.+-]+)'(?: on the PATH)?, which its first line names\Z|line \d+: ([\w.+-]+): command not found\Z"
+    r"|cannot locate (rospack)\b"
 )
-"""How `env` and shells say it of a program."""
+"""How `env`, shells and roslib say it of a program."""
 _NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
 _NO_LIBRARY = re.compile(r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]+?)(?:\.so)?' actually exists")
 """How pluginlib says it of a package that has not been built, where a plugin has its package's name, and where not."""
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
 _NO_KEY = re.compile(r"KeyError: '(\w+)'")
 _NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
+_OPEN_F_STRING = re.compile(r"\b[rR]?[fF][rR]?(['\"])[^'\"\n]*\{\s*$", re.MULTILINE)
+"""An expression within a string that goes on in the next line, as Python allows it since 3.12 (PEP 701)."""
 _MADE = ("msg", "srv", "action", "cfg")
 """Modules of a package that its build makes."""
 _LONG = 5
@@ -80,10 +83,26 @@ def near_package(context: Context, name: str) -> str | None:
     if distributions_with(name, generation):
         return None
     near = nearest(name, context.environment.packages)
-    if near is not None and is_slip_of_words(name, near):
-        return near
-    released = nearest_released(name, generation, 1)
-    return next((each for each in released if is_slip(name, each) and _differ_in_long_words(name, each)), None)
+    if near is None or not is_slip_of_words(name, near):
+        released = nearest_released(name, generation, 1)
+        near = next((each for each in released if is_slip(name, each) and _differ_in_long_words(name, each)), None)
+    return None if near is None or is_of_family(context, name, near) else near
+
+
+def is_of_family(context: Context, name: str, near: str) -> bool:
+    """Whether the word by which a package's name differs from another's is in the name of a further package that the
+    workspace needs and nobody knows: those are of a repository that is not here. Nobody makes the same slip twice."""
+    words = set(name.split("_")) - set(near.split("_"))
+    others = context.once(_unknown_dependencies) - {name}
+    return any(not words.isdisjoint(other.split("_")) for other in others)
+
+
+def _unknown_dependencies(context: Context) -> frozenset[str]:
+    """What the manifests of the workspace name, and is neither here nor released."""
+    packages, generation = context.environment.packages, context.tree.generation
+    own = (package.dependencies for package in packages.values() if not is_installed(context, package))
+    named = frozenset[str]().union(*own)
+    return frozenset(name for name in named if name not in packages and not distributions_with(name, generation))
 
 
 def _differ_in_long_words(name: str, other: str) -> bool:
@@ -165,6 +184,8 @@ def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lac
         return lack_of_variable(context, found[1])
     if (found := _NOT_STARTED.fullmatch(last)) and "subprocess" in whole:
         return lack_of_program(context, found[1])
+    if last.startswith("SyntaxError") and _OPEN_F_STRING.search(whole):
+        return lack_of_program(context, "python3.12")
     return None
 
 
@@ -172,7 +193,7 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
     """What a program lacked, by what it printed before it ended."""
     for line in lines:
         if found := _NO_PROGRAM.search(line):
-            program = found[1] or found[2]
+            program = next(filter(None, found.groups()))
             near = nearest(program, _INTERPRETERS)
             slip = program not in _INTERPRETERS and near is not None and is_slip(program, near)
             return None if slip else lack_of_program(context, program)

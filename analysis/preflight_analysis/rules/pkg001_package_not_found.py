@@ -12,7 +12,7 @@ from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.installed import debian_package_of, lack_of_package, near_package
+from preflight_analysis.rules.installed import debian_package_of, is_of_family, lack_of_package, near_package
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.places import attribute_location, program_known
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
@@ -93,6 +93,7 @@ def _not_here(
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
         if context.once(_strangers) == {name}:
             near = _of_like_words(context, name)
+            near = None if near is None or is_of_family(context, name, near) else near
             text += did_you_mean(near)
             fixes = rename(context, location, name, near, preferred=False) if near is not None else ()
             lack, severity = None, "info" if near is None else "warning"

@@ -1,8 +1,20 @@
 """PRM004: parameters that are not valid YAML."""
 
+from collections.abc import Iterator
+
 from preflight_analysis.evaluation.problems import BadYaml
-from preflight_analysis.rules.problems import check_problems
-from preflight_analysis.rules.rule import Rule
+from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.rules.files import says_not_set
+from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for problem in problems_of(context, BadYaml):
+        message = problem.kind.message
+        severity: Severity | None = "info" if says_not_set(message) else None
+        yield problem_finding(rule, problem, f"not valid as parameters: {message}", severity=severity)
+
 
 RULE = Rule(
     id="PRM004",
@@ -13,7 +25,7 @@ RULE = Rule(
     why="`roslaunch` stops and starts nothing.",
     example="<rosparam>\nrate: 10\n\tframe: map\n</rosparam>",
     instead="<rosparam>\nrate: 10\nframe: map\n</rosparam>",
-    check=check_problems(lambda bad: f"not valid as parameters: {bad.message}", BadYaml),
+    check=_check,
     problems=(BadYaml,),
     in_branches=True,
 )

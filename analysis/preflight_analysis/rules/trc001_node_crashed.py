@@ -40,7 +40,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield rule.finding(
             _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else ""),
             node.location,
-            severity="info" if ours or reported else None,
+            severity="info" if ours or reported or _waits(node, outcome) else None,
             confidence="possible" if ours else "likely",
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
@@ -53,6 +53,11 @@ def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:
     telling = telling_line(outcome.stderr_tail)
     said = lack_said(context, (outcome.reason or "", telling))
     return said if said is not None else lack_of_python(context, telling, outcome.stderr_tail)
+
+
+def _waits(node: LaunchNode, outcome: Outcome) -> bool:
+    """Whether the node is started again and again until another has set the parameter that it misses."""
+    return node.respawn and "parameter" in telling_line(outcome.stderr_tail)
 
 
 def _paths_of(node: LaunchNode) -> tuple[str, ...]:
