@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Callable, Iterable, Mapping
+from bisect import bisect_left, insort
+from collections.abc import Callable, Iterable, Mapping, Set
 from functools import cached_property
 from itertools import count
 from typing import Any
@@ -39,9 +39,19 @@ class LaunchParams:
             for slash in ("", "/")
         }
         new = LaunchParams(values, self.number, frozenset(differing))
-        if "_sorted" in self.__dict__ and values.keys() == self.values.keys():
-            new._sorted = self._sorted
+        if "_sorted" in self.__dict__:
+            new._sorted = self._sorted_with(self.values.keys() & gone - values.keys(), come.keys() - self.values.keys())
         return new
+
+    def _sorted_with(self, gone: Set[str], come: Set[str]) -> list[str]:
+        if not gone and not come:
+            return self._sorted
+        found = self._sorted.copy()
+        for name in gone:
+            del found[bisect_left(found, name)]
+        for name in come:
+            insort(found, name)
+        return found
 
     def alike(self, number: int, asked: Iterable[str]) -> bool:
         """Whether it is known that the parameters of that number have the same for all these names."""
