@@ -106,7 +106,7 @@ class Write:
         db = self._db
         cell = db.cells.get((kind, key))
         if cell is None:
-            cell = db.cells[kind, key] = Cell(kind, key)
+            cell = db._new_cell(kind, key)
             cell.durable = durable
         same = cell.value is not NONE and cell.value == value
         if same and cell.durable == durable:
@@ -133,6 +133,8 @@ class Database:
         self._condition = threading.Condition()
         self._answered: dict[tuple[object, Key], list[Cell]] = {}
         """The cells of queries that ask, the one that was asked for last at the end."""
+        self._keys_of_input: dict[object, dict[Key, None]] = {}
+        """The keys of the cells of each input."""
         self._latest: dict[object, dict[Cell, None]] = {}
         """Of queries with a limit the cells that were asked for last, in that order."""
         self._readers = 0
@@ -217,7 +219,7 @@ class Database:
     def outdated(self, kind: Input[Any, Any], keys: Iterable[Key] | None = None) -> list[Key]:
         """Those of the keys (None: of all) whose input was loaded, and would be another one now."""
         if keys is None:
-            keys = [key for of, key in list(self.cells) if of is kind]
+            keys = self._keys_of_input.get(kind, {}).copy()
         return [key for key in keys if self.is_outdated(kind, *key)]
 
     def is_outdated(self, kind: Input[Any, Any], *key: Hashable) -> bool:
@@ -241,7 +243,7 @@ class Database:
             raise Cancelled
         cell = self.cells.get((kind, key))
         if cell is None:
-            cell = self.cells.setdefault((kind, key), Cell(kind, key))
+            cell = self._new_cell(kind, key)
         if thread.reads:
             thread.reads[-1][cell] = None
         cell.used_at = self.revision
@@ -250,6 +252,17 @@ class Database:
         if isinstance(kind, Query) and kind.limit is not None:
             self._used(cell, kind.limit)
         return cell.value
+
+    def _new_cell(self, kind: Input[Any, Any] | Query[Any, Any], key: Key) -> Cell:
+        """That of another thread where one was faster."""
+        if isinstance(kind, Input):
+            self._keys_of_input.setdefault(kind, {})[key] = None
+        return self.cells.setdefault((kind, key), Cell(kind, key))
+
+    def _drop(self, name: tuple[Input[Any, Any] | Query[Any, Any], Key]) -> None:
+        kind, key = name
+        self.cells.pop(name, None)
+        self._keys_of_input.get(kind, {}).pop(key, None)
 
     def last(self, kind: Query[Any, Any], key: Key) -> object:
         """As `Query.last`."""
@@ -391,7 +404,7 @@ class Database:
     def forget(self, handle: Hashable) -> None:
         """Let go of all that has this among its keys."""
         for name in [name for name in list(self.cells) if handle in name[1]]:
-            self.cells.pop(name, None)
+            self._drop(name)
         for asking in [name for name in list(self._answered) if handle in name[1]]:
             self._answered.pop(asking, None)
         with self._condition:
@@ -531,7 +544,7 @@ class Database:
                     pending.append(each)
         for name, cell in cells:
             if cell not in used:
-                self.cells.pop(name, None)
+                self._drop(name)
         for asking_name, answered in list(self._answered.items()):
             answered[:] = [cell for cell in answered if cell in used]
             if not answered:

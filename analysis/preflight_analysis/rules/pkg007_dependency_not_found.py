@@ -1,5 +1,6 @@
 """PKG007: a package.xml names a package that there is nowhere."""
 
+import os
 import re
 from collections.abc import Iterator
 from functools import lru_cache
@@ -9,7 +10,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.installed_paths import package_around
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.installed import is_installed, near_package
@@ -24,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         manifest = context.documents.get(package.manifest)
         if manifest is None or not package.manifest.endswith(f"/{MANIFEST}"):
             continue
-        for span, name in _unknown(context, manifest):
+        for span, name in context.kept.get(_unknown, package.manifest, manifest, context.environment):
             near = near_package(context, name) or _near_key(name)
             if near is None:
                 continue  # a private package, as most that nobody has released
@@ -40,21 +41,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _packages(context: Context) -> Iterator[Package]:
     """Those of the workspace that the launch files are in."""
     environment = context.environment
-    found = {path: package_around(environment, path) for path in context.launch_files}
-    for package in dict.fromkeys(found.values()):
+    one_of_folder = {os.path.dirname(path): path for path in context.launch_files}
+    found = (package_around(environment, path) for path in one_of_folder.values())
+    for package in dict.fromkeys(found):
         if package is not None and not is_installed(context, package):
             yield package
 
 
-def _unknown(context: Context, manifest: Document) -> Iterator[tuple[Span, str]]:
+def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[Span, str], ...]:
     """The names, each where it first stands, that neither ROS nor rosdep knows."""
-    said: set[str] = set()
+    unknown: dict[str, Span] = {}
     for found in _DEPENDENCY.finditer(without_comments(manifest.text)):
         name = found[2]
-        known = name in context.environment.packages or name in system_keys() or name in said
+        known = name in environment.packages or name in system_keys() or name in unknown
         if not known and not any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
-            said.add(name)
-            yield Span(*found.span(2)), name
+            unknown[name] = Span(*found.span(2))
+    return tuple((span, name) for name, span in unknown.items())
 
 
 @lru_cache(maxsize=1024)

@@ -42,25 +42,34 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(context, "services", dangling_providers(context, "services")) if answers else {}
-    elsewhere = context.once(used_elsewhere)
-    for connection in lone:
-        meant = _meant(connection, answers.get(id(connection.node), ()), unused)
-        if meant is None and (graph.blind or connection.endpoint.catalogued):
+    elsewhere, who = context.once(used_elsewhere), nodes_looked_at(graph)
+    meant = [_meant(each, answers.get(id(each.node), ()), unused) for each in lone] if answers else [None] * len(lone)
+    hints: list[tuple[Connection, Connection | None]] = []
+    for client, server in zip(lone, meant, strict=True):
+        if server is None and (graph.blind or client.endpoint.catalogued):
             continue  # of a common node it is no news, as gazebo offers what its spawners call
-        service, client = with_type(connection), connection.node.name
-        message = f"{nodes_looked_at(graph)} offers service {service}, which {client} calls"
-        if meant is None and id(connection) in elsewhere:
-            yield elsewhere_finding(rule, context, connection, message, elsewhere[id(connection)])
-            continue
-        hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
-        yield lone_finding(
-            rule,
-            connection,
-            message + hint,
-            whole=graph.complete,
-            severity="hint" if meant is None else "warning",
-            related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
-        )
+        if server is None and id(client) in elsewhere:
+            yield elsewhere_finding(rule, context, client, _message(client, who), elsewhere[id(client)])
+        else:
+            hints.append((client, server))
+    if hints:
+        yield from context.kept.each_row(_hint, zip(*hints, strict=True), rule, who, graph.complete)
+
+
+def _message(client: Connection, who: str) -> str:
+    return f"{who} offers service {with_type(client)}, which {client.node.name} calls"
+
+
+def _hint(client: Connection, meant: Connection | None, rule: Rule, who: str, complete: bool) -> Finding:
+    hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
+    return lone_finding(
+        rule,
+        client,
+        _message(client, who) + hint,
+        whole=complete,
+        severity="hint" if meant is None else "warning",
+        related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
+    )
 
 
 def _loads(connection: Connection) -> bool:

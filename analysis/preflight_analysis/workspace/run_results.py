@@ -36,8 +36,11 @@ class RunResults:
 
     def of(self, tree: LaunchTree, executables: ExecutableNames) -> tuple[list[Interface], str | None]:
         """The interfaces of the nodes of a tree, in order, and why none of them was run, None where one was."""
-        known, why, keys = self.interfaces, self.why_not_run, node_keys(tree)
+        known, why = self.interfaces, self.why_not_run
         reason = why or (PENDING if self.pending else NOT_ASKED_FOR)
+        if not known:
+            return [not_run(node, executables, reason) for node in tree.nodes], why
+        keys = node_keys(tree)
         interfaces = [
             known.get(key) or not_run(node, executables, reason) for key, node in zip(keys, tree.nodes, strict=True)
         ]

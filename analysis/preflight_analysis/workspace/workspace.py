@@ -382,7 +382,9 @@ class Workspace:
                 documents[path] = found.document
                 if catalogued_file(path) is None:
                     launch_files[path] = found
-        manifests = {manifest for path in launch_files if (manifest := self._manifest_around(path)) is not None}
+        one_of_folder = {os.path.dirname(path): path for path in launch_files}
+        around = map(self._manifest_around, one_of_folder.values())
+        manifests = {manifest for manifest in around if manifest is not None}
         for path in (*tree.inputs, *sorted(manifests)):
             if path not in documents:
                 text = self.sources.text(path)
