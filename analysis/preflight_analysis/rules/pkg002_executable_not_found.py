@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from os.path import relpath
 from pathlib import PurePath
+from typing import NamedTuple
 
 from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Package
@@ -21,30 +22,31 @@ _SPACES = {1: "devel and install spaces", 2: "installed ones"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    executables = context.executables
+    executables, known = context.executables, dict[tuple[str, str], _Program]()
     for node in context.tree.nodes:
         found = node.resolved
         if found.path is not None or found.package_path is None or not program_known(node):
             continue
         if node.kind == "composable":
             continue  # a library, of which PKG006 speaks
-        if was_removed(context, node):
+        wanted = node.package, node.executable
+        if wanted not in known:
+            known[wanted] = _program(context, *wanted)
+        made_of, is_build_target, names, is_undecided = known[wanted]
+        is_no_program = found.not_executable and (made_of is None or not made_of.by_build)
+        if (is_undecided and not is_no_program) or was_removed(context, node):
             continue
         location = attribute_location(context, node, context.tree.ros.executable)
         chain = include_chain(node.origin)
-        made_of = executables.made_of(node.package, node.executable)
-        if found.not_executable and (made_of is None or not made_of.by_build):
+        if is_no_program:
             path = found.not_executable[0]
             yield rule.finding(f"'{path}' is not executable; chmod +x {path}", location, related=chain)
             continue
-        if executables.is_build_target(node.package, node.executable):
+        if is_build_target:
             message = _unbuilt(node.executable, node.package, made_of, found.package_path)
             lack = lack_of_build(context, node.package)
             yield rule.finding(message, location, confidence="likely", related=chain, lack=lack)
             continue
-        names = executables.names(node.package)
-        if context.tree.ros.ament and not (names and executables.names_are_all(node.package)):
-            continue  # neither installed, nor with build files that say what it will have
         if not names and not _is_of_workspace(context, node.package):
             # Debian has the programs of a package apart from the rest of it.
             yield rule.finding(
@@ -73,6 +75,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=chain,
             fixes=fixes,
         )
+
+
+class _Program(NamedTuple):
+    """What is known of an executable of a package, which hundreds of nodes may have."""
+
+    made_of: Made | None
+    is_build_target: bool
+    names: tuple[str, ...]
+    """All that the package has."""
+    is_undecided: bool
+    """Whether it is neither installed, nor are there build files that say what the package will have."""
+
+
+def _program(context: Context, package: str, name: str) -> _Program:
+    executables = context.executables
+    is_build_target, names = executables.is_build_target(package, name), executables.names(package)
+    is_known = is_build_target or not context.tree.ros.ament or (names and executables.names_are_all(package))
+    return _Program(executables.made_of(package, name), is_build_target, names, not is_known)
 
 
 def _is_of_workspace(context: Context, package: str) -> bool:
