@@ -33,6 +33,30 @@ def test_a_service_that_two_nodes_of_ros2_offer() -> None:
     """)
 
 
+@pytest.mark.parametrize(
+    ("manager", "said"),
+    [("one", "their manager /one takes the first one only"), ("two", "only the one that registers last is called")],
+)
+def test_nodelets_of_one_manager_are_one_node(manager: str, said: str) -> None:
+    right = f'<node pkg="nodelet" type="nodelet" name="right" args="load p/T {manager}"/>'
+    (finding,) = check(f"""
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="one" args="manager"/>
+          <node pkg="nodelet" type="nodelet" name="two" args="manager"/>
+          <node pkg="nodelet" type="nodelet" name="left" args="load p/T one"/>
+          {right}
+          {"^" * len(right)} warning[SRV003] service '/reset' is offered by /left and /right
+        </launch>
+        //- /nodelet/package.xml
+        <package><name>nodelet</name></package>
+        //- /nodelet/nodelet
+        //- interfaces
+        {{"/one": {{}}, "/two": {{}}, "/left": {{"services": {{"reset": "std_srvs/Empty"}}}},
+         "/right": {{"services": {{"reset": "std_srvs/Empty"}}}}}}
+    """)
+    assert finding.message.endswith(f": {said}")
+
+
 @pytest.mark.silent
 def test_services_of_two_namespaces_and_those_of_every_node_are_not_offered_twice() -> None:
     check("""

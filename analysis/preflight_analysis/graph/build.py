@@ -20,8 +20,7 @@ from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.processes import each_node
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
-from preflight_analysis.tracing.nodelets import nodelet_of
-from preflight_analysis.tracing.request import split_args
+from preflight_analysis.tracing.nodelets import manager_of
 
 _PROVIDERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
@@ -84,12 +83,7 @@ def _managers(tree: LaunchTree) -> list[LaunchNode | None]:
     if not tree.ros.has_nodelets or not any(node.package == "nodelet" for node in tree.nodes):
         return [None] * len(tree.nodes)
     by_name = {node.name: node for node in tree.nodes}
-
-    def manager_of(node: LaunchNode) -> LaunchNode | None:
-        loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if node.package == "nodelet" else None
-        return by_name.get(names.resolve(loaded.manager, node.name)) if loaded is not None and loaded.manager else None
-
-    return [manager_of(node) for node in tree.nodes]
+    return [by_name.get(manager_of(node) or "") for node in tree.nodes]
 
 
 def _of_node(node: LaunchNode, interface: Interface, manager: LaunchNode | None, generation: int, moves: bool) -> _Made:

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Place
-from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import topic_endpoints
@@ -15,8 +14,7 @@ from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.live.model import Expected, ExpectedEndpoint, ExpectedNode
 from preflight_analysis.rules.places import connection_location
 from preflight_analysis.tracing.interface import Interface
-from preflight_analysis.tracing.nodelets import nodelet_of
-from preflight_analysis.tracing.request import split_args
+from preflight_analysis.tracing.nodelets import manager_of
 
 _NO_NODES = ("test", "process")
 _HIDDEN = "/_action/"
@@ -47,8 +45,7 @@ def _node(
 ) -> ExpectedNode:
     # The name of an executable is not that of the node, unless a run told it.
     certain = "$(" not in node.name and (node.named or (node.name_from_code and not node.name_inferred))
-    loaded = nodelet_of(node.package, node.executable, split_args(node.args)) if ros(generation).has_nodelets else None
-    manager = names.resolve(loaded.manager, node.name) if loaded is not None and loaded.manager is not None else None
+    manager = manager_of(node) if ros(generation).has_nodelets else None
     ended = interface.outcome.status == "exited" and not interface.outcome.exit_code
     return ExpectedNode(
         node.name,

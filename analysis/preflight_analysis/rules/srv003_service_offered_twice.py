@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
@@ -10,6 +10,7 @@ from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.nodelets import manager_of
 
 _BOTH_ANSWER = "each of them carries out every request, and the client takes the answer that comes first"
 
@@ -17,7 +18,6 @@ _BOTH_ANSWER = "each of them carries out every request, and the client takes the
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    said = _BOTH_ANSWER if context.tree.ros.all_servers_answer else "only the one that registers last is called"
     # Two nodes of a kind share all their services: one finding for all that stand at one place.
     found: dict[tuple[Location, tuple[str, ...]], list[tuple[str, list[Connection]]]] = {}
     for channel in context.graph.services.values():
@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         sure = not any(c.endpoint.uncertain for _, connections in offered for c in connections)
         subject = f"service {quoted(names)} is" if len(names) == 1 else f"services {quoted(names)} are"
         yield rule.finding(
-            f"{subject} offered by {' and '.join(nodes)}: {said}",
+            f"{subject} offered by {' and '.join(nodes)}: {_what_happens(context, servers)}",
             location,
             severity="info" if any(c.endpoint.assumed for c in servers) else None,
             confidence="likely" if sure else "possible",
@@ -43,14 +43,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _what_happens(context: Context, servers: Sequence[Connection]) -> str:
+    if context.tree.ros.all_servers_answer:
+        return _BOTH_ANSWER
+    managers = {manager_of(server.node) for server in servers}
+    if len(managers) == 1 and (manager := managers.pop()) is not None:
+        return f"their manager {manager} takes the first one only"
+    return "only the one that registers last is called"
+
+
 RULE = Rule(
     id="SRV003",
     name="service-offered-twice",
     severity="warning",
     what="Reports a service that two nodes of the launch offer under one name.",
     why="The master of ROS 1 knows one server for a service: the node that registers last takes it from the other, and "
-    "which one that is differs from start to start. In ROS 2 a request is a message that each server gets: all of them "
-    "do what it asks for, and the client takes the first answer, whichever server that is of.",
+    "which one that is differs from start to start. Two nodelets of one manager are one node, which refuses the second "
+    "one. In ROS 2 a request is a message that each server gets: all of them do what it asks for, and the client takes "
+    "the first answer, whichever server that is of.",
     example='<node pkg="base" type="driver" name="left"/> <!-- both offer /reset -->\n'
     '<node pkg="base" type="driver" name="right"/>',
     instead='<node pkg="base" type="driver" name="left" ns="left"/>\n'

@@ -21,8 +21,9 @@ from preflight_analysis.environment.catkin_python import workspace_packages
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing.interface import Endpoint, Interface
-from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.request import TraceRequest, split_args
 
 
 def plugin(request: TraceRequest) -> str | None:
@@ -134,6 +135,14 @@ def nodelet_of(package: str, executable: str, args: Sequence[str]) -> Nodelet | 
     if args[0] == "standalone":
         return Nodelet(args[1], None)
     return Nodelet(args[1], args[2]) if args[0] == "load" and len(args) > 2 else None
+
+
+def manager_of(node: LaunchNode) -> str | None:
+    """The full name of the manager that a node of a launch has itself loaded into as a nodelet; None of any other."""
+    if node.package != "nodelet":
+        return None
+    found = nodelet_of(node.package, node.executable, split_args(node.args))
+    return names.resolve(found.manager, node.name) if found is not None and found.manager is not None else None
 
 
 def _manager(request: TraceRequest) -> str | None:
