@@ -439,6 +439,27 @@ def test_parts_are_taken_over_where_other_answers_are_given() -> None:
         MADE.clear()
 
 
+def test_who_makes_a_part_again_sees_what_it_was() -> None:
+    db = Database()
+    seen: list[object] = []
+
+    @query
+    def noted(db: Database) -> str:
+        meant = TEXT(db, "a")
+
+        def make() -> tuple[str, Mapping[str, str]]:
+            db.part("inside", lambda: "inside")
+            seen.append(db.previous_part)
+            return meant.upper(), {"meant": meant}
+
+        return db.part_answered("key", make, {"meant": meant}.get)
+
+    for text in ("one", "two", "one", "three"):
+        change(db, "a", text)
+        assert noted(db) == text.upper()
+    assert seen == [None, "ONE", "ONE"]
+
+
 def test_what_is_made_of_a_question_that_nobody_answers_is_no_value() -> None:
     db = Database()
     change(db, "a", "1")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
+from dataclasses import replace
+from typing import TypeVar
 
 from preflight_analysis.catalogue.launches import CataloguedFile, catalogued_file
 from preflight_analysis.dataclass import dataclass
@@ -38,6 +40,7 @@ from preflight_analysis.evaluation.tree import (
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 
+T = TypeVar("T")
 MAX_TEXT = 8_000_000
 """Characters of one value that substitutions make. A robot description has a hundredth; values that hold others twice,
 and so on, have no end."""
@@ -59,6 +62,17 @@ class Collected:
     visited: tuple[str, ...]
     inputs: Mapping[str, str]
     """The files that were read, with their digests."""
+
+    def taking_over(self, before: Collected) -> Collected:
+        """The same with nodes and uses of what it was before, where they are equal."""
+        nodes, uses = _taking_over(self.nodes, before.nodes), _taking_over(self.uses, before.uses)
+        return replace(self, nodes=nodes, uses=uses)
+
+
+def _taking_over(items: tuple[T, ...], before: tuple[T, ...]) -> tuple[T, ...]:
+    if len(items) != len(before):
+        return items
+    return tuple([known if known == item else item for item, known in zip(items, before, strict=True)])
 
 
 class Collector:

@@ -58,11 +58,17 @@ class Cell:
 class Part:
     """What a part came to, the cells that it was made of, what it was answered and the parts that it has itself."""
 
-    __slots__ = ("answers", "depends_on", "durable", "parts", "value", "verified_at")
+    __slots__ = ("answers", "depends_on", "durable", "key", "parts", "value", "verified_at")
 
     def __init__(
-        self, value: object, answers: Mapping[Any, object], depends_on: tuple[Cell, ...], parts: Parts
+        self,
+        key: Hashable,
+        value: object,
+        answers: Mapping[Any, object],
+        depends_on: tuple[Cell, ...],
+        parts: Parts,
     ) -> None:
+        self.key = key
         self.value = value
         self.answers = answers
         self.depends_on = depends_on
@@ -76,11 +82,12 @@ Parts = dict[Hashable, tuple[Part, ...]]
 
 
 class Making(NamedTuple):
-    """A query that is being made: its cell, and the parts so far, of its value and of each part that is being made, the
-    innermost last."""
+    """A query that is being made: its cell, the parts so far, of its value and of each part that is being made, the
+    innermost last, and what is known of each of these parts for other answers."""
 
     cell: Cell
     parts: list[Parts]
+    known: list[tuple[Part, ...]]
 
 
 class Asked(NamedTuple):

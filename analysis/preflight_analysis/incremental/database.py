@@ -340,6 +340,12 @@ class Database:
         return None if value is NONE else value
 
     @property
+    def previous_part(self) -> Any:
+        """As `previous`, for what makes a part."""
+        known = self._thread.making[-1].known[-1]
+        return known[0].value if known else None
+
+    @property
     def is_making(self) -> bool:
         """Whether this thread is within a query."""
         return bool(self._thread.making)
@@ -357,24 +363,31 @@ class Database:
         what they are now."""
         making = self._thread.making[-1]
         known = (*making.parts[-1].get(key, ()), *making.cell.parts.get(key, ()))
-        part = next((each for each in known if self._is_right(each, look)), None) or self._made(making, make)
+        if known:
+            key = known[0].key  # one object for all of them: keys hold much of a text
+        part = next((each for each in known if self._is_right(each, look)), None) or self._made(key, known, make)
         part.verified_at = self.revision
         making.parts[-1].update(part.parts)
         making.parts[-1][key] = (part, *(each for each in known if each is not part))[:MOST_ANSWERS_OF_PART]
         self._thread.reads[-1].update(dict.fromkeys(part.depends_on))
         return cast(V, part.value)
 
-    def _made(self, making: Making, make: Callable[[], tuple[object, Mapping[Any, object]]]) -> Part:
+    def _made(
+        self, key: Hashable, known: tuple[Part, ...], make: Callable[[], tuple[object, Mapping[Any, object]]]
+    ) -> Part:
+        making = self._thread.making[-1]
         reads: dict[Cell, None] = {}
         parts: Parts = {}
         self._thread.reads.append(reads)
         making.parts.append(parts)
+        making.known.append(known)
         try:
             value, answers = make()
         finally:
             self._thread.reads.pop()
             making.parts.pop()
-        part = Part(value, answers, tuple(reads), parts)
+            making.known.pop()
+        part = Part(key, value, answers, tuple(reads), parts)
         part.durable = all(map(_durable, reads))
         return part
 
@@ -495,7 +508,7 @@ class Database:
         thread = self._thread
         parts: Parts = {}
         thread.reads.append(reads)
-        thread.making.append(Making(cell, [parts]))
+        thread.making.append(Making(cell, [parts], []))
         if self._on_execute is not None:
             self._on_execute(kind, cell.key)
         try:

@@ -9,6 +9,7 @@ the include chain in each origin; they are the same where only text above the ta
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
@@ -38,6 +39,13 @@ class Record:
     clear_params: tuple[str, ...]
     declared: Mapping[str, Location]
     default_machine: str | None
+
+    def taking_over(self, before: Record) -> Record:
+        """The same with what is equal of what it was before: much of it for other arguments."""
+        known, params = before.params, self.params
+        if params.keys() == known.keys():
+            params = {name: known[name] if known[name] == each else each for name, each in params.items()}
+        return replace(self, collected=self.collected.taking_over(before.collected), params=params)
 
 
 class Passed(NamedTuple):

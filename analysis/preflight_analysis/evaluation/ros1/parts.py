@@ -64,5 +64,7 @@ def _alone(state: State, scope: Scope, evaluate: Evaluate) -> tuple[Record | Non
     inside = scope.part(before)
     after = evaluate(inner, inside)
     wrong = any(problem.location.file == scope.file for problem in inner.problems)
-    is_whole = not (wrong or inner.depends_on_outside or inner.exhausted)
-    return inner.record(inside, after) if is_whole else None, before.answers
+    if wrong or inner.depends_on_outside or inner.exhausted:
+        return None, before.answers
+    record, previous = inner.record(inside, after), state.files.db.previous_part
+    return record if previous is None else record.taking_over(previous), before.answers
