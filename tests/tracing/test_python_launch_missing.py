@@ -477,6 +477,28 @@ def generate_launch_description():
     assert len(decided) >= 3
 
 
+def test_the_type_of_what_is_not_known(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+import nowhere
+
+def generate_launch_description():
+    config = nowhere.load()
+    if type(config) == list:
+        name = "several"
+    elif type(config) == dict:
+        name = "one"
+    else:
+        raise TypeError("neither")
+    return LaunchDescription([Node(package="p", executable=type("x").__name__, name=name)])
+""",
+    )
+    assert (names(tree), tree.nodes[0].executable) == (["/one"], "str")
+    assert [unknown for unknown in tree.unknowns if unknown.decides]
+    assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
+
+
 def test_what_a_known_collection_does_not_have_is_an_error(harness: PythonHarness) -> None:
     for expression, error in {
         "{'a': 1}[name]": "KeyError",

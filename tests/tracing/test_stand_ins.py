@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import os
 import textwrap
@@ -10,10 +11,11 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.model import Package, Packages
+from preflight_analysis.tracing.agents.stand_ins.finder import LIBRARIES
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace import Tracer
-from support.ros2_harness import Ros2Harness, checked, node_of
+from support.ros2_harness import Ros2Harness, checked, node_of, ros2_prefix
 from support.stand_in_harness import bare_python, both_of_ros1, both_of_ros2, seen, without_rclpy, without_rospy
 from support.tracing_harness import ROS1_FIXTURES, environment, own, request, write_node
 
@@ -211,6 +213,51 @@ def test_a_node_of_rclpy_does_the_same(name: str, tmp_path: Path) -> None:
     real, stood_in = both_of_ros2(harness, name, "<param name='rate' value='5.0'/>")
     assert seen(stood_in) == seen(real)
     assert "rclpy" in stood_in.stand_ins
+
+
+_ONLY_FOR_TYPES = ("Dict", "Dictionary", "KWargs", "T", "Type", "Args", "Callback", "Attributes", "Result")
+"""The end of the names that are in rclpy for the sake of annotations."""
+_INNER = {
+    "__init__.py": {"InitContextManager"},
+    "action/server.py": {"GoalEvent", "RCLError"},
+    "callback_groups.py": {"Entity"},
+    "client.py": {"SrvTypeRequest", "SrvTypeResponse"},
+    "context.py": {"g_logging_configure_lock", "g_logging_ref_count"},
+    "executors.py": {"YieldedCallback"},
+    "lifecycle/node.py": {"CallbackNames"},
+    "event_handler.py": {"EventHandlerData"},
+    "node.py": {"SrvTypeRequest", "SrvTypeResponse"},
+    "parameter.py": {"AllowableParameterValue"},
+    "service.py": {"SrvTypeRequest", "SrvTypeResponse"},
+    "subscription.py": {"RCLError"},
+    "task.py": {"FutureState"},
+    "utilities.py": {"g_context_lock", "g_default_context"},
+}
+"""What nodes have no use for."""
+
+
+def test_the_stand_in_of_rclpy_has_the_names_of_the_real_one() -> None:
+    (real,) = ros2_prefix().glob("lib/python3*/site-packages/rclpy")
+    ours = Path(LIBRARIES) / "ros2" / "rclpy"
+    for file in sorted(ours.rglob("*.py")):
+        below = file.relative_to(ours).as_posix()
+        if (real / below).exists():
+            lacking = _names(real / below, imported=False) - _names(file, imported=True) - _INNER.get(below, set())
+            assert not {name for name in lacking if not name.endswith(_ONLY_FOR_TYPES)}, below
+
+
+def _names(file: Path, *, imported: bool) -> set[str]:
+    """The public names that a module defines, and those that it imports."""
+    found: set[str] = set()
+    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)):
+            found.add(node.name)
+        elif isinstance(node, (ast.Assign, ast.AnnAssign)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            found |= {each.id for target in targets for each in ast.walk(target) if isinstance(each, ast.Name)}
+        elif imported and isinstance(node, ast.ImportFrom):
+            found |= {each.asname or each.name for each in node.names}
+    return {name for name in found if not name.startswith("_")}
 
 
 def test_lifecycle_nodes_are_activated(tmp_path: Path) -> None:

@@ -1,7 +1,8 @@
 """Code in which what is made of something unknown stays unknown where Python alone would lose it.
 
-An f-string gives a plain text, `int` and `dict` want a real number and real pairs, and a dictionary has no item of a
-name that nobody knows. The code of a launch file, and of the modules of the workspace, asks us in these places.
+An f-string gives a plain text, `int` and `dict` want a real number and real pairs, `type` tells what stands in for the
+value, and a dictionary has no item of a name that nobody knows. The code of a launch file, and of the modules of the
+workspace, asks us in these places.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from ..anything import Anything, asked, is_unknown, marked
 from .base import RECORDER, is_own_file
 
 _TEXT, _OF, _IN = "__preflight_text__", "__preflight_of__", "__preflight_in__"
-_NUMBERS_AND_PAIRS = ("int", "float", "dict")
+_OF_VALUES = ("int", "float", "dict", "type")
 _COLLECTIONS: tuple[type, ...] = (dict, list, tuple)
 _SETS: tuple[type, ...] = (dict, set, frozenset, str, type({}.keys()))
 """Which tell whether something is in them without asking it."""
@@ -71,7 +72,7 @@ class _Rewriter(ast.NodeTransformer):
         self.generic_visit(node)
         if isinstance(node.func, ast.Attribute) and node.func.attr == "get":
             node.func.value = _call(_OF, node.func.value)
-        elif isinstance(node.func, ast.Name) and node.func.id in _NUMBERS_AND_PAIRS:
+        elif isinstance(node.func, ast.Name) and node.func.id in _OF_VALUES:
             node.func = _call(_OF, node.func)
         return node
 
@@ -138,4 +139,9 @@ def _dict(*args: Any, **kwargs: Any) -> Any:
         return Anything("dict()")  # of pairs that nobody knows
 
 
-_MADE_OF_UNKNOWN: dict[type, Any] = {int: _int, float: _float, dict: _dict}
+def _type(*args: Any) -> Any:
+    """Which type that is would be asked of the value: `type(x) == list` may hold or not."""
+    return Anything(f"type({args[0]})") if len(args) == 1 and isinstance(args[0], Anything) else type(*args)
+
+
+_MADE_OF_UNKNOWN: dict[type, Any] = {int: _int, float: _float, dict: _dict, type: _type}

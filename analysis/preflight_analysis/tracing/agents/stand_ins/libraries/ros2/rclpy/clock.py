@@ -28,6 +28,23 @@ class ClockChange(enum.IntEnum):
     SYSTEM_TIME_NO_CHANGE = 4
 
 
+class TimeJump:
+    """A jump of a clock."""
+
+    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
+        self.clock_change, self.delta = clock_change, delta
+
+
+class JumpHandle:
+    """What is called when a clock jumps."""
+
+    def __init__(self, *, clock: Any, threshold: Any, pre_callback: Any, post_callback: Any) -> None:
+        """They never do."""
+
+    def unregister(self) -> None:
+        """Leave the clock alone."""
+
+
 class JumpThreshold:
     """Which jumps are told of."""
 
@@ -47,7 +64,7 @@ class Clock:
         return Time(nanoseconds=0 if simulated else system.time_ns(), clock_type=self.clock_type)
 
     def create_jump_callback(self, threshold: Any, *, pre_callback: Any = None, post_callback: Any = None) -> Any:
-        return None
+        return JumpHandle(clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback)
 
     def sleep_until(self, until: Any, context: Any = None) -> bool:
         return self.sleep_for(until - self.now())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import time
 from typing import Any
 
@@ -102,3 +103,16 @@ class MultiThreadedExecutor(Executor):
 
     def spin_once(self, timeout_sec: Any = None) -> None:
         self._wait(timeout_sec)
+
+
+async def await_or_execute(callback: Any, *args: Any) -> Any:
+    """What a callback gives, be it a coroutine or not."""
+    found = callback(*args)
+    return await found if inspect.iscoroutine(found) else found
+
+
+class TimeoutObject:
+    """A time that something may take."""
+
+    def __init__(self, timeout: float) -> None:
+        self.timeout = timeout

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import pathlib
 import sys
 from typing import Any
 
@@ -93,3 +94,8 @@ get_logger_level = get_logger_effective_level
 
 def get_logging_severity_from_string(log_severity: str) -> Any:
     return LoggingSeverity[log_severity.upper()]
+
+
+def get_logging_directory() -> pathlib.Path:
+    """As it is where no variable says otherwise."""
+    return pathlib.Path.home() / ".ros" / "log"

@@ -44,6 +44,7 @@ from .service import Service
 from .subscription import Subscription
 from .timer import Rate, Timer
 
+HIDDEN_NODE_PREFIX = "_"
 NodeNameNonExistentError = type("NodeNameNonExistentError", (Exception,), {})
 _NAME = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 _SPACE = re.compile(r"/\Z|(/[A-Za-z_]\w*)+\Z", re.ASCII)

@@ -95,3 +95,29 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
     """A message's value."""
     kind = _Type(parameter_value.type)
     return None if kind is _Type.NOT_SET else getattr(parameter_value, kind.name.lower() + "_value")
+
+
+def get_parameter_value(string_value: str) -> Any:
+    """The value that a text of the command line has, as a message."""
+    import importlib  # noqa: PLC0415
+
+    value = importlib.import_module("yaml").safe_load(string_value)
+    kind = _Type.from_parameter_value(value)
+    return Parameter("value", kind, value).get_parameter_value()
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str, use_wildcard: bool = False, target_nodes: Any = None, namespace: str = ""
+) -> Any:
+    """The parameters of the nodes of a file, as messages by name."""
+    import importlib  # noqa: PLC0415
+
+    with open(parameter_file, encoding="utf-8") as file:
+        sections = importlib.import_module("yaml").safe_load(file) or {}
+    wanted, found = {each.strip("/") for each in target_nodes or ()}, {}
+    for node, section in sections.items():
+        if not wanted or node.strip("/") in wanted or (use_wildcard and node == "/**"):
+            for name, value in section.get("ros__parameters", {}).items():
+                kind = _Type.from_parameter_value(value)
+                found[namespace + name] = Parameter(name, kind, value).to_parameter_msg()
+    return found

@@ -184,3 +184,15 @@ class QoSPresetProfiles(enum.Enum):
     @classmethod
     def get_from_short_key(cls, name: str) -> Any:
         return cls[name.upper()].value
+
+
+class QoSCompatibility(enum.IntEnum):
+    """Whether two ends fit."""
+
+    OK = 0
+    WARNING = 1
+    ERROR = 2
+
+
+def qos_policy_name_from_kind(policy_kind: Any) -> str:
+    return QoSPolicyKind(policy_kind).name

@@ -18,3 +18,7 @@ class Subscription:
 
     def destroy(self) -> None:
         pass
+
+
+MessageInfo = dict
+"""What is known of a message that has come."""

@@ -24,6 +24,18 @@ class ServerGoalHandle:
     """A goal."""
 
 
+def default_handle_accepted_callback(goal_handle: Any) -> None:
+    goal_handle.execute()
+
+
+def default_goal_callback(goal_request: Any) -> GoalResponse:
+    return GoalResponse.ACCEPT
+
+
+def default_cancel_callback(cancel_request: Any) -> CancelResponse:
+    return CancelResponse.REJECT
+
+
 class ActionServer:
     """The end that takes goals."""
 

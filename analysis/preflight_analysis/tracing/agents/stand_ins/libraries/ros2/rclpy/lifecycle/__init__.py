@@ -147,3 +147,5 @@ class LifecycleNode(LifecycleNodeMixin, Node):
 
 
 LifecycleMixin = LifecycleNodeMixin
+State = LifecycleState
+NodeMixin = LifecycleNodeMixin

@@ -1,5 +1,5 @@
 """What takes part in transitions."""
 
-from . import ManagedEntity, SimpleManagedEntity
+from . import ManagedEntity, SimpleManagedEntity, TransitionCallbackReturn
 
-__all__ = ["ManagedEntity", "SimpleManagedEntity"]
+__all__ = ["ManagedEntity", "SimpleManagedEntity", "TransitionCallbackReturn"]
