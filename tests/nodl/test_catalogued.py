@@ -235,6 +235,7 @@ FILTER = {
             "subscriptions": [
                 {"named_by": "~odom0", "type": "nav_msgs/msg/Odometry"},
                 {"named_by": "~input", "type": "sensor_msgs/msg/Imu"},
+                {"named_by": "~scan_topic", "name": "scan", "type": "sensor_msgs/msg/LaserScan"},
             ]
         }
     },
@@ -251,7 +252,25 @@ def test_ends_that_parameters_name(tmp_path: Path) -> None:
         "a.launch.xml",
     )
     ends = {name: [end.endpoint.type for end in channel.consumers] for name, channel in graph.topics.items()}
-    assert ends == {"/odom": ["nav_msgs/msg/Odometry"], "/a/wheels/odom": ["nav_msgs/msg/Odometry"]}
+    assert ends == {
+        "/odom": ["nav_msgs/msg/Odometry"],
+        "/a/wheels/odom": ["nav_msgs/msg/Odometry"],
+        "/a/scan": ["sensor_msgs/msg/LaserScan"],
+    }
+
+
+@pytest.mark.parametrize(
+    ("value", "topics"), [("/front/scan", {"/front/scan"}), ("front", {"/a/front"}), ("1 2", set()), ("", set())]
+)
+def test_a_parameter_that_names_an_end_with_a_default(tmp_path: Path, value: str, topics: set[str]) -> None:
+    (packages.INTERFACES / "jazzy" / "filter.json").write_text(json.dumps(FILTER))
+    param = f'<param name="scan_topic" value="{value}"/>'
+    graph = graph_of(
+        tmp_path,
+        f'<launch><node pkg="filter" exec="filter_node" namespace="a">{param}</node></launch>',
+        "a.launch.xml",
+    )
+    assert {name for name, channel in graph.topics.items() if channel.consumers} == topics
 
 
 def test_the_real_data_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -44,6 +44,7 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit, Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
+from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, MadeNode, Outcome, ParamUse, Range, Role
@@ -197,7 +198,9 @@ def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assu
             if isinstance(text, Document):
                 documents[path] = text
     index = ExecutableIndex(environment, sources)
-    return Context(fixture.root, tree, documents, launch_files, environment, index, sources)
+    return Context(
+        fixture.root, tree, documents, launch_files, environment, index, PluginIndex(environment, sources), sources
+    )
 
 
 def findings_of(text: str, **options: Any) -> list[Finding]:

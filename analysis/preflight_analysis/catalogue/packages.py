@@ -11,7 +11,7 @@ from typing import Any
 
 DATA = Path(__file__).with_name("data")
 INTERFACES = DATA / "interfaces"
-"""`DISTRIBUTION/PACKAGE.json`: what the executables, components and nodelets of a package do."""
+"""`DISTRIBUTION/PACKAGE.json`: what the executables, components, nodelets, controllers and plugins of a package do."""
 _KNOWN: Mapping[int, tuple[str, ...]] = {1: ("noetic",), 2: ("jazzy",)}
 """The distributions of each generation of which packages are known. The first stands for those that are not."""
 _NAME = re.compile(r"\w[\w-]*\Z")
@@ -32,7 +32,7 @@ def is_name(package: str) -> bool:
 @lru_cache(maxsize=_KEPT)
 def interfaces_of(package: str, distro: str) -> Mapping[str, Any]:
     """What is known of the nodes of a package: `source` (repository, commit, date), and by name `executables`,
-    `components`, `nodelets` and `controllers`; empty where nothing is, or the file is broken."""
+    `components`, `nodelets`, `controllers` and `plugins`; empty where nothing is, or the file is broken."""
     if not is_name(package):
         return {}
     try:

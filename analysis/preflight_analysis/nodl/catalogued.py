@@ -37,8 +37,8 @@ class Catalogued:
     params: tuple[ParamUse, ...]
     nodes: tuple[MadeNode, ...]
     evidence: str
-    by_parameter: tuple[Endpoint, ...] = ()
-    """Ends that have the name of the parameter which names them; they are there where it is set."""
+    by_parameter: tuple[tuple[str, Endpoint], ...] = ()
+    """Ends that parameters name where they are set, of which those with a default are among `endpoints`."""
 
 
 def from_catalogue(
@@ -63,10 +63,10 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     found = catalogued(package, kind, name, distro, is_used=is_used)
     if found is None:
         return interface
-    does = (found, *_controllers(node, distro, is_used=is_used))
+    does = (_as_named(node, found), *_controllers(node, distro, is_used=is_used))
     whole = interface.with_more(
         "catalogue",
-        (*(end for each in does for end in each.endpoints), *_named_by_parameters(node, found)),
+        tuple(end for each in does for end in each.endpoints),
         tuple(use for each in does for use in each.params),
         tuple(made for each in does for made in each.nodes) if len(does) == 1 else _beside(node, does),
     )
@@ -93,14 +93,19 @@ def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Ca
             )
 
 
-def _named_by_parameters(node: LaunchNode, found: Catalogued) -> Iterator[Endpoint]:
-    """The ends that parameters of the node name (ROS 2): `odom0` stands for `odom1` and all others of a series."""
-    for end in found.by_parameter:
-        series = _SERIES.fullmatch(end.name)
+def _as_named(node: LaunchNode, found: Catalogued) -> Catalogued:
+    """With the ends that parameters of the node name (ROS 2): `odom0` stands for `odom1` and all others of a series."""
+    ends = list(found.endpoints)
+    for name, end in found.by_parameter:
+        series = _SERIES.fullmatch(name) if not end.name else None
         for param in node.params:
-            alike = param.name == end.name or (series is not None and param.name.removeprefix(series[1]).isdecimal())
-            if alike and isinstance(param.value, str) and param.value and names.is_legal(param.value):
-                yield replace(end, name=param.value, conditional=False)
+            alike = param.name == name or (series is not None and param.name.removeprefix(series[1]).isdecimal())
+            if not alike:
+                continue
+            ends = [each for each in ends if each is not end]
+            if isinstance(param.value, str) and param.value and names.is_legal(param.value):
+                ends.append(replace(end, name=param.value, conditional=end.conditional and bool(end.name)))
+    return replace(found, endpoints=tuple(ends)) if found.by_parameter else found
 
 
 def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...]:
@@ -156,12 +161,13 @@ def _catalogued(
         )
 
     rows = [(role, each) for role, group in GROUPS.items() for each in found.get(group, ())]
+    ends = [(end(role, each, each.get("name", "") if _NAMED_BY in each else each["name"]), each) for role, each in rows]
     return Catalogued(
-        tuple(end(role, each, each["name"]) for role, each in rows if _NAMED_BY not in each),
+        tuple(made for made, _ in ends if made.name),
         tuple(_param(name, about, evidence, is_used=is_used) for name, about in found.get("parameters", {}).items()),
         tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
         evidence,
-        tuple(end(role, each, each[_NAMED_BY].removeprefix("~")) for role, each in rows if _NAMED_BY in each),
+        tuple((each[_NAMED_BY].removeprefix("~"), made) for made, each in ends if _NAMED_BY in each),
     )
 
 

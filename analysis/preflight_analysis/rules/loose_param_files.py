@@ -18,6 +18,7 @@ from preflight_analysis.incremental.query import query
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
 from preflight_analysis.rules import prm016_parameter_file_refused as prm016
 from preflight_analysis.rules import prm018_listed_not_configured as prm018
+from preflight_analysis.rules import prm022_parameter_of_plugin as prm022
 from preflight_analysis.rules.rule import Context
 
 _SUFFIXES = (".yaml", ".yml")
@@ -55,6 +56,8 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
         for missing in document.once(prm018.missing_in):
             yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")
+        for wrong in prm022.wrong_in(document, context.plugins):
+            yield prm022.RULE.finding(wrong.message, document.location(wrong.span), confidence=wrong.confidence)
 
 
 def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:

@@ -48,12 +48,40 @@ class ExecutableNames(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Plugin:
+    """A plugin that nodes load by pluginlib. `params` has its parameters by their names below its own, with defaults:
+    `{sources}.topic` stands for `front.topic` where the parameter `sources` has `front` among its items, `../speed` is
+    one of what loads it. `elsewhere` are those of other versions, `evidence` says where that is from, `likely` whether
+    it is of the version that is used."""
+
+    name: str
+    params: Mapping[str, object]
+    elsewhere: frozenset[str]
+    evidence: str
+    likely: bool
+
+    def of_other(self) -> Plugin:
+        """As another version has it than is used."""
+        return replace(self, likely=False)
+
+
+class Plugins(Protocol):
+    """What a `nodl.plugins.PluginIndex` offers to rules."""
+
+    def plugin(self, name: str) -> Plugin | None:
+        """The plugin `package::Name`, also written `package/Name`; None where nothing is known of it."""
+
+    def names(self, package: str) -> tuple[str, ...]:
+        """The plugins of a package that is not in the workspace; none where nothing is known of it."""
+
+
+@dataclass(frozen=True, slots=True)
 class Context(Once):
     """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
 
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
-    None when they were. `executables` lists those of a package. `disk` has files that the tree does not know.
-    `settings_problems` is what is wrong with the workspace's settings file, and where.
+    None when they were. `executables` lists those of a package, `plugins` has what is known of plugins, `disk` files
+    that the tree does not know. `settings_problems` is what is wrong with the workspace's settings file, and where.
     """
 
     root: str
@@ -62,6 +90,7 @@ class Context(Once):
     launch_files: Mapping[str, LaunchFile]
     environment: Environment
     executables: ExecutableNames
+    plugins: Plugins
     disk: Disk
     graph: Graph | None = None
     why_not_run: str | None = None

@@ -37,6 +37,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
+from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
@@ -414,6 +415,11 @@ def _executables(db: Database, workspace: Workspace, environment: Environment) -
 
 
 @query
+def _plugins(db: Database, workspace: Workspace, environment: Environment) -> PluginIndex:
+    return PluginIndex(environment, workspace.sources)
+
+
+@query
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
     executables, commands = _executables(db, workspace, environment), QueriedCommands(db, workspace.commands)
     return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands)
@@ -437,7 +443,8 @@ def _what_if(
     )
     documents, launch_files = workspace.texts_of(tree)
     index = _executables(db, workspace, environment)
-    context = Context(path, tree, documents, launch_files, environment, index, workspace.sources)
+    plugins = _plugins(db, workspace, environment)
+    context = Context(path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
     # Whoever waits to write does not wait for all rules: reading anything raises then.
     pause = partial(_executables, db, workspace, environment)
     found = tuple(each for each in found_in_branch(context, pause) if each.lack is None)
@@ -454,7 +461,8 @@ def _evaluated(db: Database, workspace: Workspace, path: str, args: tuple[tuple[
         tree = taken_over(tree, known.tree)
     documents, launch_files = workspace.texts_of(tree)
     index = _executables(db, workspace, environment)
-    context = Context(path, tree, documents, launch_files, environment, index, workspace.sources)
+    plugins = _plugins(db, workspace, environment)
+    context = Context(path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
     return Analysis(path, args, tree, documents, launch_files, environment, context, workspace.settings.severities)
 
 

@@ -28,7 +28,7 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, NAMED, NAMING, OF_TESTS, OTHER_VERSIONS, RUN, SOURCES
+from tools.catalogue.sources import GENERATIONS, NAMED, OF_TESTS, OTHER_VERSIONS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
@@ -97,7 +97,7 @@ def _of_version(sources: Path, version: tuple[str, str]) -> Elsewhere:
         environment = detect_environment(folder, {"ROS_VERSION": "2"}, root=str(Path(folder) / "nowhere"))
         analysis = SourceAnalysis(environment, Disk())
         return {
-            (package.name, name): {*about["parameters"]}
+            (package.name, name): {*about.get("parameters", ())}
             for package in environment.packages.values()
             if not OF_TESTS.search(package.name)
             for name, about in _plugins(analysis, package)
@@ -109,9 +109,9 @@ def _with_elsewhere(
 ) -> Mapping[str, Mapping[str, Any]]:
     plugins = dict(found["plugins"])
     for (having, name), params in elsewhere.items():
-        more = sorted(params - plugins.get(name, {}).get("parameters", {}).keys())
-        if having == package and more:
-            plugins[name] = {**plugins.get(name, {}), "elsewhere": more}
+        if having == package:
+            more = sorted(params - plugins.get(name, {}).get("parameters", {}).keys())
+            plugins[name] = {**plugins.get(name, {}), **({"elsewhere": more} if more else {})}
     return {**found, "plugins": plugins}
 
 
@@ -169,12 +169,14 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
             said = _run(environment, key._replace(args=arguments))
         called = NAMED.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is not None:
-            if package.is_ament and package.name in NAMING:
+            if package.is_ament:
                 _add_named_by_parameters(analysis, key, said)
             executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
     for cls in index.components(package.name):
-        said = _read(analysis, [SourceKey(None, None, package.name, "", cls, "/node", "", ())])
+        key = SourceKey(None, None, package.name, "", cls, "/node", "", ())
+        said = _read(analysis, [key])
         if said is not None:
+            _add_named_by_parameters(analysis, key, said)
             components[cls] = said
     for plugin in _nodelets(package) if not package.is_ament else ():
         said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, "/node", f"standalone {plugin}", ())])
@@ -196,10 +198,9 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
 def _plugins(analysis: SourceAnalysis, package: Package) -> Iterator[tuple[str, dict[str, Any]]]:
     """The parameters of the plugins that nodes load, by their names, as they stand below that of the plugin."""
     for name in analysis.plugins(package.name):
-        found = plugin_params(analysis, name, package.name)
-        if found:
-            uses = (replace(use, name=param) for param, use in found.items())
-            yield name.replace("/", "::"), {"parameters": _params(uses)}
+        found = plugin_params(analysis, name, package.name) or {}
+        uses = (replace(use, name=param) for param, use in found.items())
+        yield name.replace("/", "::"), {"parameters": _params(uses)} if found else {}
 
 
 def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | None:
@@ -224,19 +225,28 @@ def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | No
 
 
 def _add_named_by_parameters(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any]) -> None:
-    """Add the ends that are there where a parameter without a default names them."""
-    marks = {
-        f"preflight_{name.removeprefix('~')}": name
+    """Note which ends have their names by a parameter: as its default, or once it is set."""
+    texts = {
+        name: about.get("default_value") or ""
         for name, about in said.get("parameters", {}).items()
-        if about.get("type") == "string" and not about.get("default_value")
+        if about.get("type") == "string" or isinstance(about.get("default_value"), str)
     }
-    given = {f"{key.name}/{name.removeprefix('~')}": mark for mark, name in marks.items()}
-    more = _read(analysis, [key], LaunchParams(given)) or {}
+    ends = {row["name"] for group in GROUPS.values() for row in said.get(group, ())}
+    marks = {f"preflight_{name.strip('~/')}": name for name, default in texts.items() if default in ("", *ends)}
+    given = {f"{key.name}/{name.removeprefix('~')}": mark for mark, name in marks.items() if name.startswith("~")}
+    more = (_read(analysis, [key], LaunchParams(given)) or {}) if given else {}
     for group in GROUPS.values():
+        rows = said.get(group, [])
         for row in more.get(group, ()):
-            if row["name"] in marks:
+            param = marks.get(row["name"])
+            if param is None:
+                continue
+            default = next((each for each in rows if texts[param] and each["name"] == texts[param]), None)
+            if default is not None:
+                default["named_by"] = param
+            elif not texts[param]:
                 of_row = {field: value for field, value in row.items() if field not in ("name", "conditional")}
-                said.setdefault(group, []).append({"named_by": marks[row["name"]], **of_row})
+                said.setdefault(group, []).append({"named_by": param, **of_row})
 
 
 def _nodelets(package: Package) -> Iterator[str]:

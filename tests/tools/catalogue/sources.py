@@ -145,8 +145,6 @@ NAMED: Mapping[str, Mapping[str, Mapping[str, str]]] = {
     "jazzy": {"controller_manager": {"ros2_control_node": "controller_manager"}},
 }
 """Executables whose library names their node: by distribution, package and executable the name."""
-NAMING = frozenset({"robot_localization"})
-"""Packages of whose nodes it is looked at which topics and services parameters name that have no default (ROS 2)."""
 OTHER_VERSIONS = {"ros-navigation/navigation2": ("humble", "kilted", "main")}
 """Further branches of a repository that are in use: a parameter that a plugin has there is no misspelt one here."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}

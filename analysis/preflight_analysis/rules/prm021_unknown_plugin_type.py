@@ -1,6 +1,7 @@
-"""PRM021: a type of controller that its package does not have (ROS 2).
+"""PRM021: a type of controller or plugin that its package does not have (ROS 2).
 
 https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html#parameters
+https://docs.nav2.org/plugins/
 """
 
 from __future__ import annotations
@@ -10,12 +11,11 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import NamedTuple
 
-from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.installed import is_installed
 from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.rules.places import getters_of
 from preflight_analysis.rules.problems import rename
@@ -26,13 +26,17 @@ _ALIKE = 0.6
 """How many of all the words of two names have to be in both."""
 
 
-class _Wrong(NamedTuple):
-    """A type that its package does not have, where it stands, and what was meant."""
+_KINDS = {".type": "controller", ".plugin": "plugin"}
+_OF_PACKAGE = re.compile(r"(\w+)(?:/|::)\w+\Z")
 
+
+class _Named(NamedTuple):
+    """The type of a controller or a plugin, and where it stands."""
+
+    kind: str
     package: str
     type: str
     span: Span
-    meant: str
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -43,38 +47,41 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         getters.setdefault(path, getter)
     for path, getter in getters.items():
         document = context.documents.get(path)
-        for wrong in document.once(_wrong_in, distro) if document is not None else ():
-            here = environment.packages.get(wrong.package)
-            if here is not None and not is_installed(context, here):
-                continue  # the workspace's own may be another version
-            place = context.location(path, wrong.span)
+        for named in document.once(_types_in) if document is not None else ():
+            meant = _meant(named, context.plugins.names(named.package))
+            if meant is None:
+                continue
+            place = context.location(path, named.span)
             yield rule.finding(
-                f"package '{wrong.package}' has no controller '{wrong.type}', as far as the catalogue of {distro} knows"
-                f"; did you mean '{wrong.meant}'?",
+                f"package '{named.package}' has no {named.kind} '{named.type}', as far as the catalogue of {distro} "
+                f"knows; did you mean '{meant}'?",
                 place,
                 confidence="likely" if environment.distro == distro else "possible",
                 related=(getter,),
-                fixes=rename(context, place, wrong.type, wrong.meant),
+                fixes=rename(context, place, named.type, meant),
             )
 
 
-def _wrong_in(document: Document, distro: str) -> tuple[_Wrong, ...]:
+def _types_in(document: Document) -> tuple[_Named, ...]:
     found = []
     for param in (param for section in read_param_file(document).sections for param in section.params):
+        kind = next((kind for end, kind in _KINDS.items() if param.name.endswith(end)), None)
         type_ = param.value
-        if param.name.endswith(".type") and isinstance(type_, str) and type_.count("/") == 1:
-            package = type_.partition("/")[0]
-            known = interfaces_of(package, distro).get("controllers", {})
-            meant = _meant(type_, known) if type_ not in known else None
-            if meant is not None:
-                found.append(_Wrong(package, type_, param.value_span, meant))
+        if kind is not None and isinstance(type_, str) and (package := _OF_PACKAGE.match(type_)) is not None:
+            found.append(_Named(kind, package[1], type_, param.value_span))
     return tuple(found)
 
 
-def _meant(type_: str, known: Iterable[str]) -> str | None:
-    """The only one that is a slip away, or has most of the words: what a package has had in other versions is called
-    otherwise altogether."""
-    near = [each for each in known if is_slip(type_, each)] or [each for each in known if _share_most(type_, each)]
+def _meant(named: _Named, known: Iterable[str]) -> str | None:
+    """The only one that is a slip away, or of controllers has most of the words: what a package has had in other
+    versions is called otherwise altogether."""
+    mark = "/" if "/" in named.type else "::"
+    others = [each.replace("/", mark).replace("::", mark) for each in known]
+    if named.type in others:
+        return None
+    near = [each for each in others if is_slip(named.type, each)]
+    if not near and named.kind == "controller":
+        near = [each for each in others if _share_most(named.type, each)]
     return near[0] if len(near) == 1 else None
 
 
@@ -85,12 +92,12 @@ def _share_most(type_: str, other: str) -> bool:
 
 RULE = Rule(
     id="PRM021",
-    name="unknown-controller-type",
+    name="unknown-plugin-type",
     severity="warning",
-    what="Reports a type of controller (`NAME.type`) that the package which it names does not have, while that one has "
-    "another of nearly the same name (ROS 2). What packages have, the catalogue says; those of the workspace itself "
-    "are left alone.",
-    why="The manager finds no plugin of that name, the spawner ends, and what the controller should do nobody does.",
+    what="Reports a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that the package which it names does "
+    "not have, while that one has another of nearly the same name (ROS 2). What packages have, the catalogue says; "
+    "those of the workspace itself are left alone.",
+    why="Nobody finds a plugin of that name: the spawner of the controller ends, the node does not come up.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
     generations=(2,),

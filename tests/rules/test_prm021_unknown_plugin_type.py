@@ -1,4 +1,4 @@
-"""PRM021: a type of controller that its package does not have."""
+"""PRM021: a type of controller or plugin that its package does not have."""
 
 import pytest
 from support.check import check
@@ -62,6 +62,42 @@ def test_the_workspaces_own_package_may_be_another_version() -> None:
         "    //- /src/diff_drive_controller/package.xml\n    <package><name>diff_drive_controller</name></package>\n"
     )
     check(FIXTURE.format("diff_drive_controller/DiffDriveControler") + manifest)
+
+
+PLUGIN = """
+    //- /robot.launch.xml
+    <launch><node pkg="p" exec="e" name="planner"><param from="/p/planner.yaml"/></node></launch>
+    //- /p/planner.yaml
+    planner:
+      ros__parameters:
+        GridBased:
+          plugin: {}
+"""
+
+
+@pytest.mark.parametrize("mark", ["::", "/"])
+def test_a_plugin_that_is_nearly_the_packages_own(mark: str) -> None:
+    type_ = f"nav2_navfn_planner{mark}NavfnPlaner"
+    (finding,) = check(PLUGIN.format(type_) + f"                  {'^' * len(type_)} warning[PRM021] has no plugin\n")
+    assert f"did you mean 'nav2_navfn_planner{mark}NavfnPlanner'?" in finding.message
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "type_",
+    [
+        "nav2_navfn_planner::NavfnPlanner",
+        "nav2_navfn_planner/NavfnPlanner",
+        "nav2_behaviors::Spin",
+        "nav2_navfn_planner::Planner",
+        "mine::NavfnPlaner",
+        "NavfnPlaner",
+        "::NavfnPlaner",
+        '"nav2_navfn_planner::"',
+    ],
+)
+def test_plugins_that_are_known_or_unlike_all_that_are(type_: str) -> None:
+    check(PLUGIN.format(type_))
 
 
 def test_a_manager_whose_name_only_its_own_code_knows() -> None:

@@ -1,0 +1,76 @@
+"""Which parameters plugins declare in the nodes that load them: by their source in the workspace, or the catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.rules.rule import Plugin
+from preflight_analysis.source.analyse import SourceAnalysis
+
+_GENERATION = 2
+_KEPT = 512
+_PACKAGES = {"mppi": "nav2_mppi_controller"}
+"""Packages of plugins whose namespace is another one."""
+
+
+class PluginIndex:
+    """The plugins that are known. Implements `rules.rule.Plugins`."""
+
+    def __init__(self, environment: Environment, disk: Disk) -> None:
+        self._environment = environment
+        self._disk = disk
+        self._distro = distribution_of(_GENERATION, environment.distro)
+
+    def plugin(self, name: str) -> Plugin | None:
+        """The plugin `package::Name`, also written `package/Name`."""
+        name = name.replace("/", "::")
+        owner = name.partition("::")[0]
+        package = _PACKAGES.get(owner, owner)
+        if not package or not name.removeprefix(owner):
+            return None
+        here = self._environment.packages.get(package)
+        if here is not None and self._is_ours(here):
+            return self._of_source(name, package)
+        known = _catalogued(package, name, self._distro)
+        return known if known is None or self._environment.distro == self._distro else known.of_other()
+
+    def names(self, package: str) -> tuple[str, ...]:
+        """The plugins that a package has, as far as the catalogue knows it; none where it is in the workspace."""
+        here = self._environment.packages.get(package)
+        known = interfaces_of(package, self._distro) if here is None or not self._is_ours(here) else {}
+        return (*known.get("controllers", ()), *known.get("plugins", ()))
+
+    def _is_ours(self, package: Package) -> bool:
+        """Whether it is of the workspace, whose version may be any."""
+        environment, share = self._environment, package.share
+        workspace = environment.workspace
+        if workspace is not None and share.startswith(f"{workspace.rstrip('/')}/"):
+            return True
+        return not share.startswith(tuple(f"{p}/" for p in (*environment.system_prefixes, *environment.ament_prefixes)))
+
+    def _of_source(self, name: str, package: str) -> Plugin | None:
+        # Loads the parser, which who has no plugins does without.
+        from preflight_analysis.source.plugins import plugin_params  # noqa: PLC0415
+
+        found = plugin_params(SourceAnalysis(self._environment, self._disk), name, package)
+        defaults = {param: use.default for param, use in (found or {}).items()}
+        return Plugin(name, defaults, frozenset(), f"its source in package '{package}'", True) if defaults else None
+
+
+@lru_cache(maxsize=_KEPT)
+def _catalogued(package: str, name: str, distro: str) -> Plugin | None:
+    """What the catalogue knows of a plugin; None where that is nothing, or the data is broken."""
+    try:
+        of_package = interfaces_of(package, distro)
+        found = of_package["plugins"][name]
+        params: Mapping[str, Mapping[str, object]] = found.get("parameters", {})
+        repository, commit, _ = of_package["source"]
+        defaults = {param: about.get("default_value") for param, about in params.items()}
+        evidence = f"the catalogue of {distro} ({repository} at {commit[:7]})"
+        return Plugin(name, defaults, frozenset(found.get("elsewhere", ())), evidence, True)
+    except (KeyError, TypeError, ValueError, AttributeError):
+        return None

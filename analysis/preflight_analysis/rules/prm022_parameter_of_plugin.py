@@ -1,0 +1,175 @@
+"""PRM022: a parameter that a plugin does not declare, in a parameter file (ROS 2).
+
+https://docs.nav2.org/configuration/: below the name of a plugin stand `plugin`, by which it is loaded, and what it
+declares.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
+from typing import NamedTuple
+
+from rapidfuzz.distance import OSA
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param_file
+from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.rules.nearest import is_slip
+from preflight_analysis.rules.places import getters_of
+from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.rule import Context, Plugin, Plugins, Rule
+
+_KIND = ".plugin"
+_LISTED = re.compile(r"\{(\w+)\}")
+_OF_PARENT = "../"
+_CRITICS, _NAMESPACES = "critics", "default_critic_namespaces"
+_MPPI = "mppi::critics"
+_MOST = 64
+"""Plugins that one loads."""
+
+
+class Wrong(NamedTuple):
+    """A parameter that its plugin does not declare, where it stands, and what was meant."""
+
+    name: str
+    span: Span
+    meant: str
+    plugin: Plugin
+
+    @property
+    def message(self) -> str:
+        """What is wrong with it."""
+        return (
+            f"plugin '{self.plugin.name}' declares no parameter '{self.name}': its value is ignored; did you mean "
+            f"'{self.meant}'? Known by {self.plugin.evidence}"
+        )
+
+    @property
+    def confidence(self) -> Confidence:
+        """How sure that is."""
+        return "likely" if self.plugin.likely else "possible"
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    getters: dict[str, Related] = {}
+    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
+        getters.setdefault(path, getter)
+    for path, getter in getters.items():
+        document = context.documents.get(path)
+        for wrong in wrong_in(document, context.plugins) if document is not None else ():
+            place = context.location(path, wrong.span)
+            old, new = (name.rpartition(".")[2] for name in (wrong.name, wrong.meant))
+            same_place = wrong.name.removesuffix(old) == wrong.meant.removesuffix(new)
+            yield rule.finding(
+                wrong.message,
+                place,
+                confidence=wrong.confidence,
+                related=(getter,),
+                fixes=rename(context, place, old, new) if same_place else (),
+            )
+
+
+def wrong_in(document: Document, plugins: Plugins) -> Iterator[Wrong]:
+    """Those of a parameter file."""
+    for loaded, type_, values, below in document.once(_loaded):
+        plugin = plugins.plugin(type_)
+        if plugin is None or not plugin.params:
+            continue
+        declared = _declared(plugin, values, plugins)
+        elsewhere = {*plugin.elsewhere, _KIND[1:]}
+        free = [name for name in declared if name not in values]
+        for param in below:
+            name = param.name[len(loaded) + 1 :]
+            if name in declared or name in elsewhere or any(map(name.endswith, _endings(elsewhere))):
+                continue
+            slips = {each: OSA.distance(name, each) for each in free if _is_near(name, each, values)}
+            near = [each for each, edits in slips.items() if edits == min(slips.values())]
+            if len(near) == 1:
+                yield Wrong(name, param.name_span, near[0], plugin)
+
+
+def _loaded(document: Document) -> tuple[tuple[str, str, Mapping[str, object], tuple[FileParam, ...]], ...]:
+    """The plugins of a file: name and type of each, and what is set below it, by name and as parameters."""
+    found = []
+    for section in read_param_file(document).sections:
+        for param in section.params:
+            name = param.name.removesuffix(_KIND)
+            if name != param.name and name and isinstance(param.value, str):
+                below = tuple(each for each in section.params if each.name.startswith(f"{name}."))
+                values = {each.name[len(name) + 1 :]: each.value for each in below}
+                found.append((name, param.value, values, below))
+    return tuple(found)
+
+
+def _declared(plugin: Plugin, values: Mapping[str, object], plugins: Plugins) -> Mapping[str, object]:
+    """What is declared below the name of a plugin, with defaults: by itself, and by what it loads."""
+    found: dict[str, object] = {}
+    for name, default in plugin.params.items():
+        listed = _LISTED.match(name)
+        if listed is None:
+            found[name] = default
+            continue
+        for item in _items(values.get(listed[1])):
+            found[f"{item}{name[listed.end() :]}"] = default
+    for name in [*found]:
+        value = values.get(name, found[name])
+        inner = plugins.plugin(value) if isinstance(value, str) and "::" in value.replace("/", "::") else None
+        for each, default in inner.params.items() if inner is not None else ():
+            found.setdefault(each, default)
+    for critic in _items(values.get(_CRITICS)):
+        inner = _critic(plugin, critic, {**found, **values}, plugins)
+        for each, default in inner.params.items() if inner is not None else ():
+            at_parent = each.startswith(_OF_PARENT)
+            found.setdefault(each.removeprefix(_OF_PARENT) if at_parent else f"{critic}.{each}", default)
+    return found
+
+
+def _critic(plugin: Plugin, name: str, values: Mapping[str, object], plugins: Plugins) -> Plugin | None:
+    """What a controller loads by a name in the list of its critics."""
+    if _NAMESPACES not in plugin.params:
+        return plugins.plugin(f"{_MPPI}::{name}")
+    cls = values.get(f"{name}.class") or name
+    spaces = values.get(_NAMESPACES)
+    names = [f"{space}::{cls}{end}" for space in _items(spaces) for end in ("", "Critic")]
+    return next((found for each in (str(cls), *names) if (found := plugins.plugin(each)) is not None), None)
+
+
+def _items(value: object) -> Sequence[str]:
+    """What a list of texts has, or a text with spaces in between."""
+    items = value.split() if isinstance(value, str) else value if isinstance(value, (list, tuple)) else ()
+    return [each for each in items if isinstance(each, str)][:_MOST]
+
+
+def _endings(elsewhere: set[str]) -> Iterator[str]:
+    """Of what other versions declare below what a parameter lists."""
+    return (name[found.end() :] for name in elsewhere if (found := _LISTED.match(name)) is not None)
+
+
+def _is_near(name: str, declared: str, values: Mapping[str, object]) -> bool:
+    """Whether the last parts of two names at the same place are a slip apart, or the places, of which nothing is set in
+    the one that was meant."""
+    (space, _, leaf), (other_space, _, other) = name.rpartition("."), declared.rpartition(".")
+    if space == other_space:
+        return is_slip(leaf, other)
+    return (
+        leaf == other and is_slip(space, other_space) and not any(each.startswith(f"{other_space}.") for each in values)
+    )
+
+
+RULE = Rule(
+    id="PRM022",
+    name="parameter-of-plugin-not-declared",
+    severity="warning",
+    what="Reports a parameter below the name of a plugin that the plugin does not declare, while it declares one of "
+    "nearly the same name that is not set (ROS 2). What plugins of navigation2 declare, the catalogue knows; those of "
+    "the workspace are read from their source. Parameters of other versions of a plugin are left alone.",
+    why="The plugin keeps its default, and nothing says that the value of the file is not used.",
+    example='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_maxx: 0.3',
+    instead='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_max: 0.3',
+    generations=(2,),
+    check=_check,
+    in_branches=True,
+)
