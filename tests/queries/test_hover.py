@@ -111,6 +111,18 @@ def test_many_roots(tmp_path: Path) -> None:
     assert lines[-1] == "- … and 7 more"
 
 
+def test_a_prefix_that_a_run_left_out_is_said(tmp_path: Path) -> None:
+    text = """
+        <launch><node$0 pkg="p" type="t" name="n" launch-prefix="gdb --args"/></launch>
+        //- interfaces
+        {"/n": {"publishers": {"a": "std_msgs/String"}}}
+    """
+    without = "Run without its `launch-prefix` `gdb --args`"
+    assert without in hovered(tmp_path, text)
+    assert without not in hovered(tmp_path / "not_run", text.partition("//- interfaces")[0])
+    assert not [line for line in hovered(tmp_path / "none", text.replace("launch-prefix", "args")) if "prefix" in line]
+
+
 def test_a_file_that_does_not_parse(tmp_path: Path) -> None:
     text = '    <launch><arg name="rate"/><param name="a" value="$(arg $0rate)"<node' + INCLUDES
     assert "By launch:" in hovered(tmp_path, text)
