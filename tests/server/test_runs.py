@@ -26,7 +26,7 @@ rospy.spin()
 
 @pytest.fixture
 def slow(harness: Harness) -> Path:
-    """A launch file with a node that takes longer than any test waits."""
+    """A launch file with a node that is run for as long as any: until its time is up."""
     script = harness.launch_file.parents[1] / "scripts/slow.py"
     script.write_text(SLOW)
     script.chmod(0o755)
@@ -96,13 +96,22 @@ async def test_an_edit_leaves_a_run_alone_that_it_does_not_concern(harness: Harn
 async def test_the_server_answers_while_nodes_run(harness: Harness, slow: Path) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(slow)
-        token = await running(editor, harness)
-        hover = await editor.hover(slow, editor.at(slow, 'name="slow"'))
-        assert hover is not None
-        assert isinstance(hover.contents, types.MarkupContent)
-        assert "**/slow**" in hover.contents.value
-        assert [s.name for s in await editor.symbols(slow)] == ["slow"]
-        assert editor.progress[token][-1]["kind"] != "end", "it still runs"
+        await running(editor, harness)
+
+        async def answers() -> bool:
+            """Whether it does before the end of a run, which is given up after some seconds."""
+            await editor.client.protocol.send_request_async("rosPreflight/trace", {"uri": slow.as_uri()})
+            token = await editor.until(
+                lambda: next((t for t, v in editor.runs.items() if v[-1]["kind"] != "end"), None)
+            )
+            hover = await editor.hover(slow, editor.at(slow, 'name="slow"'))
+            assert hover is not None
+            assert isinstance(hover.contents, types.MarkupContent)
+            assert "**/slow**" in hover.contents.value
+            assert [s.name for s in await editor.symbols(slow)] == ["slow"]
+            return bool(editor.progress[token][-1]["kind"] != "end")
+
+        await editor.once(answers, bool)
 
 
 async def test_shutdown_ends_the_runs(harness: Harness, slow: Path) -> None:
