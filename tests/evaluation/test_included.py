@@ -14,7 +14,7 @@ from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.ros1.state import State
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.database import MOST_ANSWERS, Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import Action
 from preflight_analysis.workspace.sources import Sources
@@ -287,6 +287,21 @@ def test_an_argument_is_for_those_that_ask_for_it(tmp_path: Path) -> None:
         assert all(one is other for one, other in zip(first.nodes, tree.nodes, strict=True))
         assert tree.params["/a"] is first.params["/a"]
     assert [tree.params["/framed/frame"].value for tree in trees] == ["map", "odom", "world", "map"]
+
+
+def test_of_values_of_an_argument_only_the_latest_are_kept(tmp_path: Path) -> None:
+    inner, root, twice = tmp_path / "inner.launch", tmp_path / "root.launch", Twice(tmp_path)
+    (tmp_path / "below.launch").write_text("<launch/>")
+    inner.write_text(ASKING)
+    db = twice.sources.db
+    sizes = []
+    for number in range(3 * MOST_ANSWERS):
+        args = f'<arg name="rate" value="5"/><arg name="frame" value="{number}"/>'
+        twice.sources.open(str(root), f'<launch><include file="{inner}">{args}</include></launch>')
+        twice.tree(root)
+        cells = [*db.cells.values(), *(cell for answered in db._answered.values() for cell in answered)]
+        sizes.append(len(cells) + len({id(part) for cell in cells for known in cell.parts.values() for part in known}))
+    assert sizes[-1] == sizes[2 * MOST_ANSWERS]
 
 
 def test_an_edit_below_asks_for_an_argument_that_nobody_asked_for(tmp_path: Path) -> None:
