@@ -238,6 +238,7 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
         ("KeyError: 'ROS_DISTRO'", None),
         ("Environment configuration is invalid: cannot locate rospack ([Errno 2])", ("program", "rospack")),
         ("    f'at {\n    ^\nSyntaxError: unterminated string literal", ("program", "python3.12")),
+        ('    f"{Duration.of(\n    ^\nSyntaxError: unterminated string literal', ("program", "python3.12")),
         ("    f'at {rate} Hz)\n    ^\nSyntaxError: unterminated string literal", None),
         (
             "  subprocess.run(['sudo'])\nFileNotFoundError: [Errno 2] No such file or directory: 'sudo'",

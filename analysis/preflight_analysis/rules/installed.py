@@ -41,7 +41,7 @@ _NO_LIBRARY = re.compile(r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
 _NO_KEY = re.compile(r"KeyError: '(\w+)'")
 _NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
-_OPEN_F_STRING = re.compile(r"\b[rR]?[fF][rR]?(['\"])[^'\"\n]*\{\s*$", re.MULTILINE)
+_OPEN_F_STRING = re.compile(r"\b[rR]?[fF][rR]?['\"][^'\"\n]*\{[^}'\"\n]*$", re.MULTILINE)
 """An expression within a string that goes on in the next line, as Python allows it since 3.12 (PEP 701)."""
 _MADE = ("msg", "srv", "action", "cfg")
 """Modules of a package that its build makes."""
