@@ -31,10 +31,11 @@ from preflight_server.cli.garbage import uncollected
 from preflight_server.cli.launches import Launches, launches
 from preflight_server.cli.output import colours, print_json, print_text, say
 from preflight_server.cli.progress import Progress
-from preflight_server.cli.project import run_nodes
+from preflight_server.cli.project import Project, run_nodes_together
 
 TOGETHER = 32
-"""Launches whose commands and Python launch files are run side by side; their analyses are at hand meanwhile."""
+"""Launches of which all is run side by side, commands, Python launch files and nodes; their analyses are at hand
+meanwhile."""
 FORMATS = ("text", "json", "sarif", "junit", "github")
 
 DESCRIPTION = """Tells what is wrong with launch files and everything they include. Without a file it is those of
@@ -133,17 +134,21 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     done = 0
     try:
         for launch in chosen:
-            for number, root in enumerate(launch.roots):
-                if number % TOGETHER == 0:
-                    launch.workspace.run_commands(launch.roots[number : number + TOGETHER])
-                progress.step(done, printable(relative(root.label, os.getcwd())))
-                done += 1
-                project = launch.workspace.analysed(root.path, dict(root.args))
-                settings = os.path.join(launch.home, SETTINGS_FILE)
-                if not changed or touched(project.analysis, changed[launch.home], settings):
-                    branches = launch.workspace.branches(project.analysis)
-                    launch.workspace.workspace.set_branches(project.analysis.launch, branches)
-                    found.append(_Launched.of(root, run_nodes(project, args, report=progress.part), branches.untried))
+            settings = os.path.join(launch.home, SETTINGS_FILE)
+            for first in range(0, len(launch.roots), TOGETHER):
+                together = launch.roots[first : first + TOGETHER]
+                launch.workspace.run_commands(together)
+                looked_at: list[tuple[Root, Project, int]] = []
+                for root in together:
+                    progress.step(done, printable(relative(root.label, os.getcwd())))
+                    done += 1
+                    project = launch.workspace.analysed(root.path, dict(root.args))
+                    if not changed or touched(project.analysis, changed[launch.home], settings):
+                        branches = launch.workspace.branches(project.analysis)
+                        launch.workspace.workspace.set_branches(project.analysis.launch, branches)
+                        looked_at.append((root, project, branches.untried))
+                run_nodes_together([project for _, project, _ in looked_at], args, report=progress.part)
+                found += [_Launched.of(root, project.with_results(), untried) for root, project, untried in looked_at]
     finally:
         progress.end()
     kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))

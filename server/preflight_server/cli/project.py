@@ -17,13 +17,14 @@ from preflight_analysis.findings.report import place
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.kept_traces import KeptTraces
+from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.commands import CommandResults, run_commands
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS, resolve_together
-from preflight_analysis.workspace.run_results import RunResults, node_keys
+from preflight_analysis.workspace.run_results import NodeKey, RunResults, node_keys
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -47,6 +48,10 @@ class Project:
     def environment(self) -> Environment:
         """What the nodes would run with."""
         return self.workspace.environment
+
+    def with_results(self) -> Analysis:
+        """The analysis as it is by what is known of runs."""
+        return self.workspace.analysed(self.analysis.root, dict(self.analysis.args))
 
 
 def open_project(args: argparse.Namespace) -> Project:
@@ -147,37 +152,64 @@ def run_nodes(
 
     Interrupting it stops the runs.
     """
-    workspace, analysis = project.workspace, project.analysis
-    cache = TraceCache()
-    kept = KeptTraces(project.environment, cache, disk=workspace.sources)
-    keys = node_keys(analysis.tree)
-    requests = {
-        key: request
-        for key, request in zip(keys, workspace.requests(analysis), strict=True)
-        if request is not None and only in (None, key[0])
-    }
-    found = {key: hit for key, request in requests.items() if (hit := kept.lookup(request)) is not None}
-    missing = [key for key in requests if key not in found]
+    run_nodes_together([project], args, only, report)
+    return project.with_results()
+
+
+def run_nodes_together(
+    projects: Sequence[Project],
+    args: argparse.Namespace,
+    only: str | None = None,
+    report: Callable[[int, int], None] = lambda done, total: None,
+) -> None:
+    """As `run_nodes`, of several launch files of one workspace: what one has to wait for keeps no other one waiting.
+    What is known of them then is in `Project.with_results`."""
+    if not projects:
+        return
+    workspace, environment, cache = projects[0].workspace, projects[0].environment, TraceCache()
+    kept = KeptTraces(environment, cache, disk=workspace.sources)
+    runs = [_Runs.of(project, kept, only) for project in projects]
+    missing = [(each, key) for each in runs for key in each.requests if key not in each.found]
     # Trying the sandbox starts processes: not where nothing is left to be run.
-    why = _why_not(args.no_run) if missing or not found else None
+    why = _why_not(args.no_run) if missing or not all(each.found for each in runs) else None
     if why is None and missing:
         cancel = threading.Event()
+        total = sum(len(each.requests) for each in runs)
 
         def done(index: int, interface: Interface) -> None:
-            found[missing[index]] = interface
-            report(len(found), len(requests))
+            each, key = missing[index]
+            each.found[key] = interface
+            report(sum(len(each.found) for each in runs), total)
 
         # Who has to run nothing starts faster without.
         from preflight_analysis.tracing.trace import Tracer  # noqa: PLC0415
 
-        tracer = Tracer(project.environment, cache, disk=workspace.sources)
+        tracer = Tracer(environment, cache, disk=workspace.sources)
+        requests = [each.requests[key] for each, key in missing]
         try:
-            trace_all(tracer, [requests[key] for key in missing], workers=args.jobs, on_done=done, cancel=cancel)
+            trace_all(tracer, requests, workers=args.jobs, on_done=done, cancel=cancel)
         except KeyboardInterrupt:
             cancel.set()
             raise
-    workspace.set_results(analysis.launch, RunResults(found, why))
-    return workspace.analysed(analysis.root, dict(analysis.args))
+    for project, each in zip(projects, runs, strict=True):
+        is_known = bool(each.found) and each.requests.keys() == each.found.keys()
+        workspace.set_results(project.analysis.launch, RunResults(each.found, None if is_known else why))
+
+
+@dataclass(frozen=True, slots=True)
+class _Runs:
+    """What is run for a launch file, and what is known of that, by the keys of nodes."""
+
+    requests: Mapping[NodeKey, TraceRequest]
+    found: dict[NodeKey, Interface]
+
+    @classmethod
+    def of(cls, project: Project, kept: KeptTraces, only: str | None) -> _Runs:
+        """With what is known without a run."""
+        nodes = zip(node_keys(project.analysis.tree), project.workspace.requests(project.analysis), strict=True)
+        requests = {key: request for key, request in nodes if request is not None and only in (None, key[0])}
+        found = {key: hit for key, request in requests.items() if (hit := kept.lookup(request)) is not None}
+        return cls(requests, found)
 
 
 def _why_not(no_run: bool) -> str | None:
