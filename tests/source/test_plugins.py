@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -104,11 +105,15 @@ FILES = {
 
 @pytest.fixture
 def analysis(tmp_path: Path) -> SourceAnalysis:
-    for name, text in FILES.items():
-        path = tmp_path / "src" / "nav" / name
+    return _analysis(tmp_path, FILES)
+
+
+def _analysis(folder: Path, files: Mapping[str, str]) -> SourceAnalysis:
+    for name, text in files.items():
+        path = folder / "src" / "nav" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    return SourceAnalysis(detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing")), Sources())
+    return SourceAnalysis(detect_environment(str(folder), {}, root=str(folder / "nothing")), Sources())
 
 
 def test_those_that_can_be_read(analysis: SourceAnalysis) -> None:
@@ -129,6 +134,28 @@ def test_what_a_plugin_declares_below_its_name(analysis: SourceAnalysis, name: s
     found = plugin_params(analysis, name)
     assert found is not None
     assert {param: use.default for param, use in found.items()} == params
+
+
+@pytest.mark.parametrize(
+    "body", ["exit(1);", "while (true) { made_of(Tree()); }", "int Tree::*x = 0; ((((", "Tree tree; Tree other(tree);"]
+)
+def test_what_a_plugin_is_given_may_be_anything(tmp_path: Path, body: str) -> None:
+    source = """
+        namespace nav {
+        struct Tree { Tree() { BODY } Tree left() { return Tree().left(); } };
+        class Planner : public nav2_core::GlobalPlanner {
+        public:
+          void configure(const rclcpp_lifecycle::LifecycleNode::WeakPtr & parent, std::string name, Tree tree, int *)
+          {
+            parent.lock()->declare_parameter(name + ".tolerance", tree.left());
+          }
+        };
+        }
+        """
+    found = plugin_params(
+        _analysis(tmp_path, {**FILES, "src/plugins.cpp": source.replace("BODY", body)}), "nav::Planner"
+    )
+    assert found is None or found.keys() <= {"tolerance"}
 
 
 @pytest.mark.parametrize("name", ["nav::Panel", "nav::Gone", "gone::Planner", "", "/", "::", "nav"])

@@ -31,7 +31,7 @@ from preflight_analysis.source.cpp_text import (
     text_of,
 )
 from preflight_analysis.source.cpp_types import standard
-from preflight_analysis.source.cpp_values import Argument, Calls, CppType, Instance, Scope
+from preflight_analysis.source.cpp_values import Argument, Calls, Class, CppType, Instance, Scope
 from preflight_analysis.source.python_values import UNKNOWN
 
 _MAX_ITERATIONS = 64
@@ -58,7 +58,7 @@ def interpret_class(program: CppProgram, name: str, method: str | None, calls: C
 def interpret_plugin(program: CppProgram, cls: str, method: str, name: str, calls: Calls) -> None:
     """Make an object of a class of the program, and call the method of it that gets a node, and a name; then it is
     activated."""
-    _Interpreter(program, calls).made(tuple(cls.split("::")), method, name)
+    _Interpreter(program, calls).loaded(tuple(cls.split("::")), method, name)
 
 
 class _Interpreter(Expressions):
@@ -74,11 +74,8 @@ class _Interpreter(Expressions):
         except (TooLargeError, RecursionError):
             self._calls.cut_short()
 
-    def made(self, path: Path, method: str | None, name: str | None = None) -> bool:
-        text = self._program.classes.get(path) or self._program.lookup(self._program.classes, path[-1:], path[:-1])
-        if text is None:
-            return False
-        cls = self._class(CppType("::".join(text.path)))
+    def made(self, path: Path, method: str | None) -> bool:
+        cls = self._class_at(path)
         if cls is None:
             return False
         try:
@@ -91,18 +88,33 @@ class _Interpreter(Expressions):
         except (TooLargeError, RecursionError):
             self._calls.cut_short()
             return True
-        found = self._method(instance, method, 0 if name is None else None)
+        found = self._method(instance, method, 0)
         if found is None:
             return False
-        if name is None:
-            self.run(found, instance, [])
-            return True
-        self.run(found, instance, [self._for_plugin(parameter, name, found) for parameter in found.parameters])
-        activate = self._method(instance, _ACTIVATE, 0)
-        if activate is not None:
-            self._late = self._branches.late = False
-            self.run(activate, instance, [])
+        self.run(found, instance, [])
         return True
+
+    def loaded(self, path: Path, method: str, name: str) -> None:
+        cls = self._class_at(path)
+        if cls is None:
+            return
+        try:
+            instance = self._object(cls, [])
+            found = self._method(instance, method, None)
+            given = [self._for_plugin(each, name, found) for each in found.parameters] if found is not None else []
+        except ExitError:
+            return
+        except (TooLargeError, RecursionError):
+            self._calls.cut_short()
+            return
+        for called, args in ((found, given), (self._method(instance, _ACTIVATE, 0), [])):
+            if called is not None:
+                self._late = self._branches.late = False
+                self.run(called, instance, args)
+
+    def _class_at(self, path: Path) -> Class | None:
+        text = self._program.classes.get(path) or self._program.lookup(self._program.classes, path[-1:], path[:-1])
+        return self._class(CppType("::".join(text.path))) if text is not None else None
 
     def _for_plugin(self, parameter: Parameter, name: str, method: FunctionText) -> Any:
         """What a plugin gets: its name, and an object of a class of the program that can be made of nothing."""
