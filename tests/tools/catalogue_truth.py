@@ -45,7 +45,7 @@ PAGE = ROOT / "docs" / "catalogue.md"
 _OF_ALL = frozenset({"/rosout", "/clock"})
 _ROS2 = "jazzy"
 _NODE = "/node"
-_KINDS = ("executables", "components", "nodelets", "controllers")
+_KINDS = ("executables", "components", "nodelets", "controllers", "plugins")
 
 
 Ends = set[tuple[str, str, str | None]]
