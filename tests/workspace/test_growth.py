@@ -57,7 +57,7 @@ def launch_file(name: str, generation: int) -> Read:
         clock("facts", lambda: facts_of(found))
         workspace = Workspace(environment(folder, generation), sources, str(folder))
         static = clock("evaluation", lambda: workspace.static(path))
-        interfaces = [not_run(node) for node in static.tree.nodes]
+        interfaces = [not_run(node, workspace.executables) for node in static.tree.nodes]
         analysis = clock("graph", lambda: workspace.with_interfaces(static, interfaces, "it was not asked for"))
         findings = clock("rules", lambda: analysis.findings)
         report = Report(findings, analysis.documents)

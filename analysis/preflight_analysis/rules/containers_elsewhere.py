@@ -10,8 +10,9 @@ from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.written_elsewhere import in_package
 
-_NAMES = re.compile(
-    r"""\bargs\s*=\s*["']\s*load\s+\S+\s+([\w/]+)\s*["'\s]|\btarget(?:_container)?\s*=\s*["']([\w/]+)["']"""
+_NAMES = (
+    re.compile(r"""\bargs\s*=\s*["']\s*load\s+\S+\s+([\w/]+)\s*["'\s]"""),
+    re.compile(r"""\btarget(?:_container)?\s*=\s*["']([\w/]+)["']"""),
 )
 """In XML and in Python; only names that are written out."""
 _ENOUGH = 2

@@ -27,6 +27,8 @@ class NameTally:
             more[name] = more.get(name, 0) + 1
         for name in gone:
             more[name] = more.get(name, 0) - 1
+        if not any(more.values()):
+            return self, set()
         counts, around = dict(self.counts), dict(self.around)
         different: set[str] = set()
         for name, by in more.items():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from itertools import chain, compress
-from operator import is_not
+from operator import attrgetter, is_not
 from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
@@ -17,6 +17,7 @@ from preflight_analysis.rules.name_tally import NO_NAMES, NameTally
 
 _ASKING = ("get", "has")
 _LOOKING = ("list", "search")
+_NAME = attrgetter("name")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -139,17 +140,22 @@ def matched(
     else:
         new_groups = [space for space, group in groups.items() if old_groups.get(space) is not group]
         new_groups += [space for space in old_groups if space not in groups]
-    given, given_news = last.given.changed(_names(old_groups, new_groups), _names(groups, new_groups))
+    renamed = [space for space in new_groups if _names(old_groups, space) != _names(groups, space)]
+    given, given_news = last.given.changed(
+        chain.from_iterable(_names(old_groups, space) for space in renamed),
+        chain.from_iterable(_names(groups, space) for space in renamed),
+    )
     rows = [at for at, (old, each) in enumerate(zip(old_asked, asked, strict=True)) if old is not each]
+    others_asked = [at for at in rows if not _ask_for_the_same(old_asked[at], asked[at])]
     tally, asked_news = last.asked.changed(
-        [name for at in rows for name in (*old_asked[at].names, *old_asked[at].made)],
-        [name for at in rows for name in (*asked[at].names, *asked[at].made)],
+        [name for at in others_asked for name in (*old_asked[at].names, *old_asked[at].made)],
+        [name for at in others_asked for name in (*asked[at].names, *asked[at].made)],
     )
     made = {name for each in asked for name in each.made}
 
     askers, unset = dict(last.askers), dict(last.unset)
     requested: set[str] = set()
-    for at in rows:
+    for at in others_asked:
         requested |= _replace_asker(askers, at, old_asked[at].requested.keys(), asked[at].requested.keys())
     touched = {*rows}
     for name in requested | given_news | (made ^ last.made):
@@ -216,8 +222,13 @@ def matched(
     )
 
 
-def _names(groups: _Groups, spaces: Iterable[str]) -> Iterator[str]:
-    return (param.name for space in spaces for param in groups.get(space, ()))
+def _names(groups: _Groups, space: str) -> list[str]:
+    return [*map(_NAME, groups.get(space, ()))]
+
+
+def _ask_for_the_same(one: Asked, other: Asked) -> bool:
+    same = one.names == other.names and one.made == other.made
+    return same and one.requested.keys() == other.requested.keys()
 
 
 def _replace_asker(
@@ -251,7 +262,8 @@ def _space(
     nodes: AbstractSet[str],
     opaque: AbstractSet[str],
 ) -> Space:
-    unread = tuple(param for param in params if param.name not in asked)
+    names_asked, around_asked = asked.counts, asked.around
+    unread = tuple([param for param in params if (name := param.name) not in names_asked and name not in around_asked])
     if searched:
         unread = tuple(param for param in unread if searched.isdisjoint(param.name.split("/")))
     holder: str | None = NOBODY

@@ -16,11 +16,10 @@ from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.written_elsewhere import around
 
-_TARGETS = re.compile(
-    r"""<remap\b[^<>]*?\bto\s*=\s*["']([\w/~]+)["']"""
-    r"""|\(\s*["'][\w/~]+["']\s*,\s*["']([\w/~]+)["']\s*,?\s*\)"""
-    r"""|^[ \t]*(?:-[ \t]*)?to[ \t]*:[ \t]*["']?([\w/~]+)["']?[ \t]*$""",
-    re.MULTILINE,
+_TARGETS = (
+    re.compile(r"""<remap\b[^<>]*?\bto\s*=\s*["']([\w/~]+)["']"""),
+    re.compile(r"""\(\s*["'][\w/~]+["']\s*,\s*["']([\w/~]+)["']\s*,?\s*\)"""),
+    re.compile(r"""^[ \t]*(?:-[ \t]*)?to[ \t]*:[ \t]*["']?([\w/~]+)["']?[ \t]*$""", re.MULTILINE),
 )
 """In XML, Python and YAML; only names that are written out."""
 _ENOUGH = 2

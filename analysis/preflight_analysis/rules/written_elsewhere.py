@@ -18,26 +18,27 @@ from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.rules.rule import Context
 
+Patterns = tuple[re.Pattern[str], ...]
+"""Several: one that begins with a certain text is found faster than a choice of them."""
 _MOST = 500
 """Launch files of one package that are read."""
 _MOST_PACKAGES = 30
 """Packages beside one that are looked at."""
 
 
-def in_package(context: Context, pattern: re.Pattern[str]) -> Mapping[str, int]:
-    """In how many launch files of the package of the root each name is that a pattern finds: what a match has in the
-    first of its groups that has something."""
+def in_package(context: Context, patterns: Patterns) -> Mapping[str, int]:
+    """In how many launch files of the package of the root each name is that a pattern finds, as its group."""
     package = package_around(context.environment, context.root)
-    return _in_folder(context.disk.db, package.share, pattern) if package is not None else {}
+    return _in_folder(context.disk.db, package.share, patterns) if package is not None else {}
 
 
-def around(context: Context, pattern: re.Pattern[str]) -> Mapping[str, int]:
+def around(context: Context, patterns: Patterns) -> Mapping[str, int]:
     """As `in_package`, with the packages beside that: a robot's description, navigation, ... mostly are."""
-    return _around(context.disk.db, context.environment, context.root, pattern)
+    return _around(context.disk.db, context.environment, context.root, patterns)
 
 
 @query
-def _around(db: Database, environment: Environment, root: str, pattern: re.Pattern[str]) -> Mapping[str, int]:
+def _around(db: Database, environment: Environment, root: str, patterns: Patterns) -> Mapping[str, int]:
     package = package_around(environment, root)
     if package is None:
         return {}
@@ -45,18 +46,18 @@ def _around(db: Database, environment: Environment, root: str, pattern: re.Patte
     shares = {each.share for each in environment.packages.values() if os.path.dirname(each.share) == beside}
     counts: Counter[str] = Counter()
     for share in shares if len(shares) <= _MOST_PACKAGES else (package.share,):
-        counts.update(_in_folder(db, share, pattern))
+        counts.update(_in_folder(db, share, patterns))
     return dict(counts)
 
 
 @query
-def _in_folder(db: Database, folder: str, pattern: re.Pattern[str]) -> Mapping[str, int]:
+def _in_folder(db: Database, folder: str, patterns: Patterns) -> Mapping[str, int]:
     paths = [path for path in files_in(Disk(db), folder, deep=True) if path.endswith(LAUNCH_SUFFIXES)]
-    return dict(Counter(chain.from_iterable(_in_file(db, path, pattern) for path in paths[:_MOST])))
+    return dict(Counter(chain.from_iterable(_in_file(db, path, patterns) for path in paths[:_MOST])))
 
 
 @query
-def _in_file(db: Database, path: str, pattern: re.Pattern[str]) -> frozenset[str]:
+def _in_file(db: Database, path: str, patterns: Patterns) -> frozenset[str]:
     document = Disk(db).text(path)
     text = document.text if isinstance(document, Document) else ""
-    return frozenset(match[match.lastindex or 0] for match in pattern.finditer(text))
+    return frozenset(match[1] for pattern in patterns for match in pattern.finditer(text))
