@@ -216,13 +216,14 @@ def _regrouped(before: _Groups, now: Sequence[Any], key: Callable[[Any], Any], d
         changed = _changed(before.items, now, differences)
         if not changed:
             return before
-        if len(changed) <= _FEW:
+        if _FEW * len(changed) <= len(now):
             return _patched_groups(before, now, key, changed)
     row = _Round((), (before.items,), before.keys)
     return _groups(now, _taken_over(row, (now,), lambda columns: map(key, *columns), differences), before.groups)
 
 
-_FEW = 64
+_FEW = 8
+"""One in so many: where more have changed, all groups are made anew."""
 _NOWHERE = (-1,)
 
 
