@@ -59,6 +59,29 @@ def test_parameters_that_are_written_once_for_several_nodes() -> None:
     """)
 
 
+def test_what_a_section_shares_and_what_is_given_besides_is_not_near() -> None:
+    found = check("""
+        //- /robot.launch.xml
+        <launch><node pkg="p" exec="guide" name="guide"><param from="/all.yaml"/></node></launch>
+        //- /all.yaml
+        guide:
+          ros__parameters:
+            topics:
+              guidance:
+                dp: a
+                ^^ warning[PRM013] 'topics.guidance.dp': its value is ignored
+                spede: 1.0
+                ^^^^^ warning[PRM013] did you mean 'topics.guidance.speed'?
+                limits: 1.0
+                ^^^^^^ warning[PRM013] 'topics.guidance.limits': its value is ignored
+                limit: 1.0
+        //- interfaces
+        {"/guide": {"params":
+          {"~topics.guidance.los": "b", "~topics.guidance.speed": 1.0, "~topics.guidance.limit": 1.0}}}
+    """)
+    assert sum("did you mean" in finding.message for finding in found) == 1
+
+
 @pytest.mark.silent
 def test_parameters_that_are_declared_or_may_be() -> None:
     check("""

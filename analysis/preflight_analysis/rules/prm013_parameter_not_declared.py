@@ -1,6 +1,6 @@
 """PRM013: a parameter that its node does not declare (ROS 2)."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
@@ -24,12 +24,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, declared, interface in nodes:
         if declared is None:
             continue
+        given = {(param.name, param.place.file) for param in node.params}
         for param in node.params:
             if param.name in declared or param.name in _OF_ALL_NODES or param.name.startswith(_PREFIXES):
                 continue
             if param.name_location is not None and param.name_location in wanted:
                 continue  # what is written once for several nodes, one of which wants it
-            near = nearest(param.name, declared)
+            near = _near(param.name, [name for name in declared if (name, param.place.file) not in given])
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
             in_full = interface.known_in_full
@@ -54,6 +55,15 @@ def _declared(interface: Interface) -> dict[str, ParamUse] | None:
     if interface.source == "none":
         return None
     return {use.name.removeprefix("~"): use for use in uses}
+
+
+def _near(name: str, others: Collection[str]) -> str | None:
+    """The parameter that was probably meant; what all of a section share says nothing."""
+    near = nearest(name, others)
+    if near is None:
+        return None
+    (above, _, leaf), (other_above, _, other) = name.rpartition("."), near.rpartition(".")
+    return near if above != other_above or nearest(leaf, (other,)) is not None else None
 
 
 def _rename(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
