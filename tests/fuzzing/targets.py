@@ -75,7 +75,7 @@ from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.tracing.observation import observe
 from preflight_analysis.tracing.recipe import Recipe
-from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.request import Component, TraceRequest
 from preflight_analysis.tracing.run import RawRun, _take
 from preflight_analysis.tracing.trace_json import trace_json
 from preflight_analysis.workspace.index_data import data_of_index, index_of_data
@@ -527,8 +527,9 @@ def trace_events(data: bytes) -> None:
     raw = RawRun(stderr=data)
     for each in data.split(b"\n"):
         _take(each, raw)
-    for generation in (1, 2):
-        found = observe(raw, recipe, dataclasses.replace(request, generation=generation))
+    of_component = dataclasses.replace(request, generation=2, component=Component("p::C", "/c", "/box"))
+    for asked in (of_component, *(dataclasses.replace(request, generation=generation) for generation in (1, 2))):
+        found = observe(raw, recipe, asked)
         check_json(trace_json([(_node(), found.interface)]))
         for each in found.interface.outcome.stderr_tail:
             check_printable(each)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -14,9 +15,11 @@ from preflight_analysis.workspace.workspace import Analysis
 
 from support.action_package import action_package
 from support.build_once import build_once
+from support.composition_interfaces import composition_interfaces
 from support.ros2_harness import ROOT, checked, ros2_prefix
 
 SOURCES = ROOT / "tests" / "tracing"
+CONTAINER = "container_like.cpp"
 _LIBRARIES = (
     "fib__rosidl_typesupport_c",
     "rcl",
@@ -41,6 +44,9 @@ def _compile(made: Path, distribution: str, source: str) -> None:
     prefix = ros2_prefix(distribution)
     action = action_package(distribution)
     includes = [f"-I{folder}" for folder in (action.folder, *(prefix / "include").iterdir())]
+    loads = source == CONTAINER
+    if loads:
+        includes += [f"-I{folder}" for folder in composition_interfaces(distribution).includes]
     # The libraries of the wheels are not linked with all that they need.
     linking = [
         f"-L{prefix / 'lib'}",
@@ -49,6 +55,9 @@ def _compile(made: Path, distribution: str, source: str) -> None:
         "-Wl,--unresolved-symbols=ignore-in-shared-libs",
     ]
     libraries = [f"-l{library}" for library in _LIBRARIES]
+    if loads:
+        linking.append(f"-L{composition_interfaces(distribution).libraries}")
+        libraries += ["-lcomposition_interfaces__rosidl_typesupport_cpp", "-ldl"]
     compiler = "g++" if source.endswith(".cpp") else "cc"
     subprocess.run(
         [compiler, "-w", *includes, str(SOURCES / source), "-o", str(made), *linking, *libraries], check=True
@@ -99,3 +108,31 @@ class RclHarness:
         graph = self.check(f"<node pkg='cpkg' exec='node' args='{args}' {attributes}>{inside}</node>").graph
         assert graph is not None
         return graph.processes[0]
+
+
+class ContainerHarness(RclHarness):
+    """Likewise, and `node` is a container, with components that do what is told."""
+
+    def __init__(self, folder: Path, distribution: str = "kilted") -> None:
+        super().__init__(folder, distribution, CONTAINER)
+        libraries = composition_interfaces(distribution).libraries
+        self.variables["LD_LIBRARY_PATH"] += f"{os.pathsep}{libraries}"
+        self.index = folder / "install/share/ament_index/resource_index/rclcpp_components/cpkg"
+        self.index.parent.mkdir()
+        self.components: dict[str, str] = {}
+
+    def component(self, name: str, steps: str) -> None:
+        """Make the component `cpkg::NAME`, which takes these steps in its constructor."""
+        library = self.folder / "install" / "lib" / f"lib{name.lower()}.so"
+        source = f"const char* steps(void) {{ return {json.dumps(steps)}; }}"
+        subprocess.run(["cc", "-shared", "-fPIC", "-x", "c", "-", "-o", library], input=source, text=True, check=True)
+        self.components[f"cpkg::{name}"] = f"lib/{library.name}"
+        self.index.write_text("".join(f"{cls};{path}\n" for cls, path in self.components.items()))
+
+    def loaded(self, name: str, inside: str = "", attributes: str = "name='n'", args: str = "") -> Interface:
+        """What a component does that is loaded with this in its tag."""
+        component = f"<composable_node pkg='cpkg' plugin='cpkg::{name}' {attributes}>{inside}</composable_node>"
+        container = f"<node_container pkg='cpkg' exec='node' args='{args}' name='box' namespace=''>{component}"
+        graph = self.check(f"{container}</node_container>").graph
+        assert graph is not None
+        return graph.processes[1]

@@ -82,7 +82,22 @@ def test_why_a_program_cannot_be_run(components: Components, tag: str, package: 
     assert components.reasons(f'<{tag} pkg="{package}" exec="box" name="c" namespace=""/>') == {"/c": reason}
 
 
-def test_a_component_that_is_there_could_be_run(components: Components) -> None:
+def test_a_component_needs_a_container(components: Components) -> None:
+    """Which another launch may start, or which is not built: that of rclcpp_components does as well."""
+    component = '<composable_node pkg="q" plugin="q::Talker" name="n"/>'
+    loaded = f'<load_composable_node target="c">{component}</load_composable_node>'
+    assert components.reasons(loaded) == {"/n": "its container is not here, nor is package 'rclcpp_components'"}
+    components.write("install/share/ament_index/resource_index/packages/rclcpp_components", "")
+    components.write("install/share/rclcpp_components/package.xml", manifest("rclcpp_components", "ament_cmake"))
+    reason = "its container is not here, nor is 'component_container' of package 'rclcpp_components'"
+    assert components.reasons(loaded) == {"/n": reason}
+    components.write("install/lib/rclcpp_components/component_container", "").chmod(0o755)
+    assert components.reasons(loaded) == {"/n": NOT_ASKED_FOR}
+
+
+@pytest.mark.parametrize("listed", ["q::Talker", ";", "q::Talker;\0\n", "q::Talker;" + "../" * 9000, "q::Talker;lib"])
+def test_an_odd_list_of_components_raises_nothing(components: Components, listed: str) -> None:
+    components.write("install/share/ament_index/resource_index/rclcpp_components/q", listed)
     component = '<composable_node pkg="q" plugin="q::Talker" name="n"/>'
     reasons = components.reasons(f'<load_composable_node target="c">{component}</load_composable_node>')
-    assert reasons == {"/n": NOT_ASKED_FOR}
+    assert reasons["/n"] in ("it is not built yet", "no component of package 'q' is known here")

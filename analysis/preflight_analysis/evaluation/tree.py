@@ -187,6 +187,8 @@ class LaunchNode(NamedTuple):
     container_location: Location | None = None
     """Where a composable node that is loaded names its container; None for one in the container's own tag."""
     plugin: str | None = None
+    extra_arguments: tuple[Param, ...] = ()
+    """What the container of a composable node is told of it, such as `use_intra_process_comms`."""
     params: tuple[Param, ...] = ()
     """ROS 2: the parameters that it gets, each from the last source that has it. Those of ROS 1 are the tree's."""
     param_sources: tuple[ParamSource, ...] = ()

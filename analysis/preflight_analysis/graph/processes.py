@@ -34,4 +34,7 @@ def each_node(
 def _beside(node: LaunchNode, name: str, documents: Mapping[str, Document]) -> LaunchNode:
     """A node that the run showed in the process of a node of the launch file."""
     made = of_name(node, name, documents, inferred=False)
+    if node.kind == "composable":
+        # What a container gives to a component is the component's own, and no argument of the process.
+        made = made._replace(params=(), param_sources=(), remaps=())
     return made._replace(namespace=names.parent(name), within=node.name)

@@ -13,6 +13,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.files import Executables
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.finding import Confidence, EndpointRef, Finding, Fix, Related, Severity
@@ -28,7 +29,7 @@ from preflight_analysis.launch.problems import ProblemKind
 T = TypeVar("T")
 
 
-class ExecutableNames(Protocol):
+class ExecutableNames(Executables, Protocol):
     """What an `environment.executables.ExecutableIndex` offers to rules."""
 
     def names(self, package: str) -> tuple[str, ...]:

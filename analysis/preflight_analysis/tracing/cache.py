@@ -188,7 +188,7 @@ class TraceCache(Store):
             "package": request.package,
             "python": recipe.python,
             "watched": recipe.remapped,
-            "interpreter": list(recipe.argv[: recipe.argv.index(request.executable)]),
+            "interpreter": list(recipe.argv[: recipe.argv.index(request.program)]),
             "args": list(request.args),
             "entry_point": request.entry_point,
             "named": request.named,
@@ -199,8 +199,10 @@ class TraceCache(Store):
             "cwd": recipe.cwd,
             "workspaces": list(recipe.workspaces),
         }
-        name = os.path.basename(request.executable)
-        return self._place_of(named, self._executable_folder(request.generation, request.package, name, part(request)))
+        if request.component is not None:
+            named["component"] = dataclasses.asdict(dataclasses.replace(request.component, container_node=""))
+        folder = self._executable_folder(request.generation, request.package, name_of(request), part(request))
+        return self._place_of(named, folder)
 
 
 class _View:
@@ -256,8 +258,15 @@ def _valid(known: Mapping[str, Any], view: _View) -> bool:
     )
 
 
+def name_of(request: TraceRequest) -> str:
+    """What an executable is known by, wherever it is: a component by its class, as the library may not be there."""
+    return request.component.plugin if request.component is not None else os.path.basename(request.executable)
+
+
 def part(request: TraceRequest) -> str | None:
-    """Which of the things that one file can run: a nodelet, an entry point."""
+    """Which of the things that one file can run: a nodelet, an entry point, a component."""
+    if request.component is not None:
+        return "component"
     return request.entry_point or nodelets.plugin(request)
 
 

@@ -90,4 +90,4 @@ def still_named(then: Interface, first: Interface) -> Interface:
 
 def preloaded(request: TraceRequest) -> bool:
     """Whether it is a node in C++, as far as can be told before it runs."""
-    return request.entry_point is None and preload.applies(request.executable)
+    return request.entry_point is None and preload.applies(request.program)

@@ -30,6 +30,7 @@ _WAITS = {
     "parameter": "the parameter {}",
     "poll": "messages on {}",
     "clock": "simulated time on {}",
+    "load": "its constructor to return",
 }
 """What a node waits for at its end, by the kind that the library told."""
 _BY_ENV = re.compile(r"\S*env: ['‘](.+?)(\\r)?['’]: No such file or directory")

@@ -19,7 +19,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.tracing import interior
-from preflight_analysis.tracing.agents.variables import STAND_INS
+from preflight_analysis.tracing.agents.variables import LOAD, STAND_INS
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.request import TraceRequest
 
@@ -27,7 +27,7 @@ ROS_HOME = "/tmp/ros_home"  # noqa: S108
 LOG_FOLDER = "/tmp/ros_log"  # noqa: S108
 MASTER_URI = "http://127.0.0.1:11311/"
 
-OURS = ("HOME", "ROS_HOME", "ROS_LOG_DIR", "TMPDIR", "PREFLIGHT_EVENTS", STAND_INS)
+OURS = ("HOME", "ROS_HOME", "ROS_LOG_DIR", "TMPDIR", "PREFLIGHT_EVENTS", LOAD, STAND_INS)
 """The variables that name folders and files of the sandbox's own."""
 
 _SEARCH_PATHS = ("PYTHONPATH", "LD_LIBRARY_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH", "GAZEBO_PLUGIN_PATH")
@@ -126,7 +126,9 @@ def _linked(manifest: str) -> Iterator[str]:
 
 def request_paths(environment: Environment, request: TraceRequest, recipe: Recipe) -> list[str]:
     """What this node needs to see besides, as far as it may be shown."""
-    return interior.needs_binding([*_program_paths(environment, request.executable), recipe.preload or ""])
+    started = dict.fromkeys((request.program, request.executable))
+    paths = [path for program in started for path in _program_paths(environment, program)]
+    return interior.needs_binding([*paths, recipe.preload or ""])
 
 
 def command_paths(

@@ -96,6 +96,12 @@ class Gathered:
     """Modules that were missing."""
     searched: dict[str, None] = field(default_factory=dict)
     """Where they could turn up."""
+    containers: set[str] = field(default_factory=set)
+    """The full names of the nodes that a container made before it loaded its component."""
+    loading: bool = False
+    """Whether it was asked to."""
+    loaded: str | None = None
+    """What it answered: "" where it did, else why not."""
     unknown: bool = False
     """Whether it used a value that a stand-in has in the place of one that is not known."""
     end: Mapping[str, Any] | None = None
@@ -120,7 +126,15 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
             if name is None or given is None or len(found.nodes) >= MAX_NODES:
                 return False
             full = checked_text(record.get("full"), _FULL_NAME) or ""
+            if full and record.get("containers") is True:
+                found.containers.add(full)
             found.nodes[MadeNode(name, given, space, record.get("renamed") is True, full=full)] = None
+        case "loaded":
+            why = record.get("error")
+            if not isinstance(why, str) or found.loaded is not None:
+                return False
+            said = " ".join(_UNSAYABLE.sub("", why[:4000]).split())
+            found.loaded = "" if record.get("success") is True else said or "it does not say why"
         case "asked" if record.get("what") == "graph":
             found.looked = True
         case "asked" if record.get("what") == "stand-in":
@@ -140,6 +154,7 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
                 found.wrote.update((p, None) for p in paths([record.get("path")]) if _FILE.match(p))
         case "state" if record.get("state") == "wait":
             kind, name = record.get("kind"), checked_text(record.get("name"), NAME)
+            found.loading = found.loading or kind == "load"
             if kind in ("service", "message") and name is not None:
                 found.waits.append((str(kind), name, *place_of(record)))
         case "answered":

@@ -14,6 +14,20 @@ from preflight_analysis.generation import Generation, ros
 
 
 @dataclass(frozen=True, slots=True)
+class Component:
+    """How a composable node of ROS 2 is loaded: the class, and the container that a run starts for it alone."""
+
+    plugin: str
+    container: str = ""
+    """Absolute path of its program."""
+    container_node: str = ""
+    """Its full name."""
+    container_args: tuple[str, ...] = ()
+    extra_arguments: tuple[tuple[str, Any], ...] = ()
+    """What it is told of this component, such as `use_intra_process_comms`."""
+
+
+@dataclass(frozen=True, slots=True)
 class TraceRequest:
     """A run. `params` is the parameter server of the whole launch by full name, private parameters included; best
     `SharedParams`, as what is asked of them in the cache is then made once."""
@@ -22,7 +36,7 @@ class TraceRequest:
     """Full name."""
     package: str
     executable: str
-    """Absolute path."""
+    """Absolute path; of a component that of its library."""
     args: tuple[str, ...] = ()
     """The node's own arguments, split as a shell would."""
     remaps: tuple[tuple[str, str], ...] = ()
@@ -42,8 +56,15 @@ class TraceRequest:
     without a name in the launch file, or for others of the process, is only known once a run has told their names."""
     each: tuple[tuple[str, Mapping[str, Any]], ...] = ()
     """ROS 2: the parameters of each node of the process, by its full name, where those are not the same for all."""
+    component: Component | None = None
+    """Of a composable node, which cannot be run alone. Environment and folder are then those of its container."""
     launch: str | None = field(default=None, compare=False)
     """The launch file with the node's tag: for telling where a trace comes from, it is no part of the run."""
+
+    @property
+    def program(self) -> str:
+        """What is started: absolute path."""
+        return self.component.container if self.component is not None else self.executable
 
     @property
     def ros(self) -> Generation:

@@ -17,12 +17,16 @@ from typing import Any
 from preflight_analysis.environment.ament import INDEX, python_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing.agents.variables import EXPECTED, SHARES
+from preflight_analysis.tracing.agents.variables import EXPECTED, LOAD, SHARES
+from preflight_analysis.tracing.load_request import load_request
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 
 PARAMETERS = f"{recipes.ROS_HOME}/parameters.yaml"
 """The file with the node's parameters, inside."""
+
+LOADED = f"{recipes.ROS_HOME}/load_request"
+"""The file with the request for the component that a container is to load, inside."""
 
 _START = (
     "import importlib, sys; path, target = sys.argv[1:3]; sys.argv[:3] = [path]; del sys.path[0]; "
@@ -49,27 +53,31 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
     python = environment.ros2_python or recipes.any_python(environment)
     if request.entry_point is not None:
         argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]
+    elif request.component is not None:
+        argv = [request.program, *request.component.container_args]
     else:
         argv = [*([python] if preload is None else []), request.executable, *request.args]
     argv.append("--ros-args")
-    space, _, base = request.node.rpartition("/")
-    if request.named:
-        argv += ["-r", f"__node:={base}"]
-    if space:
-        argv += ["-r", f"__ns:={space}"]
-    for source, target in request.renames:
-        argv += ["-r", f"{source}:={target}"]
-    given = _parameters(request)
     files = {}
-    if given:
-        files[PARAMETERS] = json.dumps(given, ensure_ascii=False)
-        argv += ["--params-file", PARAMETERS]
+    if request.component is not None:
+        argv += _named(request.component.container_node)
+        files[LOADED] = load_request(request).hex()
+    else:
+        argv += _named(request.node, named=request.named)
+        for source, target in request.renames:
+            argv += ["-r", f"{source}:={target}"]
+        given = _parameters(request)
+        if given:
+            files[PARAMETERS] = json.dumps(given, ensure_ascii=False)
+            argv += ["--params-file", PARAMETERS]
     env = recipes.inside(stable) | {
         "ROS_DOMAIN_ID": "0",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         EXPECTED: request.node,
         SHARES: json.dumps(_source_packages(environment)),
     }
+    if request.component is not None:
+        env[LOAD] = LOADED
     if preload is not None:
         env["LD_PRELOAD"] = recipes.preloading(preload, stable)
     return Recipe(
@@ -82,6 +90,12 @@ def make(environment: Environment, request: TraceRequest, preload: str | None = 
         files=files,
         workspaces=environment.workspace_folders,
     )
+
+
+def _named(node: str, *, named: bool = True) -> list[str]:
+    """The arguments that give a node its full name; its base only where it is `named`."""
+    space, _, base = node.rpartition("/")
+    return [*(["-r", f"__node:={base}"] if named else []), *(["-r", f"__ns:={space}"] if space else [])]
 
 
 def make_command(environment: Environment, executable: str, args: Iterable[str], cwd: str) -> Recipe:

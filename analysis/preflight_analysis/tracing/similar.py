@@ -9,7 +9,6 @@ parameters and that this node is not given are left out: nobody knows what it ha
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Any
@@ -21,9 +20,9 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import Input, query
 from preflight_analysis.tracing import nodelets
-from preflight_analysis.tracing.cache import Kept, TraceCache, bare, part, texts
+from preflight_analysis.tracing.cache import Kept, TraceCache, bare, name_of, part, texts
 from preflight_analysis.tracing.interface import Elsewhere, Interface
-from preflight_analysis.tracing.request import TraceRequest, split_args
+from preflight_analysis.tracing.request import Component, TraceRequest, split_args
 from preflight_analysis.tracing.store import fingerprint
 
 _MAX_REMEMBERED = 4096
@@ -47,12 +46,19 @@ def asked(node: LaunchNode, generation: int) -> Asked:
     """`generation` is that of ROS: the other one may have a node of the same name."""
     path = node.resolved.path or ""
     executable, args, entry_point = path or node.executable, split_args(node.args), node.resolved.entry_point
+    component = Component(node.plugin) if node.kind == "composable" and node.plugin is not None else None
     request = nodelets.alone(
-        TraceRequest(node.name, node.package, executable, args, generation=generation, entry_point=entry_point)
+        TraceRequest(
+            node.name,
+            node.package,
+            executable,
+            args,
+            generation=generation,
+            entry_point=entry_point,
+            component=component,
+        )
     )
-    return Asked(
-        path, node.name, node.args, request, (generation, node.package, os.path.basename(executable), part(request))
-    )
+    return Asked(path, node.name, node.args, request, (generation, node.package, name_of(request), part(request)))
 
 
 @dataclass(frozen=True, slots=True)

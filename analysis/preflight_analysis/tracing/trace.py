@@ -87,7 +87,7 @@ class Tracer(KeptTraces):
             return _not_run(f"no sandbox: {status.reason}")
         if cancel.is_set():
             return _not_run("the run was cancelled")
-        before = identity(request.executable)
+        before = _identities(request)
         built = self.libraries[request.generation].build() if preloaded(request) else NO_PRELOAD
         if not request.ros.has_master and built.reason is not None:
             return _not_run(built.reason)
@@ -121,12 +121,12 @@ class Tracer(KeptTraces):
         if status.narrow and observed.interface.outcome.status == "crashed":
             observed = replace(observed, lasting=False, interface=_mark_speculative(observed.interface, status))
         lasting = observed.lasting and not nodelets.may_turn_up(observed.interface)
-        if self.cache is not None and lasting and identity(request.executable) == before:
+        if self.cache is not None and lasting and _identities(request) == before:
             self.cache.store(
                 recipe,
                 request,
                 observed.interface,
-                replace(observed.dependencies, files=_files(observed, recipe, visible)),
+                replace(observed.dependencies, files=(request.program, *_files(observed, recipe, visible))),
                 listings={*_searched(observed, recipe, request), *observed.dependencies.searched},
                 started=raw.started,
             )
@@ -145,6 +145,10 @@ def _unbuilt(found: Interface, environment: Environment, generation: int) -> str
     if not catkin_python.generates_modules(package):
         return None
     return f"it imports {missing[1]}, which is not built yet: package '{package.name}' of the workspace makes it"
+
+
+def _identities(request: TraceRequest) -> tuple[str, str]:
+    return identity(request.executable), identity(request.program)
 
 
 def _is_refused(found: Interface) -> bool:

@@ -8,9 +8,12 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.rules.nearest import did_you_mean, nearest_class
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.tracing.interface import Interface, Outcome
+from preflight_analysis.workspace.components import Containers
 
 
-def not_run(node: LaunchNode, executables: ExecutableNames, reason: str | None = None) -> Interface:
+def not_run(
+    node: LaunchNode, executables: ExecutableNames, reason: str | None = None, containers: Containers | None = None
+) -> Interface:
     """An empty interface that says why: what the launch file leaves unknown, nothing that could be run, or else
     `reason`."""
     if node.unknowns:
@@ -18,6 +21,8 @@ def not_run(node: LaunchNode, executables: ExecutableNames, reason: str | None =
         reason = f"{first.what} is not known ({first.reason})"
     elif node.resolved.path is None:
         reason = _why_not_there(node, executables)
+    elif node.kind == "composable" and containers is not None:
+        reason = containers.lack(node) or reason
     return _not_run(reason)
 
 

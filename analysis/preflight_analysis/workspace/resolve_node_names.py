@@ -30,6 +30,6 @@ def resolve_node_names(
 
 
 def _own_name(node: LaunchNode, interface: Interface) -> str | None:
-    if node.named or node.name_from_code or node.unknowns or node.kind not in ("node", "lifecycle"):
+    if node.named or node.name_from_code or node.unknowns or node.kind not in ("node", "lifecycle", "composable"):
         return None
     return interface.own_name(node.namespace)

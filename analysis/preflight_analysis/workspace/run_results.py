@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.tracing.interface import PENDING, Interface
+from preflight_analysis.workspace.components import Containers
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
 
@@ -38,12 +39,12 @@ class RunResults:
         """The interfaces of the nodes of a tree, in order, and why none of them was run, None where one was."""
         known, why = self.interfaces, self.why_not_run
         reason = why or (PENDING if self.pending else NOT_ASKED_FOR)
+        containers = Containers(tree, executables)
         if not known:
-            return [not_run(node, executables, reason) for node in tree.nodes], why
+            return [not_run(node, executables, reason, containers) for node in tree.nodes], why
         keys = node_keys(tree)
-        interfaces = [
-            known.get(key) or not_run(node, executables, reason) for key, node in zip(keys, tree.nodes, strict=True)
-        ]
+        pairs = zip(keys, tree.nodes, strict=True)
+        interfaces = [known.get(key) or not_run(node, executables, reason, containers) for key, node in pairs]
         # Where earlier runs tell of some, those that were not run say so themselves.
         return interfaces, None if any(key in known for key in keys) else why
 

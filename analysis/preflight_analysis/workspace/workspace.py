@@ -50,6 +50,7 @@ from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.branches import BRANCHES, Branches, WhatIf, branches_of
+from preflight_analysis.workspace.components import Containers
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.project_settings import (
@@ -266,14 +267,20 @@ class Workspace:
     def requests(self, analysis: Analysis) -> tuple[TraceRequest | None, ...]:
         """How to run each node of the tree; None for one that cannot be run, for what is not known or not there."""
         if analysis.tree.ros.own_parameters:
-            return tuple(self._ros2_request(node, analysis.documents) for node in analysis.tree.nodes)
+            containers = Containers(analysis.tree, analysis.context.executables)
+            return tuple(self._ros2_request(node, analysis.documents, containers) for node in analysis.tree.nodes)
         values = analysis.tree.params.values()
         params = SharedParams({p.name: p.value for p in values if not isinstance(p.value, CommandValue)})
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
-    def _ros2_request(self, node: LaunchNode, documents: Mapping[str, Document]) -> TraceRequest | None:
-        """How to run a node of ROS 2: one that is written in Python, or a program."""
+    def _ros2_request(
+        self, node: LaunchNode, documents: Mapping[str, Document], containers: Containers
+    ) -> TraceRequest | None:
+        """How to run a node of ROS 2: one that is written in Python, a program, or a component."""
         path = node.resolved.path
+        params = {f"{node.name}/{p.name}": p.value for p in node.params if not isinstance(p.value, CommandValue)}
+        if node.kind == "composable":
+            return containers.request(node, params)
         if path is None or node.unknowns or node.kind not in ("node", "lifecycle", "container"):
             return None
         if node.resolved.entry_point is None and not is_python(path) and not preload.applies(path):
@@ -284,7 +291,7 @@ class Workspace:
             path,
             split_args(node.args),
             tuple((remap.source, remap.target) for remap in node.remaps),
-            params={f"{node.name}/{p.name}": p.value for p in node.params if not isinstance(p.value, CommandValue)},
+            params=params,
             env=node.env,
             cwd=node.cwd,
             generation=2,

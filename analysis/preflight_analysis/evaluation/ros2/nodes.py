@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.model import Executable
@@ -22,9 +22,9 @@ from preflight_analysis.evaluation.ros2.params import (
     tag_params,
 )
 from preflight_analysis.evaluation.ros2.processes import OUTPUTS
-from preflight_analysis.evaluation.ros2.python_params import dict_params
+from preflight_analysis.evaluation.ros2.python_params import dict_params, named_params
 from preflight_analysis.evaluation.ros2.substitute import Performer
-from preflight_analysis.evaluation.tree import LaunchNode, ParamSource, Remap, Unknown, Use
+from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource, Remap, Unknown, Use
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
 from preflight_analysis.launch.problems import BadValue
 
@@ -192,11 +192,21 @@ def evaluate_composable(
                 container=container,
                 container_location=place.origin(target)[-1] if target is not None else None,
                 plugin=plugin_name,
+                extra_arguments=tuple(_extra_arguments(performer, action, full)),
                 params=to.effective(),
                 param_sources=tuple(to.found),
                 deferred=deferred,
             )
         )
+
+
+def _extra_arguments(performer: Performer, action: Action, node: str) -> Iterator[Param]:
+    """What the container is told of a component."""
+    for child in action.children:
+        if child.kind == "extra_arg":
+            yield from named_params(performer, (child,), node)
+        elif child.kind == "extra_dict":
+            yield from dict_params(performer, child, node)
 
 
 def evaluate_executable(performer: Performer, action: Action, *, deferred: bool) -> None:

@@ -217,7 +217,9 @@ def _as_it_stands(source: ParamSource, documents: Mapping[str, Document]) -> Doc
 
 def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, inferred: bool) -> LaunchNode:
     """A node that the launch file does not name, under the name that its own code gives it: parameter files may have
-    something for that."""
+    something for that. Those of a composable node launch_ros has read without knowing it."""
+    if node.kind == "composable":
+        return node._replace(name=name, name_from_code=True, name_inferred=inferred)
     to = Sources(name)
     for source in node.param_sources:
         document = _as_it_stands(source, documents)

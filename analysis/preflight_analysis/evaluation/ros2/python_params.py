@@ -3,7 +3,7 @@ given: plain values stay, substitutions are read as YAML, lists have items of on
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
@@ -23,16 +23,21 @@ class _UnknownError(Exception):
 
 def dict_params(performer: Performer, action: Action, node: str) -> list[Param]:
     """The parameters of one dictionary, in order."""
+    return named_params(performer, (child for child in action.children if child.kind == "param"), node)
+
+
+def named_params(performer: Performer, actions: Iterable[Action], node: str) -> list[Param]:
+    """Those of which a name and a value are given, which is YAML where it is a text."""
     found = []
-    for child in action.children:
-        name_value = child.value("name")
-        if child.kind != "param" or name_value is None:
+    for action in actions:
+        name_value = action.value("name")
+        if name_value is None:
             continue
         name = performer.value(name_value)
-        known, value = python_value(performer, child)
+        known, value = python_value(performer, action)
         if known and name.known:
             location = performer.place.location(name_value.span)
-            found.append(Param(name.text, value, performer.place.origin(child.head_span), node, location))
+            found.append(Param(name.text, value, performer.place.origin(action.head_span), node, location))
     return found
 
 

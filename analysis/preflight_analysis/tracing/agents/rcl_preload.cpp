@@ -12,6 +12,7 @@
 #include "rcl_preload/asking.hpp"
 #include "rcl_preload/background.hpp"
 #include "rcl_preload/cdr.hpp"
+#include "rcl_preload/components.hpp"
 #include "rcl_preload/endpoints.hpp"
 #include "rcl_preload/layout.hpp"
 #include "rcl_preload/lifecycle.hpp"
@@ -59,6 +60,7 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
         .add("space", text(space))
         .add("full", full_name_of(self))
         .add("renamed", node_name(self) == given_by_launch)
+        .add("containers", is_containers())
         .send();
     Event("state").add("state", std::string("init")).send();
   });
@@ -103,7 +105,9 @@ void made(const char* role, Handle* self, const Handle* node, const Support* sup
   bool service = role[0] == 'c' || strcmp(role, "service") == 0;
   if (service && depth > 1 && goal_service.empty()) goal_service = action_of(type_of(support));
   if (in_library && name == "~/change_state") change_state_node = node;
-  if (strcmp(role, "service") == 0 && expanded(node, name, true) == full_name_of(node) + "/list_parameters") {
+  if (strcmp(role, "service") == 0 && ends_with(name, kLoadNode)) offers_to_load(node, support);
+  bool lists = strcmp(role, "service") == 0 && expanded(node, name, true) == full_name_of(node) + "/list_parameters";
+  if (lists && !is_containers()) {
     std::lock_guard<std::mutex> locked(unasked_mutex);
     unasked().insert(node);
   }
@@ -313,7 +317,12 @@ HOOK int rcl_send_request(const Handle* self, const void* request, int64_t* sequ
 }
 
 HOOK int rcl_wait(WaitSet* wait_set, int64_t timeout) {
-  if (depth == 0 && wait_set != nullptr) quietly([&] { tell_turn(wait_set, timeout); });
+  if (depth == 0 && wait_set != nullptr) {
+    quietly([&] {
+      if (wait_set->services.count > 0) ask_to_load();
+      tell_turn(wait_set, timeout);
+    });
+  }
   return REAL("rcl_wait", int(WaitSet*, int64_t))(wait_set, timeout);
 }
 

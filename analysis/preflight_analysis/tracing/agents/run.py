@@ -24,6 +24,7 @@ EVENTS = frozenset(
     (
         "endpoint",
         "frame",
+        "loaded",
         "node",
         "param",
         "asked",

@@ -97,4 +97,5 @@ ENTITIES = (
         python=(),
         of=("composable_node",),
     ),
+    Part(kind="extra_dict", tag=None, python=(), parameter="extra_arguments", of=("composable_node",)),
 )

@@ -146,6 +146,7 @@ class ComposableNode(Made):
         t.attribute("name", self.__name)
         t.attribute("namespace", self.__namespace)
         serialize_parameters(t, self.__parameters)
+        serialize_parameters(t, self.__extra_arguments, "extra_dict")
         serialize_remappings(t, self.__remappings)
 
 

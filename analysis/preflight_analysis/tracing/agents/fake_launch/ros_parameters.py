@@ -162,16 +162,16 @@ def normalize_remap_rules(remap_rules: Any) -> Iterable[tuple[Any, Any]]:
     return map(normalize_remap_rule, remap_rules)
 
 
-def serialize_parameters(t: Any, parameters: Any) -> None:
+def serialize_parameters(t: Any, parameters: Any, kind: str = "param_dict") -> None:
     for param in parameters or ():
         if isinstance(param, ParameterFile):
             allow = param.allow_substs
             t.child("param", **{"from": param.param_file, "allow_substs": allow if allow else None})
         elif isinstance(param, Parameter):
-            with t.inside("param_dict"):
+            with t.inside(kind):
                 t.parameter(param.name, param.preflight_value)
         else:
-            with t.inside("param_dict"):
+            with t.inside(kind):
                 for name, value in param.items():
                     t.parameter(list(name), value)
 

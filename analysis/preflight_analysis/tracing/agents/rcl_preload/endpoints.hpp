@@ -15,6 +15,14 @@ namespace preflight {
 std::atomic<double> last_new{0};       // when an endpoint was made
 thread_local bool in_library = false;  // what rcl makes on its own
 
+// Where a container was started for one of its components: whether it was asked to load it. What it makes before that
+// is its own.
+std::atomic<bool> loading{false};
+bool is_containers() {
+  static const bool for_component = getenv("PREFLIGHT_LOAD") != nullptr;
+  return for_component && !loading;
+}
+
 const char* word(int value, std::initializer_list<std::pair<int, const char*>> words) {
   for (const auto& each : words) {
     if (each.first == value) return each.second;

@@ -12,7 +12,8 @@
 namespace preflight {
 
 bool is_watched(const char* library) {
-  for (const char* start : {"librcl", "librmw", "librcutils", "librosidl", "liblifecycle_msgs"}) {
+  for (const char* start :
+       {"librcl", "librmw", "librcutils", "librosidl", "liblifecycle_msgs", "libcomposition_interfaces"}) {
     if (starts_with(library, start)) return true;
   }
   return false;

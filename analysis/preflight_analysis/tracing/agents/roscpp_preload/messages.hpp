@@ -15,10 +15,6 @@
 
 namespace preflight {
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 bool is_transforms(const std::string& type) { return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage"; }
 
 // A topic that the node may wait for: not what libraries listen to, nor what has any type.

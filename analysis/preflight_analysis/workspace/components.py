@@ -1,0 +1,81 @@
+"""Which container a run starts for a composable node of ROS 2.
+
+That is the one of the launch, where it is a program here. Where it is not, or another launch starts it, the container
+of rclcpp_components stands in: what a component does is the same whoever loads it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+from preflight_analysis.environment.model import Executable
+from preflight_analysis.evaluation.files import Executables
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.tracing import preload
+from preflight_analysis.tracing.request import Component, TraceRequest, split_args
+
+_PACKAGE, _PROGRAM = "rclcpp_components", "component_container"
+
+
+class Containers:
+    """The containers of a launch."""
+
+    def __init__(self, tree: LaunchTree, executables: Executables) -> None:
+        self._tree = tree
+        self._executables = executables
+        self._programs: dict[str, bool] = {}
+
+    def request(self, node: LaunchNode, params: Mapping[str, Any]) -> TraceRequest | None:
+        """How to run a composable node; None where its library is not there, or no container for it."""
+        host = self._host(node)
+        program = (host.resolved if host is not None else self._stand_in).path
+        if node.unknowns or node.resolved.path is None or node.plugin is None or program is None:
+            return None
+        return TraceRequest(
+            node.name,
+            node.package,
+            node.resolved.path,
+            remaps=tuple((remap.source, remap.target) for remap in node.remaps),
+            params=params,
+            env=host.env if host is not None else (),
+            cwd=host.cwd if host is not None else None,
+            generation=2,
+            named=node.named,
+            component=Component(
+                node.plugin,
+                program,
+                host.name if host is not None else f"/{_PROGRAM}",
+                split_args(host.args) if host is not None else (),
+                tuple((each.name, each.value) for each in node.extra_arguments),
+            ),
+            launch=node.location.file,
+        )
+
+    def lack(self, node: LaunchNode) -> str | None:
+        """Why there is no container to run a composable node in; None where there is."""
+        if self._host(node) is not None or self._stand_in.path is not None:
+            return None
+        if self._stand_in.package_path is None:
+            return f"its container is not here, nor is package {_PACKAGE!r}"
+        return f"its container is not here, nor is {_PROGRAM!r} of package {_PACKAGE!r}"
+
+    def _host(self, node: LaunchNode) -> LaunchNode | None:
+        """launch asks for `<container>/_container/load_node` from a node of its own, which lives in `/`."""
+        container = node.container or ""
+        host = self._nodes.get(container if container.startswith("/") else f"/{container}")
+        path = host.resolved.path if host is not None else None
+        if path is None:
+            return None
+        if path not in self._programs:
+            self._programs[path] = preload.applies(path)
+        return host if self._programs[path] else None
+
+    @cached_property
+    def _nodes(self) -> Mapping[str, LaunchNode]:
+        return {node.name: node for node in self._tree.nodes if node.kind != "composable" and not node.unknowns}
+
+    @property
+    def _stand_in(self) -> Executable:
+        return self._executables.find(_PACKAGE, _PROGRAM)

@@ -1,0 +1,323 @@
+"""Composable nodes of ROS 2, each loaded by its container in the sandbox (`container_like.cpp`)."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from preflight_analysis.tracing.cache import TraceCache
+from support.rcl_harness import ContainerHarness, rcl_node
+from support.ros2_harness import ends, uses
+
+pytestmark = pytest.mark.ros
+
+TALKER = "<composable_node pkg='cpkg' plugin='cpkg::Talker' name='talker'/>"
+
+
+@pytest.fixture(params=["kilted", "jazzy"])
+def harness(request: pytest.FixtureRequest, tmp_path: Path) -> ContainerHarness:
+    return ContainerHarness(tmp_path, request.param)
+
+
+@pytest.fixture
+def kilted(tmp_path: Path) -> ContainerHarness:
+    return ContainerHarness(tmp_path)
+
+
+@pytest.fixture
+def outside(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that is not of the workspace."""
+    return tmp_path_factory.mktemp("outside")
+
+
+def test_a_component_is_loaded_and_watched(harness: ContainerHarness) -> None:
+    harness.component("Talker", "pub=chatter sub=~/state double=rate@1.5")
+    found = harness.loaded("Talker")
+    assert (found.source, found.outcome.status, found.outcome.answers, found.notes) == ("trace", "spinning", (), ())
+    assert set(ends(found)) == {("publisher", "chatter"), ("subscriber", "~/state")}
+    assert {name: (use.type, use.default) for name, use in uses(found).items()} == {"~rate": ("double", 1.5)}
+    assert [(node.name, node.given, node.renamed) for node in found.nodes] == [("n", "own", True)]
+
+
+def test_names_are_as_given_and_the_graph_applies_what_the_tag_says(kilted: ContainerHarness) -> None:
+    kilted.component("Talker", "pub=chatter sub=~/state")
+    component = (
+        "<composable_node pkg='cpkg' plugin='cpkg::Talker' name='n' namespace='robot'><remap from='chatter' to='x'/>"
+    )
+    container = f"<node_container pkg='cpkg' exec='node' name='box' namespace='elsewhere'>{component}</composable_node>"
+    graph = kilted.check(f"{container}</node_container>").graph
+    assert graph is not None
+    assert set(ends(graph.processes[1])) == {("publisher", "chatter"), ("subscriber", "~/state")}
+    assert {"/robot/x", "/robot/n/state", "/elsewhere/of_the_container"} <= set(graph.topics)
+
+
+def test_what_the_container_makes_is_its_own(kilted: ContainerHarness) -> None:
+    kilted.component("Talker", "pub=chatter")
+    graph = kilted.check(
+        f"<node_container pkg='cpkg' exec='node' name='box' namespace=''>{TALKER}</node_container>"
+    ).graph
+    assert graph is not None
+    box, talker = graph.processes
+    assert {name for _, name in ends(box)} == {"of_the_container", "~/_container/load_node"}
+    assert {name for _, name in ends(talker)} == {"chatter"}
+    assert [node.name for node in box.nodes] == ["box"]
+
+
+def test_a_component_that_the_launch_does_not_name(kilted: ContainerHarness) -> None:
+    kilted.component("Talker", "pub=~/chatter")
+    container = "<node_container pkg='cpkg' exec='node' name='box' namespace=''>"
+    analysis = kilted.check(f"{container}<composable_node pkg='cpkg' plugin='cpkg::Talker'/></node_container>")
+    assert [node.name for node in analysis.tree.nodes] == ["/box", "/own"]
+
+
+@pytest.mark.parametrize("value", ["2.5", "-1.0", ".inf", ".nan"])
+def test_parameters_reach_it_with_their_types(kilted: ContainerHarness, value: str) -> None:
+    kilted.component("Talker", "mandatory=rate")
+    others = "".join(f"<param name='p{at}' value='{each}'/>" for at, each in enumerate(("true", "7", "a", "[1, 2]")))
+    found = kilted.loaded("Talker", f"{others}<param name='rate' value='{value}'/><param name='b' value='[1.5, 2.5]'/>")
+    assert (found.outcome.status, found.outcome.reason) == ("spinning", None)
+    assert uses(found)["~rate"].type == "double"
+
+
+@pytest.mark.parametrize(
+    ("steps", "params", "rule", "message"),
+    [
+        ("double=speed@1.0", {"speed": "fast"}, "PRM014", "'speed' is a string, and /n declares it as a double"),
+        ("percent=level", {"level": "300"}, "PRM017", "'level' is 300, which /n refuses"),
+        ("mandatory=speed", {}, "PRM010", "/n declares parameter 'speed' without a default, and nothing sets it"),
+    ],
+)
+def test_a_constructor_that_throws_tells_of_the_parameter(
+    kilted: ContainerHarness, steps: str, params: dict[str, str], rule: str, message: str
+) -> None:
+    kilted.component("Talker", steps)
+    inside = "".join(f"<param name='{name}' value='{value}'/>" for name, value in params.items())
+    component = f"<composable_node pkg='cpkg' plugin='cpkg::Talker' name='n'>{inside}</composable_node>"
+    launch = f"<node_container pkg='cpkg' exec='node' name='box' namespace=''>{component}</node_container>"
+    findings = kilted.check(launch).findings
+    assert {(f.rule, f.severity) for f in findings} == {(rule, "error"), ("TRC001", "info")}
+    assert message in next(f.message for f in findings if f.rule == rule)
+
+
+@pytest.mark.parametrize(
+    ("steps", "inside", "reason"),
+    [
+        (
+            "pub=before invalid=a-b",
+            "",
+            "its constructor threw an exception: Invalid topic name: topic name must not contain characters other "
+            "than alphanumerics, '_', '~', '{', or '}': 'a-b' ^",
+        ),
+        ("pub=before abort", "", "it was killed by SIGABRT"),
+        ("invalid=" + "\u20ac" * 700, "", "its constructor threw an exception: Invalid topic name"),
+        (
+            "pub=before",
+            "<extra_arg name='use_intra_process' value='true'/>",
+            "its container did not load it: Extra component argument 'use_intra_process' is not supported",
+        ),
+    ],
+)
+def test_how_it_fails_is_told(kilted: ContainerHarness, steps: str, inside: str, reason: str) -> None:
+    kilted.component("Talker", steps)
+    outcome = kilted.loaded("Talker", inside).outcome
+    assert outcome.status == "crashed"
+    assert (outcome.reason or "").startswith(reason)
+
+
+def test_a_crash_costs_one_component(kilted: ContainerHarness) -> None:
+    kilted.component("Talker", "pub=chatter")
+    kilted.component("Crash", "abort")
+    crash = "<composable_node pkg='cpkg' plugin='cpkg::Crash' name='c'/>"
+    launch = f"<node_container pkg='cpkg' exec='node' name='box' namespace=''>{crash}{TALKER}</node_container>"
+    graph = kilted.check(launch).graph
+    assert graph is not None
+    assert [each.outcome.status for each in graph.processes] == ["spinning", "crashed", "spinning"]
+
+
+def test_a_library_that_lacks_another_one_is_not_told_against_it(kilted: ContainerHarness) -> None:
+    kilted.component("Talker", "pub=chatter")
+    (kilted.folder / "install/lib/libtalker.so").write_bytes(b"\x7fELF\x02 no library")
+    outcome = kilted.loaded("Talker").outcome
+    assert outcome.status == "not-run"
+    assert (outcome.reason or "").startswith("it cannot be loaded here: Failed to load library: ")
+
+
+@pytest.mark.parametrize("what", ["library", "program"])
+def test_what_a_link_of_the_workspace_leads_to_is_not_run(kilted: ContainerHarness, what: str, outside: Path) -> None:
+    kilted.component("Talker", "pub=chatter")
+    path = kilted.folder / "install/lib/libtalker.so" if what == "library" else kilted.program
+    path.rename(outside / path.name)
+    path.symlink_to(outside / path.name)
+    outcome = kilted.loaded("Talker").outcome
+    assert outcome.status == "not-run"
+    assert "lies outside of the workspace" in (outcome.reason or "")
+
+
+@pytest.mark.parametrize("mode", ["none", "deaf"])
+def test_a_container_that_does_not_load(kilted: ContainerHarness, mode: str) -> None:
+    kilted.component("Talker", "pub=chatter")
+    found = kilted.loaded("Talker", args=mode)
+    assert (found.outcome.status, found.endpoints) == ("not-run", ())
+    assert (found.outcome.reason or "").startswith("its container did not get to load it")
+
+
+def test_a_constructor_that_takes_its_time(kilted: ContainerHarness) -> None:
+    kilted.component("Slow", "sleep=2 pub=late")
+    found = kilted.loaded("Slow")
+    assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "late")})
+
+
+def test_a_constructor_that_does_not_return(kilted: ContainerHarness) -> None:
+    kilted.component("Stuck", "pub=early sleep=60")
+    found = kilted.loaded("Stuck")
+    assert (found.outcome.status, set(ends(found))) == ("timed-out", {("publisher", "early")})
+    assert found.outcome.reason == "it waits for its constructor to return, and did not reach its event loop within 5 s"
+
+
+def test_a_lifecycle_component_is_configured_and_activated(kilted: ContainerHarness) -> None:
+    kilted.component("Managed", "managed")
+    found = kilted.loaded("Managed")
+    assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
+    assert set(ends(found)) == {("publisher", "made"), ("subscriber", "active")}
+
+
+def test_nodes_that_a_component_makes_beside_itself(kilted: ContainerHarness) -> None:
+    kilted.component("Server", "pub=plan double=rate@1.0 child=costmap@/n/costmap pub=map double=resolution@0.1")
+    component = "<composable_node pkg='cpkg' plugin='cpkg::Server' name='n'><remap from='map' to='elsewhere'/>"
+    component += "<param name='resolution' value='0.2'/></composable_node>"
+    launch = f"<node_container pkg='cpkg' exec='node' name='box' namespace=''>{component}</node_container>"
+    graph = kilted.check(launch).graph
+    assert graph is not None
+    by_name = dict(zip((node.name for node in graph.tree.nodes), graph.tree.nodes, strict=True))
+    assert set(by_name) == {"/box", "/n", "/n/costmap/costmap"}
+    assert by_name["/n/costmap/costmap"].params == ()
+    assert {"/plan", "/n/costmap/map"} <= set(graph.topics)
+
+
+def test_a_container_that_another_launch_starts(kilted: ContainerHarness) -> None:
+    """That of rclcpp_components stands in."""
+    kilted.component("Talker", "pub=chatter")
+    index = kilted.folder / "install/share/ament_index/resource_index/packages/rclcpp_components"
+    index.touch()
+    program = kilted.folder / "install/lib/rclcpp_components/component_container"
+    program.parent.mkdir()
+    shutil.copy(kilted.program, program)
+    manifest = kilted.folder / "install/share/rclcpp_components/package.xml"
+    manifest.parent.mkdir()
+    text = (kilted.folder / "install/share/cpkg/package.xml").read_text()
+    manifest.write_text(text.replace("cpkg", "rclcpp_components"))
+    graph = kilted.check(f"<load_composable_node target='/other'>{TALKER}</load_composable_node>").graph
+    assert graph is not None
+    assert set(ends(graph.processes[0])) == {("publisher", "chatter")}
+
+
+def test_a_trace_is_kept_while_what_it_depends_on_is_the_same(kilted: ContainerHarness) -> None:
+    kilted.cache = TraceCache(kilted.folder / "cache")
+    kilted.component("Talker", "pub=chatter double=rate@1.0")
+    rate = "<param name='rate' value='2.0'/>"
+    assert not kilted.loaded("Talker").cached
+    assert kilted.loaded("Talker").cached
+    assert kilted.loaded("Talker", "<remap from='chatter' to='x'/>").cached
+    assert not kilted.loaded("Talker", rate).cached
+    assert kilted.loaded("Talker", rate).cached
+    assert not kilted.loaded("Talker", f"{rate}<extra_arg name='use_intra_process_comms' value='true'/>").cached
+    assert not kilted.loaded("Talker", args="other").cached
+    kilted.component("Talker", "pub=chatter pub=more")
+    assert set(ends(kilted.loaded("Talker"))) == {("publisher", "chatter"), ("publisher", "more")}
+
+
+XML = """<launch>
+  <node_container pkg="cpkg" exec="node" name="box" namespace="">
+    <composable_node pkg="cpkg" plugin="cpkg::Talker" name="talker">
+      <remap from="chatter" to="chater"/>
+    </composable_node>
+    <composable_node pkg="cpkg" plugin="cpkg::Driver" name="driver">
+      <param name="speed" value="fast"/>
+      <extra_arg name="use_intra_process_comms" value="true"/>
+    </composable_node>
+    <composable_node pkg="cpkg" plugin="cpkg::Managed" name="managed"/>
+  </node_container>
+  <node pkg="cpkg" exec="listener" name="listener" args="listen chatter"/>
+</launch>
+"""
+YAML = """launch:
+- node_container:
+    pkg: cpkg
+    exec: node
+    name: box
+    namespace: ""
+    composable_node:
+    - pkg: cpkg
+      plugin: "cpkg::Talker"
+      name: talker
+      remap: [{from: chatter, to: chater}]
+    - pkg: cpkg
+      plugin: "cpkg::Driver"
+      name: driver
+      param: [{name: speed, value: fast}]
+      extra_arg: [{name: use_intra_process_comms, value: "true"}]
+    - {pkg: cpkg, plugin: "cpkg::Managed", name: managed}
+- node: {pkg: cpkg, exec: listener, name: listener, args: listen chatter}
+"""
+PYTHON = """
+from launch import LaunchDescription
+from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, Node
+from launch_ros.descriptions import ComposableNode
+
+
+def generate_launch_description():
+    talker = ComposableNode(
+        package="cpkg", plugin="cpkg::Talker", name="talker", remappings=[("chatter", "chater")]
+    )
+    driver = ComposableNode(
+        package="cpkg", plugin="cpkg::Driver", name="driver", parameters=[{"speed": "fast"}],
+        extra_arguments=[{"use_intra_process_comms": True}],
+    )
+    managed = ComposableNode(package="cpkg", plugin="cpkg::Managed", name="managed")
+    return LaunchDescription([
+        ComposableNodeContainer(
+            package="cpkg", executable="node", name="box", namespace="", composable_node_descriptions=[talker, driver]
+        ),
+        LoadComposableNodes(target_container="box", composable_node_descriptions=[managed]),
+        Node(package="cpkg", executable="listener", name="listener", arguments=["listen", "chatter"]),
+    ])
+"""
+
+
+EXPECTED = {("PRM014", "error"), ("TOP001", "warning"), ("TRC001", "info")}
+
+
+def ask(harness: ContainerHarness, verb: str, launch_file: str) -> Any:
+    """What the command says of a launch file."""
+    line = [str(Path(sys.executable).with_name("ros-preflight")), verb, launch_file, "--format", "json"]
+    line += ["--cache-dir", str(harness.folder / "cache")]
+    done = subprocess.run(line, env=harness.variables, capture_output=True, text=True, check=False)
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [("c.launch.xml", XML), ("c.launch.yaml", YAML), ("c.launch.py", PYTHON)],
+    ids=["xml", "yaml", "python"],
+)
+def test_a_container_of_three_components_in_each_format(kilted: ContainerHarness, file: str, text: str) -> None:
+    """A wrong remap, a parameter of the wrong type and a lifecycle, with no source at hand."""
+    kilted.component("Talker", "pub=chatter")
+    kilted.component("Driver", "double=speed@1.0")
+    kilted.component("Managed", "managed sub=chatter")
+    shutil.copy(rcl_node(source="rcl_node.c"), kilted.program.with_name("listener"))
+    launch_file = kilted.launch_file.with_name(file)
+    launch_file.write_text(text)
+    found = ask(kilted, "check", str(launch_file))
+    assert {(each["rule"], each["severity"]) for each in found["findings"]} == EXPECTED
+    messages = {each["rule"]: each["message"] for each in found["findings"]}
+    assert "'speed' is a string, and /driver declares it as a double" in messages["PRM014"]
+    topics = ask(kilted, "graph", str(launch_file))["topics"]
+    assert topics["/chater"]["publishers"] == ["/talker"]
+    assert topics["/chatter"]["subscribers"] == ["/listener", "/managed"]
+    assert topics["/made"]["publishers"] == ["/managed"]
