@@ -49,7 +49,7 @@ UNUSED_AFTER = 64
 _MORE = 1.25
 _MANY = 2_000
 """With so many more than there were, or a quarter more, it is looked what that is."""
-MOST_ANSWERS = 8
+MOST_ANSWERS = 12
 """For how many sets of answers the value of one query and key is remembered, the latest."""
 MOST_ANSWERS_OF_PART = 2
 """The same for parts of a value: as it is, and as it was before something was tried."""
