@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.tracing import preload
 from preflight_analysis.workspace.run_results import NOT_ASKED_FOR
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -93,6 +94,15 @@ def test_a_component_needs_a_container(components: Components) -> None:
     assert components.reasons(loaded) == {"/n": reason}
     components.write("install/lib/rclcpp_components/component_container", "").chmod(0o755)
     assert components.reasons(loaded) == {"/n": NOT_ASKED_FOR}
+
+
+def test_an_analysis_does_not_open_a_container(components: Components, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It would depend on what no input tells it."""
+    components.write("install/lib/q/box", "").chmod(0o755)
+    component = '<composable_node pkg="q" plugin="q::Talker" name="n"/>'
+    container = f'<node_container pkg="q" exec="box" name="c" namespace="">{component}</node_container>'
+    monkeypatch.setattr(preload, "applies", lambda path: pytest.fail(f"{path} is opened"))
+    assert components.reasons(container) == {"/c": NOT_ASKED_FOR, "/n": NOT_ASKED_FOR}
 
 
 @pytest.mark.parametrize("listed", ["q::Talker", ";", "q::Talker;\0\n", "q::Talker;" + "../" * 9000, "q::Talker;lib"])

@@ -25,11 +25,12 @@ class Containers:
     def __init__(self, tree: LaunchTree, executables: Executables) -> None:
         self._tree = tree
         self._executables = executables
-        self._programs: dict[str, bool] = {}
 
     def request(self, node: LaunchNode, params: Mapping[str, Any]) -> TraceRequest | None:
         """How to run a composable node; None where its library is not there, or no container for it."""
         host = self._host(node)
+        if host is not None and not preload.applies(host.resolved.path or ""):
+            host = None
         program = (host.resolved if host is not None else self._stand_in).path
         if node.unknowns or node.resolved.path is None or node.plugin is None or program is None:
             return None
@@ -65,12 +66,7 @@ class Containers:
         """launch asks for `<container>/_container/load_node` from a node of its own, which lives in `/`."""
         container = node.container or ""
         host = self._nodes.get(container if container.startswith("/") else f"/{container}")
-        path = host.resolved.path if host is not None else None
-        if path is None:
-            return None
-        if path not in self._programs:
-            self._programs[path] = preload.applies(path)
-        return host if self._programs[path] else None
+        return host if host is not None and host.resolved.path is not None else None
 
     @cached_property
     def _nodes(self) -> Mapping[str, LaunchNode]:
