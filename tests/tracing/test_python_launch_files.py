@@ -93,6 +93,13 @@ def test_actions_are_evaluated_like_those_of_xml(harness: PythonHarness) -> None
     assert text[count.span.start : count.span.end] == "count"
 
 
+def test_the_text_of_an_action_is_the_same_in_each_run(harness: PythonHarness) -> None:
+    """Else the nodes that get it by mistake would never be found in the cache, nor their findings in a baseline."""
+    path = _described(harness, "Node(package='p', executable='x', arguments=[str(DeclareLaunchArgument('port'))])")
+    (node,) = harness.launch(path).tree.nodes
+    assert node.args == "<DeclareLaunchArgument object>"
+
+
 def test_a_wrong_keyword_is_a_finding_on_its_line(harness: PythonHarness) -> None:
     path = _described(harness, "Node(package='p', executable='x', name='a')", "Node(package='p', node_executable='y')")
     analysis = harness.launch(path)

@@ -138,6 +138,10 @@ class Made:
         RECORDER.made[self.preflight_id] = self
         return self
 
+    def __repr__(self) -> str:
+        # Without the address, which is another one in each run: a launch file may make a text of it by mistake.
+        return f"<{type(self).__name__} object>"
+
 
 def ours(cls: type) -> type:
     """The class of this package that a class is, or is made from."""
