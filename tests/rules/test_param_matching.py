@@ -2,7 +2,7 @@
 
 from dataclasses import fields
 
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.graph.model import ParamRead
@@ -30,7 +30,9 @@ def _steps(draw: st.DrawFn) -> list[tuple[list[str], list[list[tuple[str, str]]]
     return draw(st.lists(step, min_size=2, max_size=5))
 
 
+@settings(deadline=None, derandomize=True, max_examples=300)
 @given(_steps())
+@example([(["/a/m/x"], [[]], ["/n"], [False]), (["/n/x"], [[("/n/x", "search")]], ["/n"], [False])])
 def test_it_does_not_show_what_was_before(steps: list) -> None:
     kept = Kept()
     params = {name: Param(name, 1, ()) for name in _SET}

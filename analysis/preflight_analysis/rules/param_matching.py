@@ -187,7 +187,9 @@ def matched(
         if space not in groups:
             around.pop(space, None)
     new_names = asked_news | (opaque ^ last.opaque) | {*nodes}.symmetric_difference(old_nodes)
-    new_spaces = {*groups} if searched != last.searched else {*new_groups, *map(_namespace, asked_news)}
+    new_spaces = {*new_groups, *map(_namespace, asked_news)}
+    if searched != last.searched:
+        new_spaces.update(groups)
     if new_names:
         new_spaces.update(space for space, spaces in around.items() if not new_names.isdisjoint(spaces))
     of_nodes = frozenset(nodes)
