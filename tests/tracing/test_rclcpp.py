@@ -114,8 +114,7 @@ def test_a_remap_counts_for_each_node_as_rcl_has_it(kilted: RclHarness) -> None:
 def test_each_node_gets_what_the_parameter_file_has_for_it(kilted: RclHarness) -> None:
     file = kilted.folder / "p.yaml"
     file.write_text(
-        "n:\n  ros__parameters:\n    rate: 2.0\n"
-        "n/costmap/costmap:\n  ros__parameters:\n    resolution: 0.5\n    resolutoin: 0.7\n"
+        "n:\n  ros__parameters:\n    rate: 2.0\nn/costmap/costmap:\n  ros__parameters:\n    resolutoin: 0.7\n"
     )
     mandatory = f"{CHILD} mandatory=resolution2"
     launch = launched(kilted, CHILD, f"<param from='{file}'/>")
