@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     listener = node.subscribe("goal", 1, hear);
     for (int i = 0; i < 2; ++i) {
       ros::topic::waitForMessage<std_msgs::String>("goal", node);
-      ros::Duration(0.5).sleep();
+      ros::Duration(1.0).sleep();  // longer than messages are on their way
     }
   }
   if (mode == "agreed" && !ros::topic::waitForMessage<std_msgs::Bool>("ready", node)->data) return 3;

@@ -16,6 +16,8 @@ namespace preflight {
 
 std::atomic<bool> waited{false};  // for sure, where a loop may be the node's work
 
+std::atomic<int> waits_over{0};  // of the main thread, once it got a made-up answer
+
 void tell_answered(const char* kind, const std::string& name) {
   for (const char* sure : {"service", "message", "action", "transform"}) waited = waited || strcmp(kind, sure) == 0;
   answered_here = true;

@@ -25,15 +25,21 @@ void tell_spin() {
 std::atomic<int> published{0};  // messages of the main thread
 
 // A loop of the main thread, as its sleeps and spinOnce show it. What comes twice from one place stands in a loop; a
-// single sleep (`seconds` is not negative) may be a pause before more endpoints are made. A loop that does nothing
-// while the node lacks messages may be waiting for them: it gets some.
+// single sleep (`seconds` is not negative) may be a pause before more endpoints are made, and so may the second where a
+// wait was answered before it: a loop over what the node waits for comes to its end. A loop that does nothing while the
+// node lacks messages may be waiting for them: it gets some.
 class Loop {
  public:
   void turn(void* place, double seconds) {
     Place* known = find(place);
     bool again = known != nullptr && known->iterations++ > 0;
+    if (again && seconds >= 0 && known->waits_over != waits_over && !waited_in_turn_) {
+      waited_in_turn_ = true;
+      again = false;
+    }
     double period = 0;
     if (known != nullptr) {
+      known->waits_over = waits_over;
       works_ = works_ || (again && published > known->published);
       known->published = published;
       period = again ? now() - known->at : 0;
@@ -53,7 +59,7 @@ class Loop {
   static constexpr double kQuiet = 0.25;
   struct Place {
     void* place;
-    int iterations, published;
+    int iterations, published, waits_over;
     double at;
   };
 
@@ -62,7 +68,7 @@ class Loop {
       if (places_[i].place == place) return &places_[i];
     }
     if (count_ == 64) return nullptr;
-    places_[count_] = {place, 0, published, now()};
+    places_[count_] = {place, 0, published, waits_over, now()};
     return &places_[count_++];
   }
 
@@ -107,6 +113,7 @@ class Loop {
   Place places_[64];
   int count_ = 0;
   bool sent_idle_ = false, sent_looped_ = false, starving_sent_ = false, works_ = false;
+  bool waited_in_turn_ = false;
 };
 
 void tell_turn(void* place, double seconds) {

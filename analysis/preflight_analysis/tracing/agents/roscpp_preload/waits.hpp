@@ -20,7 +20,10 @@ class Wait {
   }
   ~Wait() {
     --depth;
-    quietly([&] { report("resume"); });
+    quietly([&] {
+      if (outermost_ && answered && in_main_thread()) ++waits_over;
+      report("resume");
+    });
   }
 
  private:
