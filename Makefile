@@ -134,10 +134,11 @@ images: ## the pictures of the extension's page, from the screenshots that `make
 	  cp $$each.png ../../vscode-client/images/$${each#*-}.png; done
 
 docs: $(READY) ## the documentation site, in out/site, with the rule reference from the rules, and the schemas of the settings
+	$(BIN)/python packaging/apply.py
 	$(BIN)/python -m preflight_analysis.rules.reference docs/rules
 	$(BIN)/python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json
 	$(BIN)/python -m preflight_server.lsp.contribution vscode-client/package.json
-	$(BIN)/mkdocs build --quiet --config-file .mkdocs.yml
+	$(BIN)/mkdocs build --quiet --config-file mkdocs.yml
 
 clean:
 	rm -rf $(LINTERS) $(VENV) out dist vscode-client/node_modules vscode-client/dist vscode-client/server tests/editors/vscode/node_modules

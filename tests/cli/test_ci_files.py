@@ -44,7 +44,7 @@ def test_the_hook_checks_what_the_commit_matters_to(harness: Harness, preflight:
 
 def action_step(harness: Harness, folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
     """The last step of the action, as a runner calls it."""
-    *_, step = load(".github/actions/check/action.yml")["runs"]["steps"]
+    *_, step = load("action.yml")["runs"]["steps"]
     program = folder / "ros-preflight" / "bin" / "ros-preflight"
     program.parent.mkdir(parents=True, exist_ok=True)
     program.unlink(missing_ok=True)
@@ -79,6 +79,6 @@ def test_the_action_without_inputs_checks_the_workspace(harness: Harness, tmp_pa
 
 
 def test_nothing_that_is_given_is_run_as_a_script() -> None:
-    action = load(".github/actions/check/action.yml")
+    action = load("action.yml")
     assert all("${{" not in step.get("run", "") for step in action["runs"]["steps"])
     assert {name.upper().replace("-", "_") for name in action["inputs"]} >= set(action["runs"]["steps"][-1]["env"])

@@ -120,7 +120,7 @@ def test_the_site_is_built_and_no_link_is_broken(tmp_path: Path) -> None:
             "--strict",
             "--quiet",
             "--config-file",
-            ROOT / ".mkdocs.yml",
+            ROOT / "mkdocs.yml",
             "--site-dir",
             tmp_path / "site",
         ],

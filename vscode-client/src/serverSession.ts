@@ -20,9 +20,11 @@ import type { Life, ServerStatus } from "./serverStatus";
 import { SetupFailed, Setups, setupPaths } from "./setups";
 import { isExecutable, pythons, surroundings } from "./surroundings";
 
-/** As README.md says; a test holds the two together. */
+// packaging/apply.py writes these lines.
+// how to install: begin
 const HOW_TO_INSTALL =
   "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'";
+// how to install: end
 
 const statusChanged = new NotificationType<ServerStatus>("rosPreflight/status");
 const analysed = new NotificationType<object>("rosPreflight/analysed");

@@ -2,10 +2,12 @@
 local options = require('ros_preflight.options')
 local workspace = require('ros_preflight.workspace')
 
--- As README.md says; a test holds the two together.
+-- packaging/apply.py writes these lines.
 -- luacheck: push no max line length
-local INSTALL =
-  'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'
+-- how to install: begin
+local HOW_TO_INSTALL =
+  "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'"
+-- how to install: end
 -- luacheck: pop
 
 local M = {}
@@ -51,7 +53,7 @@ function M.can_start(cmd)
   if type(cmd) ~= 'table' or vim.fn.executable(cmd[1]) == 1 then
     return true
   end
-  local told = ("ros-preflight: %s is not on PATH. In a clone of the repository run '%s'"):format(cmd[1], INSTALL)
+  local told = ('ros-preflight: %s is not on PATH. %s'):format(cmd[1], HOW_TO_INSTALL)
   vim.notify_once(told, vim.log.levels.WARN)
   return false
 end
