@@ -118,17 +118,16 @@ void made(const char* role, Handle* self, const Handle* node, const Support* sup
   }
 }
 
-template <typename Handle>
-const Qos* actual(const char* function, const Handle* self) {
-  std::atomic<void*> known{nullptr};
-  auto* qos = real<const Qos*(const Handle*)>(known, function);
+const Qos* asked_for(const Qos* (*qos)(const Handle*), const Handle* self) {
   return qos == nullptr ? nullptr : qos(self);
 }
 
 }  // namespace preflight
 
-ENDPOINT(rcl_publisher_init, "publisher", actual("rcl_publisher_get_actual_qos", self))
-ENDPOINT(rcl_subscription_init, "subscriber", actual("rcl_subscription_get_actual_qos", self))
+#define ACTUAL_QOS(function) asked_for(REAL_IF_ANY(function, const Qos*(const Handle*)), self)
+
+ENDPOINT(rcl_publisher_init, "publisher", ACTUAL_QOS("rcl_publisher_get_actual_qos"))
+ENDPOINT(rcl_subscription_init, "subscriber", ACTUAL_QOS("rcl_subscription_get_actual_qos"))
 ENDPOINT(rcl_service_init, "service", nullptr)
 ENDPOINT(rcl_client_init, "client", nullptr)
 
@@ -208,17 +207,19 @@ HOOK int rcl_action_server_init2(Handle* self, Handle* node, const void* timer, 
   ACTION("action_server", node, name, make(self, node, timer, support, name, options))
 }
 
-HOOK int rcl_lifecycle_state_machine_init(Machine* self, Handle* node, const void* notify, const void* change,
-                                          const void* state, const void* states, const void* transitions,
-                                          const void* graph, const void* options) {
-  using Make =
-      int(Machine*, Handle*, const void*, const void*, const void*, const void*, const void*, const void*, const void*);
+// Since Lyrical there is a clock after the node, so what stands where differs. Whichever it is is passed on: in older
+// ones the last word is one of the caller's that nobody reads.
+HOOK int rcl_lifecycle_state_machine_init(Machine* self, Handle* node, const void* clock_or_notify, const void* a,
+                                          const void* b, const void* c, const void* d, const void* e, const void* f,
+                                          const void* since_lyrical) {
+  using Make = int(Machine*, Handle*, const void*, const void*, const void*, const void*, const void*, const void*,
+                   const void*, const void*);
   auto* make = REAL("rcl_lifecycle_state_machine_init", Make);
   int result;
   {
     Library inside;
     change_state_node = nullptr;
-    result = make(self, node, notify, change, state, states, transitions, graph, options);
+    result = make(self, node, clock_or_notify, a, b, c, d, e, f, since_lyrical);
   }
   quietly([&] {
     if (result == kOk && change_state_node != nullptr) manage(change_state_node, self);

@@ -116,6 +116,13 @@ struct Member {
   bool bounded;
   uint32_t offset;
   const void* rest[7];
+
+  // Since Lyrical there is a flag after the rest, which is no address as the next one's name is.
+  const Member* next() const {
+    const Member* after = this + 1;
+    bool flagged = reinterpret_cast<uintptr_t>(after->name) <= 1;
+    return flagged ? reinterpret_cast<const Member*>(&after->type) : after;
+  }
 };
 constexpr uint8_t kBoolean = 6;
 

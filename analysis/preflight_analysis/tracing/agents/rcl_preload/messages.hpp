@@ -22,7 +22,8 @@ class Message {
   void agree() {
     const auto* member = static_cast<const Member*>(members_->tail()[0]);
     bool flagged = members_->tail() != members_->rest;
-    for (uint32_t i = 0; i < members_->count; ++i, ++member) {
+    for (uint32_t i = 0; i < members_->count; ++i) {
+      if (i > 0) member = member->next();
       if (member->type == kBoolean && !member->flags[flagged]) memory_[member->offset] = 1;
     }
   }
