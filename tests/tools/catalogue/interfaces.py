@@ -32,7 +32,7 @@ from tools.catalogue.sources import GENERATIONS, NAMED, OF_TESTS, OTHER_VERSIONS
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
-_NAME = "preflight_controller"
+_NAME = "preflight_node"
 _GIVEN = {"string": _ARGUMENTS[0], "string array": [_ARGUMENTS[0]]}
 _NOTHING_SET = LaunchParams({})
 _OF_ALL = ("/rosout", "/clock", "~get_loggers", "~set_logger_level")
@@ -151,10 +151,11 @@ def _of_repository(laid: Laid, name: str) -> list[tuple[Package, dict[str, dict[
     messages = {key: package for key, package in everywhere if key.endswith(("_msgs", "_interfaces"))}
     environment, disk = replace(laid.environment, packages=Packages({**messages, **own})), Disk()
     wanted = [package for key, package in sorted(own.items()) if not OF_TESTS.search(key)]
-    return [(package, _of_package(environment, disk, package)) for package in wanted]
+    return [(package, facts_of_package(environment, disk, package)) for package in wanted]
 
 
-def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[str, dict[str, Any]]:
+def facts_of_package(environment: Environment, disk: Disk, package: Package) -> dict[str, dict[str, Any]]:
+    """The facts of its executables, components, nodelets, controllers and plugins: kind -> name -> groups of NoDL."""
     analysis, index = SourceAnalysis(environment, disk), ExecutableIndex(environment, disk)
     executables, components, nodelets, controllers = {}, {}, {}, {}
     for name in index.names(package.name):
@@ -162,7 +163,7 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
         path = found.path or next(iter(found.not_executable), None)
         if _NO_NODES.search(name) or (path is not None and _IN_TESTS.search(path.removeprefix(package.share))):
             continue
-        key = SourceKey(path, found.entry_point, package.name, name, None, "/node", "", ())
+        key = SourceKey(path, found.entry_point, package.name, name, None, f"/{_NAME}", "", ())
         said = _read(analysis, [key, *(key._replace(args=" ".join(_ARGUMENTS[:count])) for count in (1, 2))])
         arguments = RUN.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is None and arguments is not None:
@@ -173,13 +174,13 @@ def _of_package(environment: Environment, disk: Disk, package: Package) -> dict[
                 _add_named_by_parameters(analysis, key, said)
             executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
     for cls in index.components(package.name):
-        key = SourceKey(None, None, package.name, "", cls, "/node", "", ())
+        key = SourceKey(None, None, package.name, "", cls, f"/{_NAME}", "", ())
         said = _read(analysis, [key])
         if said is not None:
             _add_named_by_parameters(analysis, key, said)
             components[cls] = said
     for plugin in _nodelets(package) if not package.is_ament else ():
-        said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, "/node", f"standalone {plugin}", ())])
+        said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, f"/{_NAME}", f"standalone {plugin}", ())])
         if said is not None:
             nodelets[plugin] = said
     for controller in analysis.controllers(package.name) if package.is_ament else ():
@@ -215,13 +216,7 @@ def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | No
         if about.get("type") in _GIVEN and not about.get("default_value")
     }
     more = _read(analysis, [key], LaunchParams(given)) or said
-    facts = max(said, more, key=lambda each: sum(len(each.get(group, ())) for group in GROUPS.values()))
-    for group in GROUPS.values():
-        for row in facts.get(group, ()):
-            # What is made of the node's own name stands below it.
-            if row["name"].startswith(f"{_NAME}/"):
-                row["name"] = f"~{row['name'].removeprefix(_NAME)}"
-    return facts
+    return max(said, more, key=lambda each: sum(len(each.get(group, ())) for group in GROUPS.values()))
 
 
 def _add_named_by_parameters(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any]) -> None:
@@ -303,7 +298,7 @@ def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
         ends = _with_one_type(e for e in said.endpoints if e.role == role and not _is_common(e))
         rows = [
             {
-                "name": e.name,
+                "name": _below_its_own(e.name),
                 **({"type": e.type} if e.type else {}),
                 **({"qos": dict(e.qos)} if e.qos else {}),
                 **({"conditional": True} if e.conditional else {}),
@@ -332,8 +327,15 @@ def _params(uses: Iterable[ParamUse]) -> dict[str, Any]:
             **{flag: True for flag in ("mandatory", "dynamic", "read_only", "conditional") if getattr(use, flag)},
             **({"range": [use.range.low, use.range.high, use.range.step]} if use.range is not None else {}),
         }
-        params.setdefault(use.name, about)
+        name = _below_its_own(use.name).replace("~/", "~", 1)
+        if _NAME not in name:
+            params.setdefault(name, about)
     return params
+
+
+def _below_its_own(name: str) -> str:
+    """`name` as a private one, where the source made it of the node's own name."""
+    return re.sub(rf"^/?{_NAME}/", "~/", name)
 
 
 def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:
@@ -349,8 +351,8 @@ def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:
 
 
 def _is_common(end: Endpoint) -> bool:
-    """Whether each node has it, or it is named by an argument."""
-    return end.builtin or end.name in _OF_ALL or _of_arguments(end.name)
+    """Whether each node has it, or it is named by an argument, or by the node's own name elsewhere than at the start."""
+    return end.builtin or end.name in _OF_ALL or _of_arguments(end.name) or _NAME in _below_its_own(end.name)
 
 
 def _of_arguments(name: str) -> bool:
