@@ -34,6 +34,13 @@ def test_machine_without_ros_is_usable_and_told_what_to_install(tmp_path: Path) 
     assert "apt install python3-rospy" in problem
 
 
+def test_a_folder_that_is_one_package_of_ros_2(tmp_path: Path) -> None:
+    body = "<export><build_type>ament_cmake</build_type></export>"
+    environment = detect_environment(str(package(tmp_path / "p", body=body)), {}, root=str(tmp_path / "nothing"))
+    assert environment.generation == 2
+    assert environment.problems == ()
+
+
 def test_debian(tmp_path: Path) -> None:
     install_debian(tmp_path)
     usr = tmp_path / "usr"

@@ -274,7 +274,7 @@ def _is_ros2(
 
 
 def _own(workspace: str | None, packages: Iterable[Package]) -> list[Package]:
-    return [p for p in packages if workspace is not None and p.share.startswith(workspace.rstrip("/") + "/")]
+    return [package for package in packages if package.is_within(workspace)]
 
 
 def _in_order(
@@ -439,7 +439,7 @@ def _workspace_problems(workspace: str | None, devel: Sequence[str], found: Foun
     generated = sorted(
         package.name
         for package in found.packages.values()
-        if package.share.startswith(workspace + os.sep)
+        if package.is_within(workspace)
         and any(os.path.isdir(os.path.join(package.share, kind)) for kind in ("msg", "srv", "action"))
     )
     if not generated:

@@ -28,6 +28,10 @@ class Package:
         """Whether ament builds it."""
         return (self.build_type or "").startswith("ament")
 
+    def is_within(self, folder: str | None) -> bool:
+        """Whether its share folder is `folder` or below it; never where there is no folder."""
+        return folder is not None and f"{self.share}/".startswith(f"{folder.rstrip('/')}/")
+
     def built_for(self, generation: int) -> Package:
         """It as it is built for a generation of ROS."""
         chosen = dict(self.conditional).get(generation, self.build_type)

@@ -56,8 +56,8 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     if interface.known or interface.pending or not node.package or read_annotation(node.action)[0] is not None:
         return interface
     package, kind, name = _place(node)
-    here, workspace = environment.packages.get(package), environment.workspace
-    if here is not None and workspace is not None and here.share.startswith(f"{workspace.rstrip('/')}/"):
+    here = environment.packages.get(package)
+    if here is not None and here.is_within(environment.workspace):
         return interface
     is_used = environment.distro == distro
     found = catalogued(package, kind, name, distro, is_used=is_used)

@@ -46,11 +46,10 @@ class PluginIndex:
 
     def _is_ours(self, package: Package) -> bool:
         """Whether it is of the workspace, whose version may be any."""
-        environment, share = self._environment, package.share
-        workspace = environment.workspace
-        if workspace is not None and share.startswith(f"{workspace.rstrip('/')}/"):
+        environment = self._environment
+        if package.is_within(environment.workspace):
             return True
-        return not share.startswith(tuple(f"{p}/" for p in (*environment.system_prefixes, *environment.ament_prefixes)))
+        return not any(map(package.is_within, (*environment.system_prefixes, *environment.ament_prefixes)))
 
     def _of_source(self, name: str, package: str) -> Plugin | None:
         # Loads the parser, which who has no plugins does without.

@@ -206,8 +206,7 @@ def _closed(items: Iterable[Item], close: str) -> Iterator[Item]:
 def _packages(asked: Asked) -> Iterator[Item]:
     """The workspace's own packages first."""
     environment = asked.analysis.environment
-    workspace = f"{environment.workspace or ''}/"
-    by_place = sorted(environment.packages.values(), key=lambda p: (not f"{p.share}/".startswith(workspace), p.name))
+    by_place = sorted(environment.packages.values(), key=lambda p: (not p.is_within(environment.workspace), p.name))
     return (Item("package", package.name, package.name, detail=package.share) for package in by_place)
 
 
