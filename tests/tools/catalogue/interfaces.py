@@ -180,7 +180,8 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
             _add_named_by_parameters(analysis, key, said)
             components[cls] = said
     for plugin in _nodelets(package) if not package.is_ament else ():
-        said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, f"/{_NAME}", f"standalone {plugin}", ())])
+        args = f"standalone {plugin}"
+        said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, f"/{_NAME}", args, ())])
         if said is not None:
             nodelets[plugin] = said
     for controller in analysis.controllers(package.name) if package.is_ament else ():
@@ -351,7 +352,7 @@ def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:
 
 
 def _is_common(end: Endpoint) -> bool:
-    """Whether each node has it, or it is named by an argument, or by the node's own name elsewhere than at the start."""
+    """Whether each node has it, or it is named by an argument, or by the node elsewhere than at the start."""
     return end.builtin or end.name in _OF_ALL or _of_arguments(end.name) or _NAME in _below_its_own(end.name)
 
 
