@@ -26,3 +26,23 @@ def test_attributes_that_are_known() -> None:
                 cwd="node" launch-prefix="nice" clear_params="false"/>
         </launch>
     """)
+
+
+@pytest.mark.silent
+def test_launch_of_ros2_asks_nothing_of_the_root() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch version="0.1.0" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="a">
+          <let name="a" value="1"/>
+        </launch>
+    """)
+
+
+def test_launch_of_ros2_asks_of_everything_below_the_root() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch version="0.1.0">
+          <let name="a" value="1" version="0.1.0"/>
+                                  ^^^^^^^ error[LCH005] no attribute 'version'
+        </launch>
+    """)

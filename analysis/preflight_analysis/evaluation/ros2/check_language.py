@@ -34,7 +34,8 @@ def _check(action: Action, parent: str | None) -> Iterator[LanguageProblem]:
     tag = tags()[action.kind]
     allowed = tag.attributes
     given = {attribute.name for attribute in action.attributes}
-    for attribute in action.attributes:
+    # `Parser.parse_description` asks an action for what was not read of it, not the root: `<launch version="0.1.0">`.
+    for attribute in action.attributes if parent is not None else ():
         name = attribute.name
         if name in allowed and not _is_elsewhere(action.kind, parent, name):
             continue
