@@ -1,6 +1,11 @@
 """ARG001: $(arg) of an argument that is not declared."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check
 
 
@@ -95,3 +100,26 @@ def test_an_argument_that_is_declared_before_or_passed() -> None:
         //- /inc.launch
         <launch><arg name="camera"/><node pkg="p" type="t" name="$(arg camera)_driver"/></launch>
     """)
+
+
+@pytest.mark.parametrize(
+    ("including", "severity"),
+    [
+        (
+            '<launch><arg name="map"/><group if="$(var with_part)">'
+            '<include file="$(find-pkg-share p)/launch/part.launch.xml"/></group></launch>',
+            "info",
+        ),
+        ('<launch><include file="$(find-pkg-share p)/launch/part.launch.xml"/></launch>', "error"),
+        ('<launch><arg name="map"/></launch>', "error"),
+    ],
+)
+def test_an_argument_that_the_files_which_include_this_one_have(tmp_path: Path, including: str, severity: str) -> None:
+    """A condition may leave the include out, so that nothing that was evaluated reaches the file."""
+    (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+    (tmp_path / "whole.launch.xml").write_text(including)
+    path = tmp_path / "part.launch.xml"
+    path.write_text('<launch><log message="$(var map)"/></launch>')
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "2"}, (str(tmp_path),)), Sources())
+    (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "ARG001"]
+    assert finding.severity == severity

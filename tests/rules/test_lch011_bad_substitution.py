@@ -57,3 +57,43 @@ def test_substitutions_that_can_be_made() -> None:
           <param name="shell" value="$HOME"/>
         </launch>
     """)
+
+
+def test_a_parameter_that_nothing_sets() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <set_parameter name="height" value="2"/>
+          <log message="$(param height)"/>
+          <log message="$(param width)"/>
+                        ^^^^^^^^^^^^^^ error[LCH011] no <set_parameter> of 'width' comes before
+        </launch>
+    """)
+
+
+def test_a_parameter_that_the_file_which_includes_this_one_may_set() -> None:
+    check("""
+        //- /part.launch.xml
+        <launch>
+          <arg name="container"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^ info[ARG003] argument 'container' has no default
+          <log message="$(param width)"/>
+                        ^^^^^^^^^^^^^^ info[LCH011] another launch file that includes this one has to set it
+        </launch>
+    """)
+
+
+def test_a_parameter_that_a_file_which_cannot_be_read_may_set() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <group>
+            <include file="/gone.launch.py"/>
+                           ^^^^^^^^^^^^^^^ error[LCH013]
+            <log message="$(param width)"/>
+                          ^^^^^^^^^^^^^^ hint[LCH011] nothing that could be read sets parameter 'width'
+          </group>
+          <log message="$(param width)"/>
+                        ^^^^^^^^^^^^^^ error[LCH011] no <set_parameter> of 'width' comes before
+        </launch>
+    """)

@@ -215,6 +215,13 @@ class UndeclaredArgument(_OfNames):
 
 
 @dataclass(frozen=True, slots=True)
+class UnsetParameter(OfName):
+    """`$(param)` of what no `<set_parameter>` before sets; something that could not be evaluated may have."""
+
+    not_followed: Location | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class MissingArgument(OfName):
     """An include of `file` has no value for an argument that is required there; it has those of `passed`."""
 

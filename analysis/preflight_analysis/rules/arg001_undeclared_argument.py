@@ -3,16 +3,17 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.problems import ArgumentNeeded, Problem, UndeclaredArgument
+from preflight_analysis.evaluation.problems import Problem, UndeclaredArgument
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import declarations, declare
 from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.parts_of_launches import is_configured_elsewhere, is_part
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    part_of_another = _is_part_of_another(context)
+    part_of_another = context.once(is_part)
     for problem in problems_of(context, UndeclaredArgument):
         name, place = problem.kind.name, problem.location
         message = f"argument '{name}' is not declared"
@@ -29,18 +30,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield _unsure(rule, context, problem, near, problem.kind.not_followed)
             continue
         fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
-        if near is None and part_of_another:
+        if near is None and (part_of_another or is_configured_elsewhere(context, name)):
             message += ": another launch file that includes this one has to set it"
             yield problem_finding(rule, problem, message, severity="info", confidence="possible", fixes=fixes)
             continue
         yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
-
-
-def _is_part_of_another(context: Context) -> bool:
-    """Whether what is launched here is made to be included: it needs arguments, and in ROS 2 all that is configured
-    where it is included is known in it, declared or not."""
-    needed = any(problems_of(context, ArgumentNeeded))
-    return context.tree.ros.shared_configurations and needed
 
 
 def _unsure(
@@ -65,7 +59,8 @@ RULE = Rule(
     severity="error",
     what="Reports `$(arg name)` where the file has not declared that argument before, and names the nearest one that "
     "it has declared. In ROS 2 an included file sets arguments of its includer too: after an include that cannot be "
-    "read it is a warning where there is a name that near, and a hint else.",
+    "read it is a warning where there is a name that near, and a hint else. It knows those of its includer as well: in "
+    "a file that is made to be included it is information.",
     why="`roslaunch` stops. An argument is known only in the file that declares it, from its `<arg>` on; files that "
     "are included get it only if it is passed.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 
-from preflight_analysis.evaluation.problems import EvalFailed
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.evaluation.problems import EvalFailed, Problem, UnsetParameter
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.problems import BadSubstitution
 from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.parts_of_launches import is_part
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -32,6 +33,26 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield problem_finding(rule, problem, f"$(eval {expression}) fails: {message}")
             case BadSubstitution() as bad:
                 yield problem_finding(rule, problem, bad.message + did_you_mean(_meant(context, bad)))
+    for unset in problems_of(context, UnsetParameter):
+        yield _unset(rule, context, unset)
+
+
+def _unset(rule: Rule, context: Context, problem: Problem[UnsetParameter]) -> Finding:
+    name, not_followed = problem.kind.name, problem.kind.not_followed
+    if not_followed is not None:
+        return problem_finding(
+            rule,
+            problem,
+            f"nothing that could be read sets parameter '{name}'",
+            severity="hint",
+            confidence="possible",
+            related=(Related("this could not be read, and may set it", not_followed),),
+        )
+    message = f"no <set_parameter> of '{name}' comes before"
+    if context.once(is_part):
+        message += ": another launch file that includes this one has to set it"
+        return problem_finding(rule, problem, message, severity="info", confidence="possible")
+    return problem_finding(rule, problem, message)
 
 
 def _meant(context: Context, bad: BadSubstitution) -> str | None:
@@ -44,7 +65,9 @@ RULE = Rule(
     id="LCH011",
     name="bad-substitution",
     severity="error",
-    what="Reports a `$(...)` that is not complete, of an unknown kind, or an `$(eval ...)` that fails.",
+    what="Reports a `$(...)` that is not complete, of an unknown kind, an `$(eval ...)` that fails, and in ROS 2 "
+    "`$(param name)` where nothing before sets that parameter. In a file that is made to be included this is "
+    "information, after an include that cannot be read a hint.",
     why="`roslaunch` stops. An `$(eval ...)` must be the whole attribute.",
     example='<param name="rate" value="$(args rate)"/>',
     instead='<param name="rate" value="$(arg rate)"/>',
@@ -52,6 +75,7 @@ RULE = Rule(
     problems=(
         BadSubstitution,
         EvalFailed,
+        UnsetParameter,
     ),
     in_branches=True,
 )

@@ -22,6 +22,7 @@ from preflight_analysis.evaluation.problems import (
     MalformedCommand,
     PackageNotFound,
     UndeclaredArgument,
+    UnsetParameter,
     UnsetVariable,
 )
 from preflight_analysis.evaluation.resolved import Resolved
@@ -310,8 +311,8 @@ class Performer:
                 return str(param.value)
         if len(part.words) == 2:
             return self._word(part, 1)
-        message = f"no <set_parameter> of '{name}' comes before"
-        raise _Failure(BadSubstitution(part.text, message))
+        not_followed = self.context.not_followed
+        raise _Failure(UnsetParameter(name, not_followed), fatal=not_followed is None)
 
     def _log_dir(self, part: Substitution) -> str:
         self.state.note_unknown(part.text, "the folder of the logs is made at launch", self._at(part))
