@@ -95,3 +95,14 @@ def test_a_process_that_launches_a_file_of_a_package_that_is_not_there(tmp_path:
 def test_a_file_that_is_installed_beside_its_folder(tmp_path: Path) -> None:
     file = "PathJoinSubstitution([FindPackageShare('arm'), 'inner', 'deep.launch.xml'])"
     assert _of_arm(tmp_path, _launch_file(f"IncludeLaunchDescription(PythonLaunchDescriptionSource({file}))")) == []
+
+
+def test_a_file_of_another_machine_or_of_the_folder_where_the_launch_is_started() -> None:
+    check("""
+        <launch>
+          <include file="/sim_ws/src/racing/track.launch"/>
+                         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[LCH013] this machine has no '/sim_ws'
+          <include file="$(optenv PWD /p)/track.launch"/>
+                         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[LCH013] it depends on the folder where
+        </launch>
+    """)

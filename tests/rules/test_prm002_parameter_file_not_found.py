@@ -67,3 +67,14 @@ def test_parameter_files_that_are_there() -> None:
         //- /a.yaml
         a: 1
     """)
+
+
+def test_a_file_of_another_machine_or_of_the_folder_where_the_launch_is_started() -> None:
+    check("""
+        <launch>
+          <rosparam file="/sim_ws/src/racing/params.yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] this machine has no '/sim_ws'
+          <rosparam file="$(optenv PWD /p)/params.yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] it depends on the folder where
+        </launch>
+    """)

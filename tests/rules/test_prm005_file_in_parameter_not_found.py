@@ -198,3 +198,13 @@ def test_the_file_that_was_meant_may_be_in_another_folder(tmp_path: Path) -> Non
     assert finding.message.endswith("did you mean 'camera/config/calibration/left_7cd1.yaml'?")
     assert finding.confidence == "likely"
     assert [(edit.text) for edit in finding.fixes[0].edits] == ["/config/calibration/"]
+
+
+def test_a_file_in_the_folder_where_the_launch_is_started() -> None:
+    check("""
+        <launch>
+          <arg name="solution" default="$(optenv PWD /p)/my_solution.py"/>
+                                        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] it depends on the folder
+          <node pkg="p" type="t" name="n" args="$(arg solution)"/>
+        </launch>
+    """)

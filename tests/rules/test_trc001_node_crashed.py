@@ -295,3 +295,25 @@ def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None
     installed = replace(context, environment=replace(context.environment, system_prefixes=("/usr",)))
     assert lack_of_build(installed, "tf") == Lack("package", "tf", "apt install ros-noetic-tf")
     assert lack_of_build(installed, "p") == Lack("build", "p", "catkin build p")
+
+
+@pytest.mark.parametrize(
+    ("said", "severity"),
+    [
+        ("FileNotFoundError: /sim_ws/src/racing/racelines/track.csv not found.", "info"),
+        ("FileNotFoundError: [Errno 2] No such file or directory: '/sim_ws/maps/hall.yaml'", "info"),
+        ("[ERROR] failed to open /sim_ws/src/map.pgm", "info"),
+        ("FileNotFoundError: [Errno 2] No such file or directory: '/usr/share/robot_maps/hall.yaml'", "warning"),
+        ("FileNotFoundError: [Errno 2] No such file or directory: 'maps/hall.yaml'", "warning"),
+        ("ValueError: /camera/image is no topic of this robot", "warning"),
+    ],
+)
+def test_a_file_in_a_folder_of_another_machine(said: str, severity: str) -> None:
+    """A container has it, where the workspace is mounted."""
+    found = findings_of(f"""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {json.dumps({"/n": {"status": "crashed", "exit_code": 1, "stderr": [said]}})}
+    """)
+    (finding,) = [each for each in found if each.rule == "TRC001"]
+    assert finding.severity == severity

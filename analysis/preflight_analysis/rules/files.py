@@ -14,6 +14,7 @@ from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.rules.elsewhere import absent_top, depends_on_working_folder
 from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
@@ -40,10 +41,19 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 severity, message = "info", f"{message}: a part of it has to be given"
             elif near is None and is_ignored(context.disk, path):
                 severity, message = "info", f"{message}; git ignores it, so it may be made on each machine"
+            elif (absent := _absent_top(context, path)) is not None:
+                severity, message = "info", f"{message}; this machine has no '{absent}'"
+            elif near is None and depends_on_working_folder(context, problem.location):
+                severity, message = "info", f"{message}; it depends on the folder where the launch is started"
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check
+
+
+def _absent_top(context: Context, path: str) -> str | None:
+    """The top folder of a path that is of no package of this machine, where it has none of that name."""
+    return absent_top(context.disk, path) if package_folder(path, context.environment) is None else None
 
 
 def says_not_set(text: str) -> bool:

@@ -51,7 +51,9 @@ RULE = Rule(
     what="Reports an `<include>` of a file that does not exist, and names the nearest file of that folder or package. "
     "Where a process launches it (`ros2 launch PACKAGE FILE`) this is a warning, as the rest goes on without it. "
     "Of a common package that is not installed here, the catalogue knows the files: one that is a slip of those is a "
-    "warning where the catalogue has the distribution that is used, else a hint.",
+    "warning where the catalogue has the distribution that is used, else a hint. A file in a top folder that this "
+    "machine lacks (`/ws/src/...` of a container), or in the folder where the launch is started (`$(env PWD)`), is "
+    "information.",
     why="`roslaunch` stops and starts nothing, however deep the include stands. A relative path is looked up from the "
     "folder in which `roslaunch` is started, not from that of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',

@@ -18,6 +18,7 @@ from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
 from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
 from preflight_analysis.launch.model import action_at
+from preflight_analysis.rules.elsewhere import depends_on_working_folder
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
@@ -85,6 +86,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity, hint = "info", "; it may have to be fetched first"
             elif near is None and is_ignored(context.disk, path):
                 severity, hint = "info", "; git ignores it, so it may be made on each machine"
+            elif near is None and depends_on_working_folder(context, location):
+                severity, hint = "info", "; it depends on the folder where the launch is started"
             elif near is None and _may_be_made(path, context):
                 severity, hint = "hint", "; building the package may make it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
@@ -269,8 +272,8 @@ RULE = Rule(
     what="Reports a file that does not exist in the value of a parameter, in the arguments of a node or in a command: "
     "a path with an extension below a package or the workspace, also as `file://` or `package://`. It names the "
     "nearest file. Names that speak of something that is written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are left alone; a model or recording, or a file that git ignores, is for "
-    "information only where there is none like it.",
+    "files that the package builds are left alone; a model or recording, a file that git ignores, or one "
+    "in the folder where the launch is started (`$(env PWD)`), is for information only where there is none like it.",
     why="The launcher takes the value for any text. The node ends when it opens the file, or goes on without: a camera "
     "without its calibration, a planner without its limits.",
     example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',

@@ -9,6 +9,7 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.elsewhere import absent_top_said
 from preflight_analysis.rules.installed import lack_of_made, lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
@@ -37,11 +38,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or bool(outcome.answers)
             or any(e.speculative for e in interface.endpoints)
         )
+        absent = absent_top_said(context.disk, f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}")
+        message = _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else "")
         yield rule.finding(
-            _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else ""),
+            message + (f"; this machine has no '{absent}'" if absent else ""),
             node.location,
-            severity="info" if ours or reported or _waits(node, outcome) else None,
-            confidence="possible" if ours else "likely",
+            severity="info" if ours or reported or absent or _waits(node, outcome) else None,
+            confidence="possible" if ours or absent else "likely",
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
         )
@@ -141,7 +144,8 @@ RULE = Rule(
     "what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
     "where the node ended for a parameter of which PRM001, PRM010, PRM014 or PRM017 tells, or asked for one whose "
-    "value is an error of its own, or needs what only the sandbox lacks: a device, a network, a display, a browser's "
+    "value is an error of its own, does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
+    "container), or needs what only the sandbox lacks: a device, a network, a display, a browser's "
     "own sandbox, a folder to write to, another node's topic.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',

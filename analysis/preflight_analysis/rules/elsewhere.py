@@ -1,0 +1,36 @@
+"""Paths that may be right elsewhere: on another machine, or where the launcher is started in another folder."""
+
+from __future__ import annotations
+
+import re
+
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.span import Location
+from preflight_analysis.rules.rule import Context
+
+_MISSING = re.compile(
+    r"(?i)no such file|file ?not ?found|(?<!command )not found|does(?: not|n't) exist|bad file|"
+    r"(?:can(?:not|'t)|could not|failed to|unable to) (?:be )?(?:open|read|find|load)"
+)
+_PATH = re.compile(r"(?<![\w/.:~$})-])(/[\w.+-]+)/[\w.+/-]+")
+_WORKING_FOLDER = re.compile(r"\bPWD\b|\bgetcwd\(|\bcwd\(\)")
+
+
+def absent_top(disk: Disk, path: str) -> str | None:
+    """The top folder of a path where this machine has none of that name: the path is of another one, or of a container
+    (`/sim_ws/src/...`)."""
+    found = _PATH.match(path)
+    return found[1] if found is not None and not disk.exists(found[1]) else None
+
+
+def absent_top_said(disk: Disk, said: str) -> str | None:
+    """Likewise of a file that a program did not find, as it said."""
+    if _MISSING.search(said) is None:
+        return None
+    tops = {found[0]: absent_top(disk, found[0]) for found in _PATH.finditer(said)}
+    return next(iter(tops.values())) if tops and all(tops.values()) else None
+
+
+def depends_on_working_folder(context: Context, location: Location) -> bool:
+    """Whether what is written at a place asks for the folder in which the launcher is started."""
+    return _WORKING_FOLDER.search(context.text(location)) is not None
