@@ -293,3 +293,14 @@ def test_a_container_is_run_as_any_other_node(tmp_path: Path) -> None:
     )
     assert graph is not None
     assert (graph.processes[0].outcome.status, set(ends(graph.processes[0]))) == ("spinning", set(ALL))
+
+
+@pytest.mark.parametrize("name", ["RMW_IMPLEMENTATION", "CYCLONEDDS_URI"])
+def test_a_middleware_that_is_not_installed_is_not_asked_for(tmp_path: Path, name: str) -> None:
+    harness = RclHarness(tmp_path)
+    setting = f"<set_env name='{name}' value='rmw_cyclonedds_cpp'/>"
+    analysis = harness.check(f"{setting}<node pkg='cpkg' exec='node' args='talk chatter' name='n'/>")
+    assert analysis.graph is not None
+    assert analysis.graph.processes[0].outcome.status == "spinning"
+    found = {each.rule for each in analysis.findings if each.rule in ("PKG008", "TRC001")}
+    assert found == ({"PKG008"} if name == "RMW_IMPLEMENTATION" else set())

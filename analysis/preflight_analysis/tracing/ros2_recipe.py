@@ -14,6 +14,7 @@ import sys
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from preflight_analysis.environment import middleware
 from preflight_analysis.environment.ament import INDEX, python_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
@@ -41,8 +42,11 @@ _ELSEWHERE = (
     "ROS_SECURITY_ENABLE",
     "ROS_SECURITY_STRATEGY",
     "ROS_LOCALHOST_ONLY",
+    "CYCLONEDDS_URI",
+    "ZENOH_CONFIG_OVERRIDE",
+    "ZENOH_SESSION_CONFIG_URI",
 )
-"""What leads the middleware to others, who are not there."""
+"""What leads the middleware to others, who are not there, or to interfaces of a network."""
 
 
 def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
@@ -111,6 +115,9 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
 def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
     """The variables of what is run for ROS 2: as if all prefixes were sourced, with what the launch file sets."""
     found = {k: v for k, v in recipes.variables(environment, extra).items() if k not in _ELSEWHERE}
+    if not middleware.is_there(environment, found.get(middleware.VARIABLE, ""), os.path.isfile):
+        # Whichever it is, a node does the same: PKG008 speaks of one that is not installed.
+        found.pop(middleware.VARIABLE, None)
     prefixes = environment.ament_prefixes
     beside = os.path.dirname(os.path.dirname(environment.ros2_python or sys.executable))
     own = [beside] if os.path.isdir(os.path.join(beside, INDEX)) else []

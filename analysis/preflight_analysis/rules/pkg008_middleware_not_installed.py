@@ -1,0 +1,51 @@
+"""PKG008: a middleware that is not there (ROS 2)."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.environment import middleware
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.installed import has_ros, lack_of_package, near_package
+from preflight_analysis.rules.nearest import did_you_mean
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if not has_ros(context) and context.environment.ros2_python is None:
+        return  # of a machine without ROS 2 more is missing
+    of_user = context.environment.variables.get(middleware.VARIABLE)
+    using: dict[str, list[LaunchNode]] = {}
+    for node in context.tree.nodes:
+        name = dict(node.env).get(middleware.VARIABLE, of_user)
+        if name and node.package and node.kind != "composable":
+            using.setdefault(name, []).append(node)
+    for name, nodes in using.items():
+        if middleware.is_there(context.environment, name, context.disk.is_file):
+            continue
+        near = near_package(context, name)
+        setter = "your environment" if name == of_user else "the launch"
+        others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
+        yield rule.finding(
+            f"middleware '{name}', which {setter} sets for {nodes[0].name}{others}, is not installed"
+            f"{did_you_mean(near)}",
+            nodes[0].location,
+            related=include_chain(nodes[0].origin),
+            lack=lack_of_package(context, name) if near is None else None,
+        )
+
+
+RULE = Rule(
+    id="PKG008",
+    name="middleware-not-installed",
+    severity="error",
+    what="Reports, once for a launch, a middleware that `RMW_IMPLEMENTATION` names, in the environment or by a "
+    "`<set_env>`, and that is not installed. A slip of a package's name is an error; otherwise the middleware is "
+    "missing on this machine. Nodes are then run with the default middleware (ROS 2).",
+    why="Each node ends at once: `Expected RMW implementation identifier of 'rmw_cyclonedds_cpp' but instead found "
+    "'rmw_fastrtps_cpp'`.",
+    example='<set_env name="RMW_IMPLEMENTATION" value="rmw_cyclonedd_cpp"/>',
+    instead='<set_env name="RMW_IMPLEMENTATION" value="rmw_cyclonedds_cpp"/>',
+    generations=(2,),
+    check=_check,
+)
