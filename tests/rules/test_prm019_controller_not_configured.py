@@ -44,6 +44,46 @@ def test_a_manager_that_the_launch_does_not_name() -> None:
     """)  # noqa: E501
 
 
+_SIMULATED = """//- /ros_gz_sim/package.xml
+        <package><name>ros_gz_sim</name></package>
+        //- /robot_state_publisher/package.xml
+        <package><name>robot_state_publisher</name></package>
+        //- /p/urdf.yaml
+        /**:
+          ros__parameters:
+            robot_description: >
+              <robot><gazebo><plugin filename="gz_ros2_control-system" name="g">
+              <parameters>{}</parameters></plugin></gazebo></robot>"""
+_ROBOT = """<node pkg="robot_state_publisher" exec="robot_state_publisher" name="r"><param from="/p/urdf.yaml"/></node>
+          <node pkg="ros_gz_sim" exec="create" name="c" args="-topic robot_description"/>"""
+
+
+def test_a_manager_in_a_simulator() -> None:
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          {_ROBOT}
+          <node pkg="controller_manager" exec="spawner" name="s" args="twist_controller other"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] 'other.type'
+        </launch>
+        {_FILES}
+        {_SIMULATED.format("/p/controllers.yaml")}
+    """)  # noqa: E501
+
+
+@pytest.mark.silent
+def test_a_manager_in_a_simulator_whose_file_is_not_here() -> None:
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          {_ROBOT}
+          <node pkg="controller_manager" exec="spawner" name="s" args="twist_controller other"/>
+        </launch>
+        {_FILES}
+        {_SIMULATED.format("/p/controllers.yaml</parameters><parameters>/p/another.yaml")}
+    """)
+
+
 def test_a_manager_in_a_program_of_the_projects_own() -> None:
     manager = _MANAGER.replace(' name="controller_manager"', "").replace("ros2_control_node", "own_control_node")
     check(f"""

@@ -167,7 +167,8 @@ def analyse(
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:
         return context
-    graph = build_graph(tree, interfaces_of(tree, fixture.interfaces or {}), external)
+    interfaces = [*interfaces_of(tree, fixture.interfaces or {}), *(NOT_RUN for _ in tree.simulated)]
+    graph = build_graph(tree, interfaces, external)
     return replace(context, graph=graph)
 
 

@@ -346,6 +346,9 @@ class LaunchTree(Once):
     nodes_before: tuple[int, ...] = ()
     """ROS 2: for each include how many nodes came before it. A line of a Python launch file may include several
     times."""
+    simulated: tuple[LaunchNode, ...] = ()
+    """ROS 2: controller managers that the launch does not start, but the simulator, for the robots that are spawned in
+    it."""
 
     @property
     def ros(self) -> Generation:
@@ -358,6 +361,11 @@ class LaunchTree(Once):
         return self.once(_all_params)
 
     @property
+    def nodes_and_simulated(self) -> tuple[LaunchNode, ...]:
+        """What the launcher starts, then what the simulator makes; the same object each time."""
+        return self.once(_nodes_and_simulated)
+
+    @property
     def complete(self) -> bool:
         """Whether all that the launcher would start is here: no error cut something off and nothing is unknown."""
         return not self.unknowns and not any(p.fatal and not self._is_stood_in_for(p) for p in self.problems)
@@ -365,6 +373,10 @@ class LaunchTree(Once):
     def _is_stood_in_for(self, problem: Problem[ProblemKind]) -> bool:
         edited = self.edited.get(problem.location.file)
         return edited is not None and problem.location.span in edited.wrong
+
+
+def _nodes_and_simulated(tree: LaunchTree) -> tuple[LaunchNode, ...]:
+    return (*tree.nodes, *tree.simulated) if tree.simulated else tree.nodes
 
 
 def _all_params(tree: LaunchTree) -> tuple[Param, ...]:

@@ -37,7 +37,8 @@ def build_graph(
 ) -> Graph:
     """Who talks to whom after the launch of `tree`, given what each of its nodes does.
 
-    `interfaces` has one entry for each of `tree.nodes`, in that order; `NOT_RUN` for a node of which nothing is known.
+    `interfaces` has one entry for each of `tree.nodes_and_simulated`, in that order; `NOT_RUN` for a node of which
+    nothing is known.
     Where a trace is missing or failed, what the launch file annotates is added to what was seen.
 
     `external_topics` are patterns of the topics that something outside of the launch offers or wants. `distro` is the
@@ -48,10 +49,12 @@ def build_graph(
     Raises `ValueError` if the lengths differ.
     """
     kept = kept or Kept()
-    if len(tree.nodes) != len(interfaces):
-        raise ValueError(f"{len(interfaces)} interfaces of {len(tree.nodes)} nodes")
-    processes = kept.each_row(_process, (tree.nodes, interfaces))
-    tree, merged = each_node(tree, processes, documents or {})
+    started, nodes = len(tree.nodes), tree.nodes_and_simulated
+    if len(nodes) != len(interfaces):
+        raise ValueError(f"{len(interfaces)} interfaces of {len(nodes)} nodes")
+    processes = kept.each_row(_process, (tree.nodes, interfaces[:started]))
+    tree = replace(tree, nodes=nodes, simulated=()) if tree.simulated else tree
+    tree, merged = each_node(tree, (*processes, *interfaces[started:]), documents or {})
     columns = tree.nodes, merged, _managers(tree)
     made = kept.each_row(_of_node, columns, tree.generation, moves_actions(distro))
     return Graph(

@@ -44,16 +44,17 @@ class Catalogued:
 def from_catalogue(
     tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment, kept: Kept
 ) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order: of those that nothing is known of, what the catalogue says. A
-    package of the workspace is what it is there, whatever others of its name do."""
+    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last: of those that nothing is
+    known of, what the catalogue says. A package of the workspace is what it is there, whatever others of its name
+    do."""
     if all(interface.known for interface in interfaces):
         return interfaces
     distro = distribution_of(tree.generation, environment.distro)
-    return kept.each_row(_filled_in, (tree.nodes, interfaces), environment, distro)
+    return kept.each_row(_filled_in, (tree.nodes_and_simulated, interfaces), environment, distro)
 
 
 def _filled_in(node: LaunchNode, interface: Interface, environment: Environment, distro: str) -> Interface:
-    if interface.known or interface.pending or not node.package or read_annotation(node.action)[0] is not None:
+    if interface.known or interface.pending or not node.package or _is_annotated(node):
         return interface
     package, kind, name = _place(node)
     here = environment.packages.get(package)
@@ -73,6 +74,11 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     not_here = "its package is not installed here" if here is None else None
     reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
     return replace(whole, outcome=replace(whole.outcome, reason=reason))
+
+
+def _is_annotated(node: LaunchNode) -> bool:
+    """Whether the user says what it does. The tag of a simulated node is that of what spawns its robot."""
+    return node.kind != "simulated" and read_annotation(node.action)[0] is not None
 
 
 def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Catalogued]:

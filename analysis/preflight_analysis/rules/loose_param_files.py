@@ -39,7 +39,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
     package = package_around(context.environment, context.root) if context.tree.ros.own_parameters else None
     if package is None:
         return
-    given = {source.path for node in context.tree.nodes for source in node.param_sources}
+    given = {source.path for node in context.tree.nodes_and_simulated for source in node.param_sources}
     folders = _folders(context, package.share)
     files = {path for folder, base in folders for path in _param_files(context.disk.db, folder, base)}
     for path in sorted(files):

@@ -12,7 +12,7 @@ MESSAGE = "'{}' does not stand below '{}', which has to follow the node's name: 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen: set[str] = set()
-    for node in context.tree.nodes:
+    for node in context.tree.nodes_and_simulated:
         for source in node.param_sources:
             path = source.path
             document = context.documents.get(path) if path is not None else None

@@ -22,7 +22,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    nodes = [node for node in graph.tree.nodes if node.kind != "process"]
+    nodes = [node for node in graph.tree.nodes if node.kind not in ("process", "simulated")]
     on = [(node, param) for node in nodes if (param := _sim_time(node)) is not None and param.value is True]
     if not on:
         return

@@ -42,7 +42,7 @@ def _files(context: Context) -> dict[tuple[str, bool], list[tuple[LaunchNode, Pa
     """The nodes that get each parameter file, as it is or after its substitutions were made; launch_ros reads that of a
     composable node itself, which takes some of it."""
     found: dict[tuple[str, bool], dict[str, tuple[LaunchNode, ParamSource]]] = {}
-    for node in context.tree.nodes:
+    for node in context.tree.nodes_and_simulated:
         for source in node.param_sources if node.container is None else ():
             if source.path is not None:
                 found.setdefault((source.path, source.substituted), {}).setdefault(node.name, (node, source))

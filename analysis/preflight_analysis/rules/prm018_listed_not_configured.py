@@ -58,7 +58,7 @@ class Missing(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
+    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes_and_simulated)):
         getters.setdefault(path, getter)
     found: list[tuple[str, Missing]] = []
     for path in getters:
@@ -66,7 +66,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found += ((path, each) for each in document.once(missing_in)) if isinstance(document, Document) else ()
     if not found:
         return
-    given = {param.name for node in context.tree.nodes for source in node.param_sources for param in source.params}
+    given = {
+        param.name
+        for node in context.tree.nodes_and_simulated
+        for source in node.param_sources
+        for param in source.params
+    }
     for path, missing in found:
         if missing.parameter in given:
             continue

@@ -7,38 +7,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
+from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.request import split_args
 
-_PACKAGE = "controller_manager"
-_SPAWNERS = ("spawner", "spawner.py")
-_MANAGER = ("-c", "--controller-manager")
-_WITH_VALUE = (
-    "-n", "--namespace", "--controller-manager-timeout", "--switch-timeout", "--service-call-timeout",
-)  # fmt: skip
-_WITHOUT_VALUE = (
-    "--load-only", "--stopped", "--inactive", "-u", "--unload-on-kill", "--activate-as-group", "--switch-asap",
-)  # fmt: skip
 _SHOWN = 3
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
-    asked = {at: each for at, node in enumerate(nodes) if _is_spawner(node) and (each := _asked(node)) is not None}
-    managers = {name: _manager(context, name) for name, _ in asked.values()}
-    for at, (name, controllers) in asked.items():
-        manager = managers[name]
+    asked = {at: each for at, node in enumerate(nodes) if is_spawner(node) and (each := asked_of(node)) and each.plain}
+    managers = {name: _manager(context, name) for name in dict.fromkeys(each.manager for each in asked.values())}
+    for at, each in asked.items():
+        manager = managers[each.manager]
         if manager is None:
             continue
         known = [param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type")]
-        for controller in controllers if known else ():
+        for controller in each.controllers if known else ():
             if controller not in known:
                 yield _finding(rule, nodes[at], controller, manager, known)
 
@@ -59,16 +49,12 @@ def _finding(rule: Rule, spawner: LaunchNode, controller: str, manager: LaunchNo
     )
 
 
-def _is_spawner(node: LaunchNode) -> bool:
-    return node.package == _PACKAGE and node.executable in _SPAWNERS
-
-
 def _manager(context: Context, name: str) -> LaunchNode | None:
     """The node that is the manager of this name, or makes it: whatever program has one in it, its own code names it,
     and a parameter file that it gets has something for that name. None where that is not one, or not all known."""
-    found = [node for node in context.tree.nodes if node.name == name]
+    found = [node for node in context.tree.nodes_and_simulated if node.name == name]
     for node in context.tree.nodes if not found else ():
-        if not (node.named or node.name_from_code or _is_spawner(node)) and _has_section(context, node, name):
+        if not (node.named or node.name_from_code or is_spawner(node)) and _has_section(context, node, name):
             found.append(of_name(node, name, context.documents, inferred=True))
     return found[0] if len(found) == 1 and not found[0].unknowns else None
 
@@ -80,37 +66,14 @@ def _has_section(context: Context, node: LaunchNode, name: str) -> bool:
     )
 
 
-def _asked(spawner: LaunchNode) -> tuple[str, list[str]] | None:
-    """The full name of the manager and the controllers that a spawner names; None where its arguments tell of further
-    parameters, or are not all known."""
-    if spawner.unknowns or "$(" in spawner.args:
-        return None
-    manager, controllers = _PACKAGE, []
-    words = iter(split_args(spawner.args))
-    for word in words:
-        option, equals, value = word.partition("=")
-        if option in _MANAGER:
-            manager = value if equals else next(words, manager)
-        elif option == "--ros-args":
-            break
-        elif option in _WITH_VALUE:
-            if not equals:
-                next(words, None)
-        elif word.startswith("-"):
-            if word not in _WITHOUT_VALUE:
-                return None
-        else:
-            controllers.append(word)
-    return names.resolve(manager, spawner.name), controllers
-
-
 RULE = Rule(
     id="PRM019",
     name="controller-not-configured",
     severity="warning",
     what="Reports a controller among the arguments of ros2_control's `spawner` whose type the parameters of the "
-    "node that it asks do not tell (ROS 2). Nothing is said where the manager is part of a simulation, "
-    "where its parameters are not all known, or where the spawner brings parameters of its own.",
+    "node that it asks do not tell (ROS 2). The manager is a node of the launch, or the one that the robot "
+    "description has Gazebo make. Nothing is said where its parameters are not all known, or where the spawner "
+    "brings parameters of its own.",
     why="The manager refuses to load it: `The 'type' param was not defined`. The spawner ends, and what the "
     "controller should do nobody does.",
     example="arguments=['streaming_controller']  # the manager's file has twist_controller",

@@ -43,7 +43,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     environment = context.environment
     distro = distribution_of(context.tree.generation, environment.distro)
     getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
+    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes_and_simulated)):
         getters.setdefault(path, getter)
     for path, getter in getters.items():
         document = context.documents.get(path)

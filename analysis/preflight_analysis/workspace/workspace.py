@@ -23,6 +23,7 @@ from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults,
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
@@ -44,7 +45,7 @@ from preflight_analysis.rules.rule import Context
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import Fallback
 from preflight_analysis.tracing import preload
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import NOT_RUN, Interface
 from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
@@ -333,15 +334,15 @@ class Workspace:
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
         project = self.settings
-        whole = self._filled_in(tree, interfaces, project, kept)
-        of_source = resolve_node_names(tree, whole, analysis.documents)
+        managed = with_spawned(tree, analysis.documents)
+        whole = self._filled_in(managed, interfaces, project, kept)
+        of_source = resolve_node_names(tree, whole[: len(tree.nodes)], analysis.documents)
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
-            whole = self._filled_in(of_source, interfaces, project, kept)
+            managed = with_spawned(of_source, analysis.documents)
+            whole = self._filled_in(managed, interfaces, project, kept)
         db.leave_if_cancelled()
-        graph = build_graph(
-            analysis.tree, whole, project.external_topics, self.environment.distro, analysis.documents, kept
-        )
+        graph = build_graph(managed, whole, project.external_topics, self.environment.distro, analysis.documents, kept)
         document, problems = located_problems(project)
         context = replace(
             analysis.context,
@@ -361,12 +362,13 @@ class Workspace:
     def _filled_in(
         self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings, kept: Kept
     ) -> Sequence[Interface]:
-        """The interfaces with what is known beside runs."""
+        """The interfaces with what is known beside runs; those of simulated nodes after them."""
         environment = self.environment_of(tree.file)
         interfaces = from_settings(tree, interfaces, project.nodes)
         interfaces = NodlFiles(environment, self.sources).fill_in(tree, interfaces, kept)
         sources = SourceAnalysis(environment, self.sources)
         interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
+        interfaces = (*interfaces, *(NOT_RUN for _ in tree.simulated)) if tree.simulated else interfaces
         return with_command_lines(tree, from_catalogue(tree, interfaces, environment, kept), kept)
 
     @property

@@ -21,6 +21,7 @@ from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, NotByPartsError
 from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.required import check_required, report_missing_below
+from preflight_analysis.evaluation.ros2.simulated import note_files_of_spawners, simulated_managers
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk
 from preflight_analysis.evaluation.surroundings import Surroundings
@@ -59,6 +60,8 @@ def evaluate_ros2(
     except NotByPartsError:
         state = State(files, executables, environment, cwd, commands, assumed=assumed)
         _launch(path, args, variables or {}, state)
+    note_files_of_spawners(state)
+    simulated = simulated_managers(state)
     return LaunchTree(
         os.path.normpath(path),
         2,
@@ -77,6 +80,7 @@ def evaluate_ros2(
         tuple(state.not_taken),
         state.edited,
         tuple(state.nodes_before),
+        simulated,
     )
 
 

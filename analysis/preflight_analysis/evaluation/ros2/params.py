@@ -188,7 +188,7 @@ def file_source(
         fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
-    return _of_file(file, path, lines, origin, to, gone=made)
+    return of_file(file, path, lines, origin, to, gone=made)
 
 
 def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:
@@ -227,13 +227,13 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
             to.add(source)
         else:
             file = read_param_file(document)
-            to.add(_of_file(file, source.path, document.lines, source.origin, to))
+            to.add(of_file(file, source.path, document.lines, source.origin, to))
     return node._replace(
         name=name, name_from_code=True, name_inferred=inferred, params=to.effective(), param_sources=tuple(to.found)
     )
 
 
-def _of_file(
+def of_file(
     file: ParamFile,
     path: str,
     lines: LineIndex | None,
