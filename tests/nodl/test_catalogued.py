@@ -132,7 +132,7 @@ def test_controllers_have_nodes_beside_their_manager(tmp_path: Path, name: str) 
         True,
         "the catalogue of jazzy",
     )
-    assert {use.name for use in graph.interfaces[1].params} == {"~wheel"}
+    assert {use.name for use in graph.interfaces[1].params} == {"~wheel", "~type", "~fallback_controllers"}
     assert [param.name for param in graph.tree.nodes[1].params] == ["wheel"]
 
 

@@ -27,6 +27,9 @@ _TYPE = ".type"
 _NAMED_BY = "named_by"
 _SERIES = re.compile(r"(\D*[A-Za-z])0")
 """The name of the first parameter of a numbered series."""
+_OF_SPAWNERS = tuple(ParamUse(f"~{name}", "get", inferred=True) for name in ("type", "fallback_controllers"))
+"""What the section of a controller has for its spawner
+(https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +97,7 @@ def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Ca
             yield replace(
                 found,
                 endpoints=tuple(replace(end, node=full, conditional=True) for end in found.endpoints),
-                params=tuple(replace(use, node=full, conditional=True) for use in found.params),
+                params=tuple(replace(use, node=full, conditional=True) for use in (*found.params, *_OF_SPAWNERS)),
                 nodes=(MadeNode(name, name, inferred=True, full=full),),
             )
 
