@@ -39,7 +39,7 @@ def test_a_component_that_is_not_registered(tmp_path: Path) -> None:
     assert found(tmp_path, "p::Driver", REGISTERED) == []
     (finding,) = found(tmp_path, "p::Drivr", REGISTERED)
     assert finding.severity == "error"
-    assert finding.message == "package 'p' registers no component 'p::Drivr'; it registers 2; did you mean 'p::Driver'?"
+    assert finding.message == "package 'p' registers no component 'p::Drivr'; did you mean 'p::Driver'?"
     assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["p::Driver"]
     (without_namespace,) = found(tmp_path, "Camera", REGISTERED)
     assert without_namespace.message.endswith("did you mean 'p::Camera'?")
@@ -49,6 +49,28 @@ def test_a_component_that_is_not_registered(tmp_path: Path) -> None:
 def test_nothing_is_said_where_components_are_not_known(tmp_path: Path) -> None:
     assert found(tmp_path, "p::Drivr", "project(p)\n") == []
     assert found(tmp_path, "p::Lidar", REGISTERED + 'our_macro(nodes "p::Lidar")\n') == []
+
+
+FORMS = """project(p)
+add_library(nodes SHARED src/t.cpp)
+function(register_one name)
+  rclcpp_components_register_node(${ARGV1} PLUGIN "p::${name}" EXECUTABLE ${name}_node EXECUTOR MultiThreadedExecutor)
+endfunction()
+register_one(Driver nodes)
+foreach(name Camera Lidar)
+  list(APPEND registered "p::${name}")
+endforeach()
+rclcpp_components_register_nodes(nodes ${registered} RESOURCE_INDEX rclcpp_components)
+"""
+
+
+def test_components_that_are_registered_by_functions_and_lists(tmp_path: Path) -> None:
+    for plugin in ("p::Driver", "p::Camera", "p::Lidar"):
+        assert found(tmp_path, plugin, FORMS) == []
+    (finding,) = found(tmp_path, "p::Segmentation", FORMS)
+    assert finding.message.endswith("; it registers 'p::Camera', 'p::Driver', 'p::Lidar'")
+    (finding,) = found(tmp_path, "p::Segmentation", FORMS + 'rclcpp_components_register_nodes(nodes "p::Radar")')
+    assert finding.message.endswith("; it registers 'p::Camera', 'p::Driver', 'p::Lidar' and 1 more")
 
 
 def test_components_of_an_installed_package(tmp_path: Path) -> None:
@@ -89,7 +111,11 @@ def test_components_of_a_package_that_is_not_built(tmp_path: Path) -> None:
     assert [(f.severity, f.message) for f in findings] == [
         (
             "error",
-            "package 'vision' registers no component 'Tracker'; it registers 2; did you mean 'vision::Tracker'?",
+            "package 'vision' registers no component 'Tracker'; did you mean 'vision::Tracker'?",
         ),
-        ("warning", "package 'vision' registers no component 'vision::Segmentation'; it registers 2"),
+        (
+            "warning",
+            "package 'vision' registers no component 'vision::Segmentation'; it registers 'vision::Detector', "
+            "'vision::Tracker'",
+        ),
     ]

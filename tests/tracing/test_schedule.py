@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing.interface import Interface, Outcome
-from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.schedule import run_all, trace_all
+from preflight_analysis.tracing.request import Component, TraceRequest
+from preflight_analysis.tracing.schedule import likeness, run_all, trace_all
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import environment, request
 
@@ -75,6 +75,14 @@ def test_the_first_of_like_jobs_comes_before_the_others() -> None:
     assert sorted(order[:4]) == ["a1", "b1", "b2", "c1"]
     assert order.index("b1") < order.index("b2")
     assert sorted(order[4:]) == ["a2", "a3", "a4"]
+
+
+def test_components_of_one_library_do_not_wait_for_each_other() -> None:
+    one, same, other = (
+        TraceRequest(f"/{name}", "p", "/lib/libp.so", generation=2, component=Component(f"p::{plugin}", "/bin/c"))
+        for name, plugin in (("a", "Talker"), ("b", "Talker"), ("c", "Listener"))
+    )
+    assert likeness(one) == likeness(same) != likeness(other)
 
 
 def test_cancelling_ends_them_all() -> None:

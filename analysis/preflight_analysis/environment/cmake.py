@@ -243,6 +243,9 @@ class _Lists:
             case "rclcpp_components_register_node", [target, *rest] if "PLUGIN" in rest[:-1]:
                 self._component(target, rest)
             case "rclcpp_components_register_nodes", [target, *plugins]:
+                if "RESOURCE_INDEX" in plugins[:-1]:
+                    at = plugins.index("RESOURCE_INDEX")
+                    plugins = [*plugins[:at], *plugins[at + 2 :]]
                 self._components.update(dict.fromkeys(plugins, target))
             case "pluginlib_export_plugin_description_file", [_, file, *_]:
                 self._plugin_files[os.path.normpath(os.path.join(folder, file))] = None

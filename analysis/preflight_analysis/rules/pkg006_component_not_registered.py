@@ -1,6 +1,6 @@
 """PKG006: a component that its package does not register (ROS 2)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.nearest import did_you_mean, nearest_class
@@ -21,14 +21,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = nearest_class(node.plugin, registered)
         location = attribute_location(context, node, "plugin")
         yield rule.finding(
-            f"package '{node.package}' registers no component '{node.plugin}'; it registers {len(registered)}"
-            f"{did_you_mean(near)}",
+            f"package '{node.package}' registers no component '{node.plugin}'"
+            f"{did_you_mean(near) if near else '; it registers ' + _named(registered)}",
             location,
             severity=None if near else "warning",
             confidence="likely",
             related=include_chain(node.origin),
             fixes=rename(context, location, node.plugin, near) if near else (),
         )
+
+
+def _named(registered: Sequence[str]) -> str:
+    shown = [f"'{each}'" for each in sorted(registered)[:_MOST]]
+    more = len(registered) - len(shown)
+    return " and ".join(filter(None, (", ".join(shown), f"{more} more" if more else "")))
+
+
+_MOST = 3
+"""Names in a message."""
 
 
 RULE = Rule(

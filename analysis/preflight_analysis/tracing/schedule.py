@@ -18,7 +18,8 @@ _Result = TypeVar("_Result")
 
 def likeness(request: TraceRequest) -> Hashable:
     """The same for nodes that may well turn out to do the same: in other namespaces, with other parameters."""
-    return request.package, request.executable, request.args, request.env, request.cwd
+    plugin = request.component.plugin if request.component is not None else None  # a library may have several
+    return request.package, request.executable, plugin, request.args, request.env, request.cwd
 
 
 def trace_all(

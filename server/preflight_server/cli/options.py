@@ -40,7 +40,11 @@ def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None
     add_format(parser, formats)
     parser.add_argument("--no-run", action="store_true", help="execute nothing")
     parser.add_argument(
-        "--jobs", type=_positive, default=2, metavar="N", help="how many nodes are run at a time (default: %(default)s)"
+        "--jobs",
+        type=_positive,
+        default=max(2, len(os.sched_getaffinity(0))),
+        metavar="N",
+        help="how many nodes are run at a time (default: as many as there are cores, and two at least)",
     )
     parser.add_argument(
         "--package-path",
