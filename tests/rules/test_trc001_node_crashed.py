@@ -290,6 +290,17 @@ def test_a_package_that_is_not_built_is_told_by_its_library_and_its_files(tmp_pa
     assert lack_of_made(built, f"{tmp_path}/other.urdf") is None
 
 
+def test_a_file_that_is_installed_from_another_folder_is_not_built(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text("install(DIRECTORY arm/urdf DESTINATION share/${PROJECT_NAME})")
+    (tmp_path / "arm/urdf").mkdir(parents=True)
+    (tmp_path / "arm/urdf/arm.xacro").write_text("<robot/>")
+    packages = {"robot": Package("robot", str(tmp_path), f"{tmp_path}/package.xml", build_type="ament_cmake")}
+    context = analyse(read_fixture("<launch/>"))
+    here = replace(context, environment=replace(context.environment, packages=packages))
+    assert lack_of_made(here, f"{tmp_path}/urdf/arm.xacro") == Lack("build", "robot", "catkin build robot")
+    assert lack_of_made(here, f"{tmp_path}/urdf/leg.xacro") is None
+
+
 def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None:
     context = analyse(read_fixture("<launch/>\n//- /usr/share/tf/package.xml\n<package/>"))
     installed = replace(context, environment=replace(context.environment, system_prefixes=("/usr",)))

@@ -514,3 +514,43 @@ def test_nodes_are_run_where_no_client_library_is_installed(tmp_path: Path) -> N
     alone.environment.variables["PATH"] = path  # type: ignore[index]
     found = alone.trace(request(script), threading.Event())
     assert own(found) == {("subscriber", "words", "std_msgs/String"), ("publisher", "echo", "std_msgs/String")}
+
+
+def test_a_node_that_is_made_by_a_missing_module_is_not_known(tmp_path: Path) -> None:
+    made = "import rclpy, {0}\n\ndef main():\n    rclpy.init()\n    rclpy.spin({0}.Bridge())\n"
+    whole = node_of("self.declare_parameter('rate', 2)")
+    harness = Ros2Harness(tmp_path, talker=made.format("far_node"), whole=whole)
+    tag = "<launch><node pkg='pkg' exec='talker' name='a'/><node pkg='pkg' exec='whole' name='b'/></launch>"
+    graph = checked(harness.write("launch/a.launch.xml", tag), without_rclpy(harness), None).graph
+    assert graph is not None
+    talker, other = graph.processes
+    assert (talker.outcome.status, talker.known_in_full, talker.likely_complete) == ("spinning", False, False)
+    assert other.known_in_full
+
+
+def test_python_packages_that_cmake_installs_are_imported(tmp_path: Path) -> None:
+    """Scripts of a package in C++ import modules of the package, wherever it keeps them."""
+    harness = Ros2Harness(tmp_path, other=node_of(""))
+    package = harness.folder / "src" / "bridge"
+    manifest = (harness.package / "package.xml").read_text()
+    files = {
+        "package.xml": manifest.replace("<name>pkg<", "<name>bridge<").replace("ament_python", "ament_cmake"),
+        "CMakeLists.txt": "project(bridge)\nament_python_install_package(${PROJECT_NAME})\n"
+        "ament_python_install_package(bridge_tools PACKAGE_DIR python/bridge_tools)\n"
+        "install(PROGRAMS scripts/run DESTINATION lib/${PROJECT_NAME})\n",
+        "bridge/__init__.py": "",
+        "bridge/nodes.py": node_of("from bridge_tools import NAME\nself.declare_parameter(NAME, '')"),
+        "python/bridge_tools/__init__.py": "NAME = 'path'\n",
+        "scripts/run": "#!/usr/bin/env python3\nfrom bridge.nodes import main\nmain()\n",
+    }
+    for name, text in files.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(text)
+    (package / "scripts/run").chmod(0o755)
+    launch = package / "a.launch.xml"
+    launch.write_text("<launch><node pkg='bridge' exec='run'/></launch>")
+    graph = checked(launch, without_rclpy(harness), None).graph
+    assert graph is not None
+    (node,) = graph.processes
+    assert [use.name for use in node.params if not use.builtin] == ["~path"]
+    assert node.known_in_full

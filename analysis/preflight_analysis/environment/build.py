@@ -73,6 +73,8 @@ class Build:
     """The descriptions of plugins that it exports, as ROS 2 has them; those of ROS 1 stand in the manifest."""
     include_folders: tuple[str, ...] = ()
     """Where the headers of its targets lie."""
+    python_packages: Mapping[str, str] = field(default_factory=dict)
+    """The folder of each Python package that it installs, by the name that it is imported by."""
     complete: bool = False
     """Whether all that it installs is known: no command that is not known here may install more."""
 

@@ -106,6 +106,7 @@ class _Lists:
         self._parameter_libraries: dict[str, str] = {}
         self._plugin_files: dict[str, None] = {}
         self._include_folders: dict[str, None] = {}
+        self._python_packages: dict[str, str] = {}
         self._macros: dict[str, Command] = {}
         self._left = _MAX_COMMANDS
         self.complete = True
@@ -124,6 +125,7 @@ class _Lists:
             self._component_programs,
             tuple(self._plugin_files),
             tuple(self._include_folders),
+            self._python_packages,
         )
 
     def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> bool:
@@ -249,6 +251,9 @@ class _Lists:
                 self._components.update(dict.fromkeys(plugins, target))
             case "pluginlib_export_plugin_description_file", [_, file, *_]:
                 self._plugin_files[os.path.normpath(os.path.join(folder, file))] = None
+            case "ament_python_install_package", [package, *rest]:
+                below = rest[rest.index("PACKAGE_DIR") + 1] if "PACKAGE_DIR" in rest[:-1] else package
+                self._python_packages[package] = os.path.normpath(os.path.join(folder, below))
             case "generate_parameter_library", [library, file, *_]:
                 self._parameter_libraries[library] = os.path.normpath(os.path.join(folder, file))
             case "add_subdirectory", [below, *_]:

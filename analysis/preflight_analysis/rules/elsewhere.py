@@ -25,10 +25,13 @@ def absent_top(disk: Disk, path: str) -> str | None:
 
 def absent_top_said(disk: Disk, said: str) -> str | None:
     """Likewise of a file that a program did not find, as it said."""
-    if _MISSING.search(said) is None:
-        return None
-    tops = {found[0]: absent_top(disk, found[0]) for found in _PATH.finditer(said)}
-    return next(iter(tops.values())) if tops and all(tops.values()) else None
+    tops = [absent_top(disk, path) for path in paths_said(said)]
+    return tops[0] if tops and all(tops) else None
+
+
+def paths_said(said: str) -> tuple[str, ...]:
+    """The absolute paths of files that a program did not find, as it said."""
+    return tuple(found[0] for found in _PATH.finditer(said)) if _MISSING.search(said) is not None else ()
 
 
 def depends_on_working_folder(context: Context, location: Location) -> bool:

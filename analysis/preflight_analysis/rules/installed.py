@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
-from preflight_analysis.environment.installed_paths import made_by_build
+from preflight_analysis.environment.installed_paths import located, made_by_build, package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
@@ -123,8 +123,11 @@ def lack_of_build(context: Context, package: str) -> Lack:
 
 
 def lack_of_made(context: Context, path: str) -> Lack | None:
-    """A file that is there once its package is built; None for any other."""
+    """A file that is there once its package is built: the build makes it, or installs it from another folder; None for
+    any other."""
     package = made_by_build(context.disk, context.environment, path)
+    if package is None and located(context.disk, context.environment, path) != path:
+        package = package_around(context.environment, path)
     return lack_of_build(context, package.name) if package is not None else None
 
 

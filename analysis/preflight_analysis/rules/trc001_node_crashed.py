@@ -9,7 +9,7 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.elsewhere import absent_top_said
+from preflight_analysis.rules.elsewhere import absent_top_said, paths_said
 from preflight_analysis.rules.installed import lack_of_made, lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
@@ -54,6 +54,9 @@ def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:
     if (made := next(filter(None, (lack_of_made(context, word) for word in _paths_of(node))), None)) is not None:
         return made
     telling = telling_line(outcome.stderr_tail)
+    for path in paths_said(f"{outcome.reason or ''}\n{telling}"):
+        if (made := lack_of_made(context, path)) is not None:
+            return made
     said = lack_said(context, (outcome.reason or "", telling))
     return said if said is not None else lack_of_python(context, telling, outcome.stderr_tail)
 

@@ -232,7 +232,7 @@ class Interface:
     not among them. Empty where it is not known which."""
     looks: bool = False
     """ROS 2: whether it asked which nodes, topics or services there are. There were none, and it may do more, or
-    something else, where there are."""
+    something else, where there are. Likewise where it made nothing, and a module was missing that may do all of it."""
     stand_ins: tuple[str, ...] = ()
     """Python modules that it imports and this machine does not have, sorted: others stood in for them."""
     elsewhere: Elsewhere | None = None

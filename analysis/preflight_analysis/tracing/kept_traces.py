@@ -6,7 +6,7 @@ import logging
 from dataclasses import replace
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment import catkin_python
+from preflight_analysis.environment import ament_python, catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import node_recipe, nodelets, preload
@@ -41,7 +41,8 @@ class KeptTraces:
 
     def recipe(self, request: TraceRequest, preload_path: str | None) -> Recipe:
         """What a run of the request would be."""
-        modules = catkin_python.source_folders(self._disk, self.environment)
+        folders = ament_python.module_folders if request.ros.ament else catkin_python.source_folders
+        modules = folders(self._disk, self.environment)
         return node_recipe.make(self.environment, request, preload_path, modules)
 
     def lookup(self, request: TraceRequest) -> Interface | None:

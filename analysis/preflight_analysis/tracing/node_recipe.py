@@ -14,7 +14,7 @@ def make(
     environment: Environment, request: TraceRequest, preload: str | None = None, modules: Sequence[str] = ()
 ) -> Recipe:
     """The recipe of a request. `preload` is the library for the executable, if it is a program that one can be loaded
-    into. `modules` are the folders of the Python modules of packages of ROS 1 that are not built."""
+    into. `modules` are the folders of the Python modules of packages that are not built, as CMake installs them."""
     if request.ros.ament:
-        return ros2_recipe.make(environment, request, preload)
+        return ros2_recipe.make(environment, request, preload, modules)
     return ros1_recipe.make(environment, request, preload, modules)

@@ -109,7 +109,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),
         nodes=nodes,
-        looks=found.looked,
+        looks=found.looked or stand_ins.hides_all(found),
         stand_ins=tuple(sorted(found.stand_ins)),
     )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked), tuple(found.searched))

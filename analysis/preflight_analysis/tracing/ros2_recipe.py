@@ -11,7 +11,7 @@ import json
 import math
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.environment import middleware
@@ -49,11 +49,14 @@ _ELSEWHERE = (
 """What leads the middleware to others, who are not there, or to interfaces of a network."""
 
 
-def make(environment: Environment, request: TraceRequest, preload: str | None = None) -> Recipe:
+def make(
+    environment: Environment, request: TraceRequest, preload: str | None = None, modules: Sequence[str] = ()
+) -> Recipe:
     """The recipe of a request of generation 2: of a program, which `preload` is the library for, or of a node in
-    Python."""
+    Python. `modules` are the folders of Python packages of the workspace that are imported from elsewhere than the
+    folder of a `setup.py`."""
     stable = variables(environment, request.env)
-    stable["PYTHONPATH"] = _joined([*_roots(request), *_split(stable, "PYTHONPATH")])
+    stable["PYTHONPATH"] = _joined([*_roots(request), *_split(stable, "PYTHONPATH"), *modules])
     python = environment.ros2_python or recipes.any_python(environment)
     if request.entry_point is not None:
         argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]

@@ -40,7 +40,7 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     failed = outcome.status == "crashed" or (outcome.status == "exited" and outcome.exit_code not in (None, 0))
     if failed and _OLD.search(outcome.reason or "") and recipes.may_be_python2(executable):
         return replace(outcome, lacks="Python 2")
-    if outcome.status == "exited" and found.unknown and not any(not e.builtin for e, _ in found.endpoints.values()):
+    if outcome.status == "exited" and found.unknown and not _has_endpoints(found):
         # What it would have done is in the module that is missing.
         outcome, failed = replace(outcome, status="crashed"), True
     ours = found.unknown or _OURS.search(outcome.reason or "") is not None
@@ -50,3 +50,12 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     more = f" and {len(modules) - _MOST_NAMED} more" if len(modules) > _MOST_NAMED else ""
     plural = "s" if len(modules) > 1 else ""
     return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")
+
+
+def hides_all(found: Gathered) -> bool:
+    """Whether a node used a stand-in and made nothing: what it does may all be in the module that is missing."""
+    return found.unknown and not _has_endpoints(found) and all(use.builtin for use, _ in found.params.values())
+
+
+def _has_endpoints(found: Gathered) -> bool:
+    return any(not each.builtin for each, _ in found.endpoints.values())
