@@ -55,7 +55,7 @@ EVENTS: tuple[dict[str, Any], ...] = (
     {"node": {"ev": "wrote", "path": "/etc/x"}},
     {"node": {"ev": "state", "state": "sleep", "seconds": 1.5}},
     {"node": {"ev": "asked", "what": "name"}},
-    {"node": {"ev": "node", "name": "n", "given": "own", "full": "/n", "containers": False}},
+    {"node": {"ev": "node", "name": "n", "given": "own", "full": "/n", "of_container": False}},
     {"node": {"ev": "loaded", "success": False, "error": "Component constructor threw an exception: no"}},
     {"own": {"ev": "end", "status": "spinning", "code": 0}},
 )

@@ -42,16 +42,18 @@ void load(const LoadNode::Request& request) {
   if (!request.node_namespace.empty()) remap("__ns:=" + request.node_namespace);
   std::map<std::string, ParameterValue> overrides;
   for (auto& each : request.parameters) overrides[each.name] = each.value;
+  bool global = false;
   for (auto& each : request.extra_arguments) {
-    if (each.name != "use_intra_process_comms") {
+    bool forwards = each.name == "forward_global_arguments";
+    if (!forwards && each.name != "use_intra_process_comms") {
       throw std::runtime_error("Extra component argument '" + each.name + "' is not supported");
     }
     if (each.value.type != 1)
       throw std::runtime_error("Extra component argument '" + each.name + "' must be a boolean");
-    intra_process = each.value.bool_value;
+    (forwards ? global : intra_process) = each.value.bool_value;
   }
   try {
-    nodes.emplace_back("own", arguments, overrides);
+    nodes.emplace_back("own", arguments, overrides, global);
     std::istringstream each(steps());
     for (std::string step; each >> step;) perform(step);
   } catch (const std::exception& problem) {

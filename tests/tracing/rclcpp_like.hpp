@@ -102,6 +102,27 @@ class Node {
     const char* arguments[] = {"--ros-args", "-r", node_rule.c_str(), "-r", space_rule.c_str()};
     if (local) check(rcl_parse_arguments(5, arguments, rcl_get_default_allocator(), &options.arguments));
     start(name, space, options);
+    take_global_parameters();
+    declare_own();
+  }
+
+  // A component, with arguments and parameters of its own; `global` whether those of the process count after them.
+  Node(const std::string& name, const std::vector<std::string>& arguments,
+       const std::map<std::string, ParameterValue>& overrides, bool global) {
+    rcl_node_options_t options = rcl_node_get_default_options();
+    options.use_global_arguments = global;
+    std::vector<const char*> words;
+    for (auto& each : arguments) words.push_back(each.c_str());
+    check(rcl_parse_arguments(words.size(), words.data(), rcl_get_default_allocator(), &options.arguments));
+    start(name, "", options);
+    if (global) take_global_parameters();
+    for (auto& each : overrides) overrides_[each.first] = each.second;
+    declare_own();
+  }
+  Node(const Node&) = delete;
+
+ private:
+  void take_global_parameters() {
     rcl_params_t* given = nullptr;
     check(rcl_arguments_get_param_overrides(&context.global_arguments, &given));
     for (size_t i = 0; given != nullptr && i < given->num_nodes; ++i) {
@@ -111,24 +132,8 @@ class Node {
         overrides_[given->params[i].parameter_names[j]] = value_of(given->params[i].parameter_values[j]);
       }
     }
-    declare_own();
   }
 
-  // A component, with arguments and parameters of its own.
-  Node(const std::string& name, const std::vector<std::string>& arguments,
-       const std::map<std::string, ParameterValue>& overrides)
-      : overrides_(overrides) {
-    rcl_node_options_t options = rcl_node_get_default_options();
-    options.use_global_arguments = false;
-    std::vector<const char*> words;
-    for (auto& each : arguments) words.push_back(each.c_str());
-    check(rcl_parse_arguments(words.size(), words.data(), rcl_get_default_allocator(), &options.arguments));
-    start(name, "", options);
-    declare_own();
-  }
-  Node(const Node&) = delete;
-
- private:
   void start(const std::string& name, const std::string& space, const rcl_node_options_t& options) {
     check(rcl_node_init(&handle_, name.c_str(), space.c_str(), &context, &options));
     std::string own = rcl_node_get_name(&handle_);

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.workspace.workspace import Analysis
 from support.rcl_harness import ContainerHarness, rcl_node
 from support.ros2_harness import ends, uses
 
@@ -197,6 +198,61 @@ def test_nodes_that_a_component_makes_beside_itself(kilted: ContainerHarness) ->
     assert set(by_name) == {"/box", "/n", "/n/costmap/costmap"}
     assert by_name["/n/costmap/costmap"].params == ()
     assert {"/plan", "/n/costmap/map"} <= set(graph.topics)
+
+
+def contained(harness: ContainerHarness, component: str, inside: str) -> Analysis:
+    """All that is known of a container `/box` with this in its tag, and of its component."""
+    return harness.check(
+        f"<node_container pkg='cpkg' exec='node' name='box' namespace=''>{inside}{component}</node_container>"
+    )
+
+
+def test_the_arguments_of_its_container_count_for_what_a_component_makes(kilted: ContainerHarness) -> None:
+    """As Nav2's bringup gives its costmaps their parameters."""
+    kilted.component("Server", "pub=map double=resolution@0.1 child=costmap@/n/costmap pub=map double=resolution@0.1")
+    section = "{ros__parameters: {resolution: 0.2}}"
+    (kilted.folder / "p.yaml").write_text(f"/n/costmap/costmap: {section}\n/n: {section}\n")
+    inside = f"<param from='{kilted.folder}/p.yaml'/><remap from='map' to='elsewhere'/>"
+    analysis = contained(kilted, "<composable_node pkg='cpkg' plugin='cpkg::Server' name='n'/>", inside)
+    assert analysis.graph is not None
+    by_name = dict(zip((node.name for node in analysis.graph.tree.nodes), analysis.graph.tree.nodes, strict=True))
+    given = {name: {param.name: param.value for param in node.params} for name, node in by_name.items()}
+    assert given == {"/box": {}, "/n": {}, "/n/costmap/costmap": {"resolution": 0.2}}
+    assert {"/map", "/n/costmap/elsewhere"} <= set(analysis.graph.topics)
+    assert not {finding.rule for finding in analysis.findings} & {"PRM008", "PRM011"}
+
+
+def test_a_parameter_of_its_container_for_what_a_component_makes(kilted: ContainerHarness) -> None:
+    kilted.component("Server", "pub=plan child=costmap@/n/costmap double=resolution@0.1")
+    (kilted.folder / "p.yaml").write_text("/**: {ros__parameters: {resolution: fine}}\n")
+    component = "<composable_node pkg='cpkg' plugin='cpkg::Server' name='n'/>"
+    findings = contained(kilted, component, f"<param from='{kilted.folder}/p.yaml'/>").findings
+    (message,) = (finding.message for finding in findings if finding.rule == "PRM014")
+    assert message.startswith("'resolution' is a string, and /n/costmap/costmap declares it as a double")
+
+
+def test_the_name_of_its_container_is_for_other_nodes_of_a_component_too(kilted: ContainerHarness) -> None:
+    """The ends of such a node are its own, and not those that the container itself makes."""
+    kilted.component("Server", "pub=plan node=helper pub=help")
+    graph = contained(kilted, "<composable_node pkg='cpkg' plugin='cpkg::Server' name='n'/>", "").graph
+    assert graph is not None
+    assert [node.name for node in graph.tree.nodes] == ["/box", "/n", "/box"]
+    assert {name for _, name in ends(graph.processes[1])} == {"plan", "help"}
+
+
+def test_global_arguments_that_are_forwarded(kilted: ContainerHarness) -> None:
+    kilted.component("Talker", "pub=chatter sub=other double=rate@1.0 double=gain@1.0")
+    (kilted.folder / "p.yaml").write_text("/**: {ros__parameters: {rate: 2.0, gain: much}}\n")
+    inside = f"<param from='{kilted.folder}/p.yaml'/><remap from='chatter' to='x'/><remap from='other' to='y'/>"
+    more = "<remap from='other' to='own'/><param name='rate' value='3.0'/>"
+    forward = "<extra_arg name='forward_global_arguments' value='true'/>"
+    for told, topics, wrong in ((forward, {"/x", "/own"}, ["gain"]), ("", {"/chatter", "/own"}, [])):
+        component = f"<composable_node pkg='cpkg' plugin='cpkg::Talker' name='n'>{more}{told}</composable_node>"
+        analysis = contained(kilted, component, inside)
+        assert analysis.graph is not None
+        assert topics <= set(analysis.graph.topics)
+        refused = {finding.message.partition(":")[0] for finding in analysis.findings if finding.rule == "PRM014"}
+        assert refused == {f"'{name}' is a string, and /n declares it as a double" for name in wrong}
 
 
 def test_a_container_that_another_launch_starts(kilted: ContainerHarness) -> None:

@@ -1,12 +1,13 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
@@ -64,10 +65,17 @@ def _files_of(node: LaunchNode) -> tuple[tuple[str, LaunchNode, Location], ...]:
 
 
 def _beside(context: Context) -> dict[str, list[str]]:
-    """The other nodes that the processes of nodes were seen to make."""
+    """The other nodes that the processes of nodes were seen to make. What a component makes gets the files of its
+    container."""
     found: dict[str, list[str]] = {}
+    containers: Mapping[str, LaunchNode] | None = None
     for node in context.graph.tree.nodes if context.graph is not None else ():
-        if node.within is not None:
+        if node.within is not None and node.kind == "composable":
+            containers = containers_of(context.tree.nodes) if containers is None else containers
+            host = container_of(node, containers)
+            if host is not None:
+                found.setdefault(host.name, []).append(node.name)
+        elif node.within is not None:
             found.setdefault(node.within, []).append(node.name)
     return found
 

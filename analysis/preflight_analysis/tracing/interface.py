@@ -159,6 +159,8 @@ class MadeNode:
     inferred: bool = False
     """Read from the source code, not seen in a run."""
     full: str = ""
+    own_arguments_only: bool = False
+    """Whether the arguments of the process are not for it, as for a component: no name, remap or parameter of them."""
 
     @property
     def hidden(self) -> bool:

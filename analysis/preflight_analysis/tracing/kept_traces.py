@@ -76,12 +76,21 @@ def under_own_names(request: TraceRequest, found: Interface) -> TraceRequest | N
     """The run with the parameters for the names that a first run told; None where it had them all."""
     if not request.sections:
         return None
+    if request.component is not None:
+        return request.beside(_given_by_container(request, found))
     if found.names:
         return request.under_each(found.names)
     if request.named:
         return None
     name = found.own_name(names.parent(request.node))
     return request.under(name) if name is not None else None
+
+
+def _given_by_container(request: TraceRequest, found: Interface) -> list[str]:
+    """The full names of the nodes that the arguments of the container's process count for."""
+    own = request.node if request.named else found.own_name(names.parent(request.node))
+    given = [node.full or own for node in found.nodes if not node.hidden and not node.own_arguments_only]
+    return [name for name in dict.fromkeys(given) if name is not None]
 
 
 def still_named(then: Interface, first: Interface) -> Interface:

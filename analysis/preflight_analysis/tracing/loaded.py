@@ -12,14 +12,6 @@ _THROWN = "Component constructor threw an exception: "
 _NO_LIBRARY = "Failed to load library"
 
 
-def without_container(found: Gathered) -> None:
-    """Leave out what the container made for itself."""
-    theirs = found.containers
-    found.endpoints = {key: each for key, each in found.endpoints.items() if each[0].node not in theirs}
-    found.params = {key: each for key, each in found.params.items() if each[0].node not in theirs}
-    found.nodes = {node: None for node in found.nodes if node.full not in theirs}
-
-
 def outcome_of_component(found: Gathered, outcome: Outcome) -> Outcome:
     """How it ended for the component, where `outcome` is that of the container's process."""
     if outcome.status == "not-run" or found.loaded == "":

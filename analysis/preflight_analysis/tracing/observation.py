@@ -12,7 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import nodelets, stand_ins
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
 from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, Outcome, ParamUse, Role
-from preflight_analysis.tracing.loaded import outcome_of_component, without_container
+from preflight_analysis.tracing.loaded import outcome_of_component
 from preflight_analysis.tracing.outcome import NOT_LOADED, outcome_of, seconds_of, stderr_tail
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.records import Gathered, take_node_record, take_supervisor_record
@@ -58,7 +58,6 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         # It slept in a loop, and ended of what we gave it without anything else to see.
         outcome = Outcome("spinning", seconds=outcome.seconds)
     if request.component is not None:
-        without_container(found)
         outcome = outcome_of_component(found, outcome)
     outcome = replace(outcome, answers=tuple(found.answers))
     if outcome.status == "not-run":

@@ -96,8 +96,6 @@ class Gathered:
     """Modules that were missing."""
     searched: dict[str, None] = field(default_factory=dict)
     """Where they could turn up."""
-    containers: set[str] = field(default_factory=set)
-    """The full names of the nodes that a container made before it loaded its component."""
     loading: bool = False
     """Whether it was asked to."""
     loaded: str | None = None
@@ -109,7 +107,9 @@ class Gathered:
 
 
 def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
-    """What the woven library says."""
+    """What the woven library says. Where a container was started for a component, what it makes itself is left out."""
+    if record.get("of_container") is True and record.get("ev") in ("endpoint", "param", "node"):
+        return True
     match record.get("ev"):
         case "endpoint":
             return _take_endpoint(record, found)
@@ -126,9 +126,8 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
             if name is None or given is None or len(found.nodes) >= MAX_NODES:
                 return False
             full = checked_text(record.get("full"), _FULL_NAME) or ""
-            if full and record.get("containers") is True:
-                found.containers.add(full)
-            found.nodes[MadeNode(name, given, space, record.get("renamed") is True, full=full)] = None
+            renamed, own = record.get("renamed") is True, record.get("own_arguments_only") is True
+            found.nodes[MadeNode(name, given, space, renamed, full=full, own_arguments_only=own)] = None
         case "loaded":
             why = record.get("error")
             if not isinstance(why, str) or found.loaded is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from typing import Any
 
@@ -22,7 +22,11 @@ class Component:
     """Absolute path of its program."""
     container_node: str = ""
     """Its full name."""
+    container_named: bool = True
+    """As `TraceRequest.named`."""
     container_args: tuple[str, ...] = ()
+    container_renames: tuple[tuple[str, str], ...] = ()
+    """Its remaps of the names and namespaces of nodes: further nodes that the component makes may get them."""
     extra_arguments: tuple[tuple[str, Any], ...] = ()
     """What it is told of this component, such as `use_intra_process_comms`."""
 
@@ -52,8 +56,9 @@ class TraceRequest:
     named: bool = True
     """Whether the launch file names the node; its own code does otherwise."""
     sections: tuple[tuple[Section, ...], ...] = ()
-    """What the node's parameter files and values have for nodes of any name, source by source. What of it is for a node
-    without a name in the launch file, or for others of the process, is only known once a run has told their names."""
+    """What the node's parameter files and values have for nodes of any name, source by source; of a component those of
+    its container. What of it is for a node without a name in the launch file, or for others of the process, is only
+    known once a run has told their names."""
     each: tuple[tuple[str, Mapping[str, Any]], ...] = ()
     """ROS 2: the parameters of each node of the process, by its full name, where those are not the same for all."""
     component: Component | None = None
@@ -84,6 +89,11 @@ class TraceRequest:
             return None
         return replace(self, params=params, sections=())
 
+    def beside(self, names: Iterable[str]) -> TraceRequest | None:
+        """Likewise for the nodes of these names, which have the arguments of the container's process."""
+        each = tuple((name, given) for name in names if (given := self._for(name)))
+        return replace(self, sections=(), each=each) if each else None
+
     def under_each(self, names: tuple[str, ...]) -> TraceRequest | None:
         """Likewise for the nodes of a process that makes several; None where all of them get the same."""
         first = self.node if self.node in names else names[0]
@@ -97,7 +107,13 @@ class TraceRequest:
         """The parameters that a node of the process gets in the run, by the names that they have there."""
         own = f"{self.node}/"
         given = {name.removeprefix(own): value for name, value in self.params.items() if name.startswith(own)}
-        given = dict(dict(self.each).get(node or "", given))
+        others = dict(self.each)
+        if self.component is None:
+            given = dict(others.get(node or "", given))
+        elif node in (None, self.node):
+            given = {**others.get(self.node, {}), **given}
+        elif self.named or node in others:
+            given = dict(others.get(node or "", {}))
         return before_remaps(given, self.remaps, node or self.node) if self.ros.own_parameters else given
 
     def _for(self, name: str) -> dict[str, Any]:

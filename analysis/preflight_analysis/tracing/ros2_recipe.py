@@ -67,16 +67,17 @@ def make(
     argv.append("--ros-args")
     files = {}
     if request.component is not None:
-        argv += _named(request.component.container_node)
+        argv += _named(request.component.container_node, named=request.component.container_named)
+        renames, given = request.component.container_renames, _of_each(request)
         files[LOADED] = load_request(request).hex()
     else:
         argv += _named(request.node, named=request.named)
-        for source, target in request.renames:
-            argv += ["-r", f"{source}:={target}"]
-        given = _parameters(request)
-        if given:
-            files[PARAMETERS] = json.dumps(given, ensure_ascii=False)
-            argv += ["--params-file", PARAMETERS]
+        renames, given = request.renames, _parameters(request)
+    for source, target in renames:
+        argv += ["-r", f"{source}:={target}"]
+    if given:
+        files[PARAMETERS] = json.dumps(given, ensure_ascii=False)
+        argv += ["--params-file", PARAMETERS]
     env = recipes.inside(stable) | {
         "ROS_DOMAIN_ID": "0",
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -181,7 +182,15 @@ def _source_packages(environment: Environment) -> dict[str, str]:
 def _parameters(request: TraceRequest) -> dict[str, Any]:
     """The node's own parameters, for whatever name it has, or those of each node of the process; what a file cannot
     hold is left out."""
-    given_to = {node: request.given_to(node) for node, _ in request.each} or {"/**": request.given_to(None)}
+    return _of_each(request) or _sections({"/**": request.given_to(None)})
+
+
+def _of_each(request: TraceRequest) -> dict[str, Any]:
+    """Those of the nodes of the process that have others than the launch file's node."""
+    return _sections({node: request.given_to(node) for node, _ in request.each})
+
+
+def _sections(given_to: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     plain = {
         node: {name: value for name, value in given.items() if _is_plain(value)} for node, given in given_to.items()
     }

@@ -10,8 +10,12 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
+from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.files import Executables
+from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
+from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.ros2.remaps import renames_nodes
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.tracing import preload
 from preflight_analysis.tracing.request import Component, TraceRequest, split_args
@@ -26,7 +30,9 @@ class Containers:
         self._tree = tree
         self._executables = executables
 
-    def request(self, node: LaunchNode, params: Mapping[str, Any]) -> TraceRequest | None:
+    def request(
+        self, node: LaunchNode, params: Mapping[str, Any], documents: Mapping[str, Document]
+    ) -> TraceRequest | None:
         """How to run a composable node; None where its library is not there, or no container for it."""
         host = self._host(node)
         if host is not None and not preload.applies(host.resolved.path or ""):
@@ -48,9 +54,12 @@ class Containers:
                 node.plugin,
                 program,
                 host.name if host is not None else f"/{_PROGRAM}",
+                host.named if host is not None else False,
                 split_args(host.args) if host is not None else (),
+                tuple((r.source, r.target) for r in host.remaps if renames_nodes(r.source)) if host is not None else (),
                 tuple((each.name, each.value) for each in node.extra_arguments),
             ),
+            sections=sections_for_any_name(host, documents) if host is not None else (),
             launch=node.location.file,
         )
 
@@ -63,14 +72,12 @@ class Containers:
         return f"its container is not here, nor is {_PROGRAM!r} of package {_PACKAGE!r}"
 
     def _host(self, node: LaunchNode) -> LaunchNode | None:
-        """launch asks for `<container>/_container/load_node` from a node of its own, which lives in `/`."""
-        container = node.container or ""
-        host = self._nodes.get(container if container.startswith("/") else f"/{container}")
+        host = container_of(node, self._nodes)
         return host if host is not None and host.resolved.path is not None else None
 
     @cached_property
     def _nodes(self) -> Mapping[str, LaunchNode]:
-        return {node.name: node for node in self._tree.nodes if node.kind != "composable" and not node.unknowns}
+        return containers_of(self._tree.nodes)
 
     @property
     def _stand_in(self) -> Executable:

@@ -281,7 +281,7 @@ class Workspace:
         path = node.resolved.path
         params = {f"{node.name}/{p.name}": p.value for p in node.params if not isinstance(p.value, CommandValue)}
         if node.kind == "composable":
-            return containers.request(node, params)
+            return containers.request(node, params, documents)
         if path is None or node.unknowns or node.kind not in ("node", "lifecycle", "container"):
             return None
         if node.resolved.entry_point is None and not is_python(path) and not preload.applies(path):

@@ -52,6 +52,10 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
     // The client library asks for the node's name all the time: that the node does so itself cannot be told apart.
     Event("asked").add("what", std::string("name")).send();
     if (result != kOk) return;
+    if (is_containers()) {
+      std::lock_guard<std::mutex> locked(of_container_mutex);
+      nodes_of_container().insert(self);
+    }
     std::string expected = text(getenv("PREFLIGHT_NODE"));
     std::string given_by_launch = expected.substr(expected.rfind('/') + 1);
     Event("node")
@@ -60,7 +64,8 @@ HOOK int rcl_node_init(Handle* self, const char* name, const char* space, void* 
         .add("space", text(space))
         .add("full", full_name_of(self))
         .add("renamed", node_name(self) == given_by_launch)
-        .add("containers", is_containers())
+        .add("of_container", is_containers())
+        .add("own_arguments_only", options != nullptr && !static_cast<const NodeOptions*>(options)->global_arguments)
         .send();
     Event("state").add("state", std::string("init")).send();
   });
@@ -72,6 +77,10 @@ HOOK int rcl_node_fini(Handle* self) {
     {
       std::lock_guard<std::mutex> locked(unasked_mutex);
       unasked().erase(self);
+    }
+    {
+      std::lock_guard<std::mutex> locked(of_container_mutex);
+      nodes_of_container().erase(self);
     }
     std::lock_guard<std::mutex> locked(ours_mutex);
     gone().insert(self);
@@ -113,7 +122,7 @@ void made(const char* role, Handle* self, const Handle* node, const Support* sup
   }
   if (role[0] == 'p' && expanded(node, name, false) == "/parameter_events") {
     std::lock_guard<std::mutex> locked(events_mutex);
-    event_publishers()[self] = support;
+    event_publishers()[self] = {node, support};
     any_event_publisher = true;
   }
 }
@@ -142,13 +151,13 @@ HOOK int rcl_publisher_fini(Handle* self, Handle* node) {
 HOOK int rcl_publish(const Handle* self, const void* message, void* allocation) {
   if (any_event_publisher && depth == 0) {
     quietly([&] {
-      const Support* support = nullptr;
+      EventPublisher by;
       {
         std::lock_guard<std::mutex> locked(events_mutex);
         auto known = event_publishers().find(self);
-        if (known != event_publishers().end()) support = known->second;
+        if (known != event_publishers().end()) by = known->second;
       }
-      if (support != nullptr) tell_declared(message, support);
+      if (by.support != nullptr) tell_declared(message, by);
     });
   }
   return REAL("rcl_publish", int(const Handle*, const void*, void*))(self, message, allocation);

@@ -117,7 +117,7 @@ void tell_parameters(const Handle* node, const Asked& asked) {
       bool read_only = from.value<uint8_t>() != 0, dynamic = from.value<uint8_t>() != 0;
       std::string doubles = from.list([&] { return json_of<double>(from); });
       std::string integers = from.list([&] { return json_of<int64_t>(from); });
-      Event event = param_event(asked.node, name, values[i]);
+      Event event = param_event(node, asked.node, name, values[i]);
       event.add("described", true).add("read_only", read_only).add("dynamic", dynamic);
       if (type > 0 && type < sizeof kTypes / sizeof *kTypes && !dynamic) event.add("type", std::string(kTypes[type]));
       const std::string& range = type == 3 ? doubles : integers;

@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <initializer_list>
+#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -21,6 +23,18 @@ std::atomic<bool> loading{false};
 bool is_containers() {
   static const bool for_component = getenv("PREFLIGHT_LOAD") != nullptr;
   return for_component && !loading;
+}
+
+// The nodes that it made before that.
+std::mutex of_container_mutex;
+std::set<const Handle*>& nodes_of_container() {
+  static auto* all = new std::set<const Handle*>;
+  return *all;
+}
+
+bool is_of_container(const Handle* node) {
+  std::lock_guard<std::mutex> locked(of_container_mutex);
+  return nodes_of_container().count(node) != 0;
 }
 
 const char* word(int value, std::initializer_list<std::pair<int, const char*>> words) {
@@ -65,7 +79,7 @@ void tell_endpoint(const char* role, const Handle* node, const std::string& name
   if (!full.empty()) event.add("resolved", full);
   if (!type.empty()) event.add("type", type);
   event.raw("qos", told_qos(qos)).add("builtin", in_library || is_builtin(node, role, full));
-  event.add("speculative", answered || answered_here).send();
+  event.add("of_container", is_of_container(node)).add("speculative", answered || answered_here).send();
 }
 
 }  // namespace preflight

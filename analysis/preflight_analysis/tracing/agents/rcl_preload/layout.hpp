@@ -40,6 +40,12 @@ struct Allocator {
   void* parts[3];
 };
 
+// rcl_node_options_t begins so.
+struct NodeOptions {
+  Allocator allocator;
+  bool global_arguments;  // whether those of the process count for the node too
+};
+
 // rmw_time_t.
 struct Time {
   uint64_t seconds, nanoseconds;
