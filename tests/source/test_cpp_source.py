@@ -273,6 +273,28 @@ def test_classes_are_followed_in_order(harness: Harness) -> None:
     ]
 
 
+@pytest.mark.parametrize("name", ["Filter", "Filter<T>", "Filter<T>::Filter", "own::Filter<T>::Filter"])
+def test_a_constructor_that_another_one_of_its_class_stands_for(harness: Harness, name: str) -> None:
+    before = f"""
+        namespace own {{
+        template <class T> class Filter {{
+        public:
+          Filter(ros::NodeHandle nh, ros::NodeHandle own, std::string name, int depth = 1);
+          Filter(ros::NodeHandle nh, ros::NodeHandle own, int depth = 1);
+          void start() {{ own_.advertise<T>("made", 1); }}
+        private:
+          ros::NodeHandle nh_, own_;
+        }};
+        template <class T> Filter<T>::Filter(ros::NodeHandle nh, ros::NodeHandle own, std::string name, int depth)
+            : nh_(nh), own_(own) {{}}
+        template <class T> Filter<T>::Filter(ros::NodeHandle nh, ros::NodeHandle own, int depth)
+            : {name}(nh, own, ros::this_node::getName(), depth) {{}}
+        }}
+    """
+    body = 'ros::NodeHandle nh, own("~"); own::Filter<std_msgs::String> filter(nh, own); filter.start();'
+    assert harness.topics(body, before) == ["~made"]
+
+
 def test_parameters_of_the_launch_and_defaults_give_names(harness: Harness) -> None:
     body = """
         ros::NodeHandle pnh("~");

@@ -200,5 +200,10 @@ def _initializers(node: Node | None, cls: Path) -> dict[str, Node]:
             listed = child.named_children[-1]
             if listed.type in ("argument_list", "initializer_list"):
                 path = path_of(child.named_children[0])
-                found[_DELEGATED if path == cls[-len(path) :] else path[-1]] = listed
+                found[_DELEGATED if _is_class(path, cls) else path[-1]] = listed
     return found
+
+
+def _is_class(path: Path, cls: Path) -> bool:
+    """Whether it names the class, or its constructor: `Filter<T>`, `Filter<T>::Filter`."""
+    return path == cls[-len(path) :] or (path[-1] == cls[-1] and path[:-1] == cls[-len(path) + 1 :])
