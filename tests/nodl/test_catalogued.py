@@ -273,6 +273,77 @@ def test_a_parameter_that_names_an_end_with_a_default(tmp_path: Path, value: str
     assert {name for name, channel in graph.topics.items() if channel.consumers} == topics
 
 
+MUX = {
+    "source": ["makers/mux", COMMIT, "2024-01-01"],
+    "executables": {
+        "mux_node": {
+            "publishers": [
+                {"name": "out", "typed_by": {"~stamped": {"true": "g/msg/Stamped", "false": "g/msg/Plain"}}}
+            ],
+            "subscriptions": [
+                {"named_by": "~topics.*.topic", "typed_by": {"~stamped": {"true": "g/msg/Stamped"}}},
+                {"named_by": "~locks.*.topic", "type": "g/msg/Bool"},
+            ],
+        }
+    },
+}
+TOPICS = "topics: {joystick: {topic: joy_vel, priority: 3}, tablet: {topic: /tab_vel}}"
+
+
+@pytest.mark.parametrize(
+    ("stamped", "out", "heard"),
+    [("", None, None), ("stamped: true", "g/msg/Stamped", "g/msg/Stamped"), ("stamped: false", "g/msg/Plain", None)],
+)
+def test_ends_of_which_parameters_have_a_list(tmp_path: Path, stamped: str, out: str | None, heard: str | None) -> None:
+    (packages.INTERFACES / "jazzy" / "mux.json").write_text(json.dumps(MUX))
+    params = f"n: {{ros__parameters: {{{TOPICS}, locks: {{stop: {{topic: stop}}}}, {stamped}}}}}"
+    graph = graph_of(
+        tmp_path,
+        '<launch><node pkg="mux" exec="mux_node" name="n"><param from="$(dirname)/n.yaml"/></node></launch>',
+        "a.launch.xml",
+        **{"n.yaml": params},
+    )
+    heard_by = {name: [each.endpoint.type for each in channel.consumers] for name, channel in graph.topics.items()}
+    assert heard_by == {"/out": [], "/joy_vel": [heard], "/tab_vel": [heard], "/stop": ["g/msg/Bool"]}
+    assert [each.endpoint.type for each in graph.topics["/out"].providers] == [out]
+
+
+def test_ends_that_private_parameters_of_ros1_name(tmp_path: Path) -> None:
+    (packages.INTERFACES / "noetic" / "filter.json").write_text(json.dumps(FILTER))
+    (packages.INTERFACES / "noetic" / "mux.json").write_text(json.dumps(MUX))
+    lists = "topics: [{name: joystick, topic: joy_vel}, {name: tablet, topic: /tab_vel}, 3]"
+    graph = graph_of(
+        tmp_path,
+        f"""
+        <launch><group ns="a">
+          <node pkg="filter" type="filter_node" name="f">
+            <param name="odom0" value="wheels"/> <param name="odom1" value="/visual"/>
+            <param name="scan_topic" value="s"/>
+          </node>
+          <node pkg="filter" type="filter_node" name="g"/>
+          <node pkg="mux" type="mux_node" name="m"><rosparam>{lists}</rosparam></node>
+        </group></launch>
+        """,
+    )
+    ends = {name: [end.node.name for end in channel.consumers] for name, channel in graph.topics.items()}
+    assert ends == {
+        "/a/wheels": ["/a/f"],
+        "/visual": ["/a/f"],
+        "/a/s": ["/a/f"],
+        "/a/scan": ["/a/g"],
+        "/a/joy_vel": ["/a/m"],
+        "/tab_vel": ["/a/m"],
+        "/a/out": [],
+    }
+
+
+@pytest.mark.parametrize("topics", ["3", "[]", "{}", "[[1]]", "{a: {topic: 1}}", "{a: 2}", "[{}]"])
+def test_a_list_of_another_shape_names_nothing(tmp_path: Path, topics: str) -> None:
+    (packages.INTERFACES / "noetic" / "mux.json").write_text(json.dumps(MUX))
+    node = f'<node pkg="mux" type="mux_node" name="m"><rosparam>topics: {topics}</rosparam></node>'
+    assert {*graph_of(tmp_path, f"<launch>{node}</launch>").topics} == {"/out"}
+
+
 def test_the_real_data_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(packages, "INTERFACES", packages.DATA / "interfaces")
     files = sorted(packages.INTERFACES.rglob("*.json"), key=lambda path: path.stat().st_size)

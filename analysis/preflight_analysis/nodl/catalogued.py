@@ -16,7 +16,7 @@ from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.groups import GROUPS
@@ -25,6 +25,8 @@ from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, 
 _KEPT = 1024
 _TYPE = ".type"
 _NAMED_BY = "named_by"
+_TYPED_BY = "typed_by"
+_WORDS = re.compile("[./]")
 _SERIES = re.compile(r"(\D*[A-Za-z])0")
 """The name of the first parameter of a numbered series."""
 _OF_SPAWNERS = tuple(ParamUse(f"~{name}", "get", inferred=True) for name in ("type", "fallback_controllers"))
@@ -42,6 +44,8 @@ class Catalogued:
     evidence: str
     by_parameter: tuple[tuple[str, Endpoint], ...] = ()
     """Ends that parameters name where they are set, of which those with a default are among `endpoints`."""
+    typed: tuple[tuple[Endpoint, str, Mapping[str, str]], ...] = ()
+    """Ends whose type a parameter decides, with what it is by the value in words."""
 
 
 def from_catalogue(
@@ -53,10 +57,13 @@ def from_catalogue(
     if all(interface.known for interface in interfaces):
         return interfaces
     distro = distribution_of(tree.generation, environment.distro)
-    return kept.each_row(_filled_in, (tree.nodes_and_simulated, interfaces), environment, distro)
+    columns = tree.nodes_and_simulated, interfaces, _own_params(tree, kept)
+    return kept.each_row(_filled_in, columns, environment, distro)
 
 
-def _filled_in(node: LaunchNode, interface: Interface, environment: Environment, distro: str) -> Interface:
+def _filled_in(
+    node: LaunchNode, interface: Interface, given: Sequence[Param], environment: Environment, distro: str
+) -> Interface:
     if interface.known or interface.pending or not node.package or _is_annotated(node):
         return interface
     package, kind, name = _place(node)
@@ -67,7 +74,7 @@ def _filled_in(node: LaunchNode, interface: Interface, environment: Environment,
     found = catalogued(package, kind, name, distro, is_used=is_used)
     if found is None:
         return interface
-    does = (_as_named(node, found), *_controllers(node, distro, is_used=is_used))
+    does = (_as_set(node, given, found), *_controllers(node, distro, is_used=is_used))
     whole = interface.with_more(
         "catalogue",
         tuple(end for each in does for end in each.endpoints),
@@ -102,19 +109,63 @@ def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Ca
             )
 
 
-def _as_named(node: LaunchNode, found: Catalogued) -> Catalogued:
-    """With the ends that parameters of the node name (ROS 2): `odom0` stands for `odom1` and all others of a series."""
-    ends = list(found.endpoints)
-    for name, end in found.by_parameter:
-        series = _SERIES.fullmatch(name) if not end.name else None
-        for param in node.params:
-            alike = param.name == name or (series is not None and param.name.removeprefix(series[1]).isdecimal())
-            if not alike:
-                continue
+def _own_params(tree: LaunchTree, kept: Kept) -> Sequence[Sequence[Param]]:
+    """The parameters that each node is given, those of ROS 1 that stand right below its name."""
+    if tree.ros.own_parameters:
+        return [node.params for node in tree.nodes_and_simulated]
+    below = kept.grouped(_namespace, "", tree.all_params)
+    return [below.get(node.name, ()) for node in tree.nodes]
+
+
+def _namespace(param: Param) -> str:
+    return param.name.rpartition("/")[0]
+
+
+def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued) -> Catalogued:
+    """With the names and types of ends that parameters of the node give: `odom0` stands for `odom1` and all others of a
+    series, `topics.*.topic` for what is below each of `topics`."""
+    if not found.by_parameter and not found.typed:
+        return found
+    own = [(param.name.removeprefix(f"{node.name}/"), param.value) for param in given]
+    words = {name: str(value).lower() for name, value in own}
+    typed = {
+        id(end): replace(end, type=types[words[name]]) for end, name, types in found.typed if words.get(name) in types
+    }
+    ends = [typed.get(id(end), end) for end in found.endpoints]
+    for pattern, each in found.by_parameter:
+        end = typed.get(id(each), each)
+        values = [value for name, value in own for value in _of_pattern(name, value, pattern, series=not end.name)]
+        if values:
             ends = [each for each in ends if each is not end]
-            if isinstance(param.value, str) and param.value and names.is_legal(param.value):
-                ends.append(replace(end, name=param.value, conditional=end.conditional and bool(end.name)))
-    return replace(found, endpoints=tuple(ends)) if found.by_parameter else found
+        for value in values:
+            if isinstance(value, str) and value and names.is_legal(value):
+                ends.append(replace(end, name=value, conditional=end.conditional and bool(end.name)))
+    return replace(found, endpoints=tuple(ends))
+
+
+def _of_pattern(name: str, value: Any, pattern: str, *, series: bool) -> Iterator[Any]:
+    """What a parameter has where the pattern says: the value, or what is within it. `*` is for any name, and for each
+    item of a list."""
+    numbered = _SERIES.fullmatch(pattern) if series else None
+    if name == pattern or (numbered is not None and name.removeprefix(numbered[1]).isdecimal()):
+        yield value
+    elif "*" in pattern:
+        words, wanted = _WORDS.split(name), _WORDS.split(pattern)
+        if len(words) <= len(wanted) and all(want in ("*", word) for word, want in zip(words, wanted, strict=False)):
+            yield from _within(value, wanted[len(words) :])
+
+
+def _within(value: Any, wanted: Sequence[str]) -> Iterator[Any]:
+    if not wanted:
+        yield value
+        return
+    first, *rest = wanted
+    if isinstance(value, dict):
+        values = value.values() if first == "*" else [value[first]] if first in value else []
+    else:
+        values = value if isinstance(value, list) and first == "*" else []
+    for each in values:
+        yield from _within(each, rest)
 
 
 def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...]:
@@ -177,6 +228,11 @@ def _catalogued(
         tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
         evidence,
         tuple((each[_NAMED_BY].removeprefix("~"), made) for made, each in ends if _NAMED_BY in each),
+        tuple(
+            (made, name.removeprefix("~"), types)
+            for made, each in ends
+            for name, types in each.get(_TYPED_BY, {}).items()
+        ),
     )
 
 

@@ -28,7 +28,7 @@ from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import GENERATIONS, NAMED, OF_TESTS, OTHER_VERSIONS, RUN, SOURCES
+from tools.catalogue.sources import DECLARED, GENERATIONS, NAMED, OF_TESTS, OTHER_VERSIONS, RUN, SOURCES
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
@@ -170,19 +170,20 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
             said = _run(environment, key._replace(args=arguments))
         called = NAMED.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is not None:
-            if package.is_ament:
-                _add_named_by_parameters(analysis, key, said)
+            _add_named_by_parameters(analysis, key, said, typed=package.is_ament)
+            _add_declared(said, DECLARED.get(environment.distro or "", {}).get(package.name, {}).get(name, {}))
             executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
     for cls in index.components(package.name):
         key = SourceKey(None, None, package.name, "", cls, f"/{_NAME}", "", ())
         said = _read(analysis, [key])
         if said is not None:
-            _add_named_by_parameters(analysis, key, said)
+            _add_named_by_parameters(analysis, key, said, typed=True)
             components[cls] = said
     for plugin in _nodelets(package) if not package.is_ament else ():
-        args = f"standalone {plugin}"
-        said = _read(analysis, [SourceKey(None, None, "nodelet", "nodelet", None, f"/{_NAME}", args, ())])
+        key = SourceKey(None, None, "nodelet", "nodelet", None, f"/{_NAME}", f"standalone {plugin}", ())
+        said = _read(analysis, [key])
         if said is not None:
+            _add_named_by_parameters(analysis, key, said, typed=False)
             nodelets[plugin] = said
     for controller in analysis.controllers(package.name) if package.is_ament else ():
         said = _controller(analysis, SourceKey(None, None, package.name, "", controller, f"/{_NAME}", "", ()))
@@ -220,12 +221,23 @@ def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | No
     return max(said, more, key=lambda each: sum(len(each.get(group, ())) for group in GROUPS.values()))
 
 
-def _add_named_by_parameters(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any]) -> None:
-    """Note which ends have their names by a parameter: as its default, or once it is set."""
+def _add_declared(said: dict[str, Any], declared: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
+    """Add ends that the source does not tell in a way that the analysis reads; they take the place of those of the same
+    name."""
+    for group, rows in declared.items():
+        names = {row["name"] for row in rows if "name" in row}
+        said[group] = [*(row for row in said.get(group, ()) if row.get("name") not in names), *map(dict, rows)]
+
+
+def _add_named_by_parameters(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any], *, typed: bool) -> None:
+    """Note which ends have their names by a parameter: as its default, or once it is set. `typed`: the source says
+    which parameters are texts; else each without a default may be one (ROS 1)."""
     texts = {
         name: about.get("default_value") or ""
         for name, about in said.get("parameters", {}).items()
-        if about.get("type") == "string" or isinstance(about.get("default_value"), str)
+        if about.get("type") == "string"
+        or isinstance(about.get("default_value"), str)
+        or not (typed or about.get("has_default") or "default_value" in about)
     }
     ends = {row["name"] for group in GROUPS.values() for row in said.get(group, ())}
     marks = {f"preflight_{name.strip('~/')}": name for name, default in texts.items() if default in ("", *ends)}

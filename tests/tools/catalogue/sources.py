@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 SOURCES: Mapping[str, Mapping[str, str]] = {
     # Messages
@@ -145,6 +146,42 @@ NAMED: Mapping[str, Mapping[str, Mapping[str, str]]] = {
     "jazzy": {"controller_manager": {"ros2_control_node": "controller_manager"}},
 }
 """Executables whose library names their node: by distribution, package and executable the name."""
+_STAMPED = {"true": "geometry_msgs/msg/TwistStamped", "false": "geometry_msgs/msg/Twist"}
+DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]]] = {
+    "jazzy": {
+        "twist_mux": {
+            "twist_mux": {
+                # https://docs.ros.org/en/ros2_packages/jazzy/api/twist_mux/__CHANGELOG.html: `use_stamped` since 4.4.0
+                "publishers": [{"name": "cmd_vel_out", "typed_by": {"~use_stamped": _STAMPED}}],
+                "subscriptions": [
+                    {"named_by": "~topics.*.topic", "typed_by": {"~use_stamped": _STAMPED}},
+                    {"named_by": "~locks.*.topic", "type": "std_msgs/msg/Bool"},
+                ],
+            },
+        },
+        "ackermann_mux": {
+            "ackermann_mux": {
+                "subscriptions": [
+                    {"named_by": "~topics.*.topic", "type": "ackermann_msgs/msg/AckermannDriveStamped"},
+                    {"named_by": "~locks.*.topic", "type": "std_msgs/msg/Bool"},
+                ],
+            },
+        },
+    },
+    "noetic": {
+        "twist_mux": {
+            "twist_mux": {
+                "subscriptions": [
+                    {"named_by": "~topics.*.topic", "type": "geometry_msgs/Twist"},
+                    {"named_by": "~locks.*.topic", "type": "std_msgs/Bool"},
+                ],
+            },
+        },
+    },
+}
+"""Ends that parameters name of which the source has a list: by distribution, package and executable, in the groups of
+NoDL. `*` is for any name, and in ROS 1 for each item of a list; `typed_by` is the parameter that decides the type, and
+the type by its value."""
 OTHER_VERSIONS = {"ros-navigation/navigation2": ("humble", "kilted", "main")}
 """Further branches of a repository that are in use: a parameter that a plugin has there is no misspelt one here."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
