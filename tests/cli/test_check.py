@@ -10,6 +10,7 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 from xml.etree import ElementTree
 
 import jsonschema
@@ -38,7 +39,7 @@ def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     data = preflight("check", "launch/talker_listener.launch", "--format", "json").json
     assert set(data) == {
         *("schema", "findings", "rules", "environment"),
-        *("files", "evaluated", "nodes", "traced", "known"),
+        *("files", "evaluated", "nodes", "traced", "known", "not_evaluated", "unknown_nodes"),
     }
     assert (data["schema"], data["files"], data["nodes"], data["traced"]) == ("ros-preflight/check/1", 1, 2, 2)
     (finding,) = data["findings"]
@@ -210,7 +211,8 @@ def test_sarif_junit_and_github(harness: Harness, preflight: Run) -> None:
     [({"TERM": "xterm"}, True), ({"TERM": "xterm", "NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False)],
 )
 def test_colours_on_a_terminal_only(harness: Harness, environment: dict[str, str], coloured: bool) -> None:
-    out = on_terminal([str(harness.server), "check", str(harness.launch_file), "--no-run"], harness, environment)
+    plain = {"FORCE_HYPERLINK": "0", **environment}
+    out = on_terminal([str(harness.server), "check", str(harness.launch_file), "--no-run"], harness, plain)
     assert ("\x1b[33mwarning (possible) TOP001" in out) == coloured
     assert ("\x1b[33m^^^^^^\x1b[0m" in out) == coloured
     assert "talker_listener.launch:7:31" in out
@@ -218,6 +220,35 @@ def test_colours_on_a_terminal_only(harness: Harness, environment: dict[str, str
         environment["TERM"] == "xterm"
     )
     assert ("\r\x1b[Klaunch/talker_listener.launch:7:31: " in out) == (environment["TERM"] == "xterm")
+
+
+@pytest.mark.parametrize(
+    ("environment", "linked"),
+    [
+        ({"TERM": "xterm"}, True),
+        ({"TERM": "xterm", "FORCE_HYPERLINK": "0"}, False),
+        ({"TERM": "xterm", "NO_COLOR": "1"}, False),
+        ({"TERM": "linux"}, False),
+    ],
+)
+def test_links_to_files_on_a_terminal_only(harness: Harness, environment: dict[str, str], linked: bool) -> None:
+    odd = harness.launch_file.with_name("a b%.launch")
+    harness.launch_file.rename(odd)
+    out = on_terminal([str(harness.server), "check", str(odd), "--no-run"], harness, environment)
+    place = "launch/a b%.launch:7:31"
+    link = f"\x1b]8;;file://{os.uname().nodename}{quote(str(odd))}\x1b\\{place}\x1b]8;;\x1b\\: "
+    assert (link in out, "\x1b]8;" in out) == (linked, linked)
+    assert place in out
+
+
+def test_a_terminal_shows_which_nodes_are_run(harness: Harness) -> None:
+    command = [str(harness.server), "check", str(harness.launch_file), "--jobs", "1"]
+    out = on_terminal(command, harness, {"TERM": "xterm", "COLUMNS": "200"})
+    shown = [line for line in out.split("\r\x1b[K") if line.startswith("[")]
+    assert any("running /talk" in line for line in shown)
+    assert any("1 of 2 nodes, running" in line for line in shown)
+    graph = on_terminal([str(harness.server), "graph", str(harness.launch_file), "--no-run"], harness, {"TERM": "dumb"})
+    assert "[..." not in graph
 
 
 def on_terminal(command: list[str], harness: Harness, environment: dict[str, str]) -> str:

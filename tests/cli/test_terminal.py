@@ -44,7 +44,9 @@ def workspace(tmp_path: Path) -> Path:
 
 
 CALLS = [
-    *(["check", "FILE", "--format", form] for form in ("text", "json", "sarif", "junit", "github")),
+    *(["check", "FILE", "--format", form] for form in ("text", "json", "sarif", "junit", "github", "gitlab")),
+    ["explain", "FILE:10", "FILE"],
+    ["explain", "nothing" + CLIPBOARD],
     ["check", "."],
     ["check", "missing" + CLIPBOARD],
     *(["tree", "FILE", "--format", form] for form in ("text", "json", "html")),
@@ -69,16 +71,19 @@ def test_no_control_characters(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     files = {"FILE": "src/pkg/a.launch.yaml", "ODD": f"src/pkg/b{CLIPBOARD}.launch.yaml"}
-    words = [files.get(word, word) for word in call]
+    words = [re.sub("FILE|ODD", lambda found: files[found[0]], word) for word in call]
     if call[0] != "rules":
         words.append("--no-run")
-    for module in ("check", "diff", "tree"):
+    for module in ("check", "diff", "explain", "tree"):
         monkeypatch.setattr(f"preflight_server.cli.{module}.colours", lambda: colour)
+    for module in ("check", "explain"):
+        monkeypatch.setattr(f"preflight_server.cli.{module}.links", lambda: "host" if colour else None)
     monkeypatch.chdir(workspace)
     main(words)
     done = capsys.readouterr()
     assert done.out + done.err
-    out = re.sub(r"\x1b\[[0-9;]*m", "", done.out) if colour else done.out
+    painted = r"\x1b\[[0-9;]*m|\x1b\]8;;(?:file://[!-~]*)?\x1b\\"
+    out = re.sub(painted, "", done.out) if colour else done.out
     assert HOSTILE.findall(out + done.err) == []
 
 

@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/architecture.md").read_text()
 INVARIANTS = re.findall(r"\*\*Invariant: (.*?)(?=\n\n)", PAGE, re.DOTALL)
-_FOLDERS = ("analysis", "server", "tests", "docs", "bench", "vscode-client/src")
+_FOLDERS = ("analysis", "server", "tests", "docs", "bench", "packaging", "vscode-client/src")
 _NAMED = re.compile(r"`([\w./-]+\.(?:py|cpp|hpp|lua|ts|md))")
 _HOLDER = re.compile(r"`(tests/[\w/.]+|pyproject\.toml|analysis/ruff\.toml)(?:::(\w+))?`")
 

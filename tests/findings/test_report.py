@@ -54,6 +54,7 @@ def test_json() -> None:
         "rules": {"TOP001": {"warning": 1}},
         "environment": {"complete": True, "missing": [], "commands": [], "problems": []},
         **{"files": 1, "evaluated": 1, "nodes": 2, "traced": 2, "known": {"trace": 2}},
+        **{"not_evaluated": [], "unknown_nodes": []},
     }
     message = finding.pop("message")
     assert "'/chater'" in message
@@ -214,3 +215,17 @@ def test_many_findings_are_counted_by_rule() -> None:
     text = to_text(Report.of(given, {}, Coverage()))
     assert "\n\nABC001 n: 10 errors\nABC002 n: 1 warning\n\n" in text
     assert "ABC001 n: 1" not in to_text(Report.of(given[:10], {}, Coverage()))
+
+
+def test_what_was_not_looked_at_is_named() -> None:
+    nodes = tuple(f"/n{number}" for number in range(12))
+    coverage = Coverage(2, 1, {"none": 12}, not_evaluated=("/ws/launch/a.launch",), unknown_nodes=nodes)
+    report = Report.of([], {}, coverage)
+    text = to_text(report, base="/ws")
+    assert "not looked at:\n  launch files that were not evaluated as a whole: launch/a.launch\n" in text
+    assert "  what these nodes do: /n0, /n1, " in text
+    assert "/n9 and 2 more\n" in text
+    assert text.endswith("1 of 2 launch files evaluated, 12 nodes: 12 unknown\n")
+    assert to_json(report)["not_evaluated"] == ["/ws/launch/a.launch"]
+    assert to_json(report)["unknown_nodes"] == [*nodes]
+    assert "not looked at" not in to_text(Report.of([], {}, Coverage(1, 1, {"trace": 1})))

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 
-def dumps(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
+def dumps(data: Mapping[str, Any] | list[dict[str, Any]], *, indent: int | None = 2) -> str:
     """JSON text with sorted keys; characters stay what they are, save halves of surrogate pairs."""
     text = json.dumps(data, sort_keys=True, indent=indent, ensure_ascii=False, allow_nan=False)
     try:

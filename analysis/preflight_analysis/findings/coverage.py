@@ -23,12 +23,16 @@ WAYS: Mapping[str, str] = {
 @dataclass(frozen=True, slots=True)
 class Coverage:
     """`files` launch files were looked at, of which `evaluated` were evaluated as a whole. `nodes` counts nodes by the
-    source of their interface (`WAYS`), `untried` the tags left out by conditions that were not looked into."""
+    source of their interface (`WAYS`), `untried` the tags left out by conditions that were not looked into.
+    `not_evaluated` has the paths of the files that were not evaluated as a whole, `unknown_nodes` the names of the
+    nodes of which nothing is known."""
 
     files: int = 0
     evaluated: int = 0
     nodes: Mapping[str, int] = field(default_factory=dict)
     untried: int = 0
+    not_evaluated: tuple[str, ...] = ()
+    unknown_nodes: tuple[str, ...] = ()
 
     @property
     def total_nodes(self) -> int:

@@ -36,7 +36,7 @@ def to_junit(report: Report, failing: Collection[Finding], checked: Sequence[str
             ET.SubElement(case, "system-out").text = text
     counts = {"tests": str(len(suite)), "failures": str(failures), "errors": "0", "skipped": "0"}
     suite.attrib.update(counts)
-    ET.SubElement(suite, "system-out").text = "\n\n".join(closing(report))
+    ET.SubElement(suite, "system-out").text = "\n\n".join(closing(report, base))
     suites = ET.Element("testsuites", {"name": "ros-preflight", **counts})
     suites.append(suite)
     ET.indent(suites)

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Any
+from urllib.parse import quote
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
@@ -96,8 +97,8 @@ def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
     points. `findings` has one for each cause, with a `condition` where it needs other arguments than those of its root;
-    `rules` counts all places. `files`, `evaluated`, `nodes`, `traced` and `known` are the counts, `environment` is what
-    is missing."""
+    `rules` counts all places. `files`, `evaluated`, `nodes`, `traced` and `known` are the counts, `not_evaluated` and
+    `unknown_nodes` name what was not looked at, `environment` is what is missing."""
     coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
@@ -113,33 +114,51 @@ def to_json(report: Report) -> dict[str, Any]:
         "nodes": coverage.total_nodes,
         "traced": coverage.nodes.get("trace", 0),
         "known": dict(coverage.nodes),
+        "not_evaluated": list(coverage.not_evaluated),
+        "unknown_nodes": list(coverage.unknown_nodes),
     }
 
 
-def to_text(report: Report, *, base: str | None = None, colour: bool = False) -> str:
+def to_text(report: Report, *, base: str | None = None, colour: bool = False, host: str | None = None) -> str:
     """For reading: place, severity, rule and message, the source line with the place underlined, other places, fixes;
     at the end what is missing here, how many findings there are and what was looked at. Ends with a newline. Files
-    below the folder `base` are shown relative to it. What is found of one cause in several places is shown once."""
+    below the folder `base` are shown relative to it. What is found of one cause in several places is shown once.
+    Places are links to the files of this `host`, if it is given."""
     blocks = []
     for first, *others in _causes(report.findings):
-        lines = [*finding_lines(first, report.documents, base, colour=colour)]
+        lines = [*finding_lines(first, report.documents, base, colour=colour, host=host)]
         shown = {related.location for related in first.related}
         more = [each.location for each in others if each.location not in shown]
-        lines += [f"  {place(each, report.documents, base)}: {_SAME}" for each in more[:_MOST_ALIKE]]
+        lines += [f"  {_linked(each, report.documents, base, host)}: {_SAME}" for each in more[:_MOST_ALIKE]]
         if len(more) > _MOST_ALIKE:
             lines.append(f"  and in {len(more) - _MOST_ALIKE} more places")
         blocks.append("\n".join(lines))
-    return "\n\n".join([*blocks, "\n\n".join(closing(report))]) + "\n"
+    return "\n\n".join([*blocks, "\n\n".join(closing(report, base))]) + "\n"
 
 
-def closing(report: Report) -> Iterator[str]:
+def closing(report: Report, base: str | None = None) -> Iterator[str]:
     """What follows the findings, in blocks: their number by rule, where there are many, what is missing on this
-    machine, and the summary."""
+    machine, what was not looked at, and the summary. Files below the folder `base` are shown relative to it."""
     if len(report.findings) > _FEW:
         yield "\n".join(_rule_lines(report))
     if not report.complete:
         yield "\n".join(environment_lines(report))
+    if lines := [*_not_looked_at(report.coverage, base)]:
+        yield "\n".join(("not looked at:", *lines))
     yield summary(report)
+
+
+def _not_looked_at(coverage: Coverage, base: str | None) -> Iterator[str]:
+    if coverage.not_evaluated:
+        files = [printable(relative(file, base)) for file in coverage.not_evaluated]
+        yield f"  launch files that were not evaluated as a whole: {_first(files)}"
+    if coverage.unknown_nodes:
+        yield f"  what these nodes do: {_first([printable(name) for name in coverage.unknown_nodes])}"
+
+
+def _first(names: Sequence[str]) -> str:
+    more = len(names) - _FEW
+    return ", ".join(names[:_FEW]) + (f" and {more} more" if more > 0 else "")
 
 
 def environment_lines(report: Report) -> Iterator[str]:
@@ -242,16 +261,22 @@ def positions(location: Location, documents: Mapping[str, Document]) -> tuple[tu
 
 
 def finding_lines(
-    finding: Finding, documents: Mapping[str, Document], base: str | None, *, colour: bool = False
+    finding: Finding,
+    documents: Mapping[str, Document],
+    base: str | None,
+    *,
+    colour: bool = False,
+    host: str | None = None,
 ) -> Iterator[str]:
-    """One finding for reading, without the line breaks."""
+    """One finding for reading, without the line breaks. Places are links to the files of this `host`, if it is
+    given."""
     severity = f"{finding.severity}{_unsure(finding.confidence)} {finding.rule} {finding.name}"
     paint = f"\x1b[{_COLOURS[finding.severity]}m{{}}\x1b[0m" if colour else "{}"
     severity = paint.format(severity)
-    yield f"{place(finding.location, documents, base)}: {severity}: {printable(finding.message)}"
+    yield f"{_linked(finding.location, documents, base, host)}: {severity}: {printable(finding.message)}"
     yield from _underlined(finding.location, documents, paint)
     for related in finding.related:
-        yield f"  {place(related.location, documents, base)}: {printable(related.message)}"
+        yield f"  {_linked(related.location, documents, base, host)}: {printable(related.message)}"
     for fix in finding.fixes:
         yield f"  fix: {printable(fix.title)}"
 
@@ -264,6 +289,16 @@ def place(location: Location, documents: Mapping[str, Document], base: str | Non
     """`file:line:column`, both counted from 1; the file relative to the folder `base` where it lies below it."""
     (line, column), _ = positions(location, documents)
     return f"{printable(relative(location.file, base))}:{line + 1}:{column + 1}"
+
+
+def _linked(location: Location, documents: Mapping[str, Document], base: str | None, host: str | None) -> str:
+    """The place, as a link to its file (OSC 8) where `host` names this machine."""
+    text = place(location, documents, base)
+    if host is None or not location.file.startswith("/") or catalogued_file(location.file) is not None:
+        return text
+    # Without the line, as terminals differ in how they take it; ripgrep does so too.
+    uri = f"file://{quote(host)}{quote(location.file, errors='surrogateescape')}"
+    return f"\x1b]8;;{uri}\x1b\\{text}\x1b]8;;\x1b\\"
 
 
 def relative(file: str, base: str | None) -> str:

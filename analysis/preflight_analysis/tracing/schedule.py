@@ -27,13 +27,14 @@ def trace_all(
     requests: Sequence[TraceRequest],
     *,
     workers: int = 2,
+    on_begin: Callable[[int], None] = lambda index: None,
     on_done: Callable[[int, Interface], None],
     cancel: threading.Event,
 ) -> None:
     """Trace `requests` as `run_all` runs jobs. Of like nodes one is run first: the others find its trace in the cache,
     unless they do depend on what is different."""
     alike = likeness if tracer.cache is not None else None
-    run_all(tracer.trace, requests, workers=workers, alike=alike, on_done=on_done, cancel=cancel)
+    run_all(tracer.trace, requests, workers=workers, alike=alike, on_begin=on_begin, on_done=on_done, cancel=cancel)
 
 
 def run_all(
@@ -42,13 +43,15 @@ def run_all(
     *,
     workers: int = 2,
     alike: Callable[[_Job], Hashable] | None = None,
+    on_begin: Callable[[int], None] = lambda index: None,
     on_done: Callable[[int, _Result], None],
     cancel: threading.Event,
 ) -> None:
     """Run `jobs` in their order and return when all are done; equal ones are run once, and the first of those that are
     `alike` before the others.
 
-    `on_done(index, result)` is called for each job, one call at a time, from the worker threads. Once `cancel` is set
+    `on_begin(index)` is called for a job that starts, `on_done(index, result)` for each job, one call at a time, from
+    the worker threads. Once `cancel` is set
     the runs under way are killed and the rest are told as not run. Raises what `on_done` raised, after the others are
     done.
     """
@@ -67,6 +70,8 @@ def run_all(
         while (taken := waiting.take()) is not None:
             group, kind = taken
             try:
+                with telling:
+                    on_begin(group[0])
                 result = run(jobs[group[0]], cancel)
             finally:
                 waiting.ended(kind)

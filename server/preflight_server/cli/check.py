@@ -25,18 +25,20 @@ from preflight_analysis.workspace.merged import counting, merged
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
+from preflight_server.cli.again import Looked, again_and_again
 from preflight_server.cli.changes import changed_since, touched
 from preflight_server.cli.errors import CLEAN, CannotDoError
 from preflight_server.cli.garbage import uncollected
 from preflight_server.cli.launches import Launches, launches
-from preflight_server.cli.output import colours, print_json, print_text, say
+from preflight_server.cli.output import colours, links, print_json, print_text, say
+from preflight_server.cli.paths import with_paths
 from preflight_server.cli.progress import Progress
 from preflight_server.cli.project import Project, run_nodes_together
 
 TOGETHER = 32
 """Launches of which all is run side by side, commands, Python launch files and nodes; their analyses are at hand
 meanwhile."""
-FORMATS = ("text", "json", "sarif", "junit", "github")
+FORMATS = ("text", "json", "sarif", "junit", "github", "gitlab")
 
 DESCRIPTION = """Tells what is wrong with launch files and everything they include. Without a file it is those of
 the current folder that nothing includes, and what .ros-preflight.yaml names, with each of its sets of arguments.
@@ -54,8 +56,8 @@ class _Launched:
     inputs: tuple[str, ...]
     findings: tuple[Finding, ...]
     documents: Mapping[str, Document]
-    nodes: tuple[str, ...]
-    """How it is known what each node does; other processes have no interface to be known."""
+    nodes: tuple[tuple[str, str], ...]
+    """The name of each node, and how it is known what it does; other processes have no interface to be known."""
     untried: int
     """How many tags that it leaves out were not looked into."""
     left_out: frozenset[str]
@@ -73,7 +75,7 @@ class _Launched:
             analysis.findings,
             analysis.all_documents,
             nodes=tuple(
-                interface.source
+                (node.name, interface.source)
                 for node, interface in zip(tree.nodes, interfaces, strict=True)
                 if node.kind != "process"
             ),
@@ -103,6 +105,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--baseline", metavar="FILE", help="leave out the findings that this list knows")
     parser.add_argument("--write-baseline", metavar="FILE", help="write a list of all findings, and exit with 0")
     parser.add_argument(
+        "--watch", action="store_true", help="check again at each change of the workspace, until it is interrupted"
+    )
+    parser.add_argument(
         "--changed-since",
         metavar="REV",
         help="only launches of which something changed since this revision: a file they are read from, the settings, "
@@ -111,18 +116,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the findings."""
-    known = _known(args.baseline) if args.baseline else frozenset()
-    report, checked = look_at(launches(args), args)
+    """Print the findings; with `--watch` again and again."""
+    if not args.watch:
+        return _look(args).code
     if args.write_baseline:
-        return _write_baseline(report, args.write_baseline)
+        raise CannotDoError("--watch and --write-baseline exclude each other")
+    return again_and_again(lambda: _look(args))
+
+
+def _look(args: argparse.Namespace) -> Looked:
+    """Print the findings once."""
+    known = _known(args.baseline) if args.baseline else frozenset()
+    chosen = launches(args)
+    homes = [launch.home for launch in chosen]
+    report, checked = look_at(chosen, args)
+    if args.write_baseline:
+        return Looked(_write_baseline(report, args.write_baseline), homes, checked)
     if args.baseline:
         total = len(report.findings)
         report = without_known(report, known, _folder(args.baseline))
         say(f"ros-preflight: {total - len(report.findings)} of {total} findings are in {args.baseline}")
     failing = options.failing(report.findings, args.fail_on)
-    _print(report.at_least(args.severity), failing, checked, args.format)
-    return int(bool(failing) or (args.require_complete and not report.complete))
+    _print(report.at_least(args.severity), failing, checked, homes, args)
+    code = int(bool(failing) or (args.require_complete and not report.complete))
+    return Looked(code, homes, {*checked, *report.documents})
 
 
 @uncollected()
@@ -147,7 +164,9 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                         branches = launch.workspace.branches(project.analysis)
                         launch.workspace.workspace.set_branches(project.analysis.launch, branches)
                         looked_at.append((root, project, branches.untried))
-                run_nodes_together([project for _, project, _ in looked_at], args, report=progress.part)
+                run_nodes_together(
+                    [project for _, project, _ in looked_at], args, report=progress.part, running=progress.running
+                )
                 found += [_Launched.of(root, project.with_results(), untried) for root, project, untried in looked_at]
     finally:
         progress.end()
@@ -155,9 +174,15 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     files = tuple(dict.fromkeys(file for each in kept for file in each.files))
     documents = {path: document for each in kept for path, document in each.documents.items()}
     left_out = frozenset[str]().union(*(each.left_out for each in kept))
-    nodes = Counter(source for each in kept for source in each.nodes)
-    untried = sum(each.untried for each in kept)
-    coverage = Coverage(len(files), len(files) - len(left_out.intersection(files)), nodes, untried)
+    nodes = [node for each in kept for node in each.nodes]
+    coverage = Coverage(
+        len(files),
+        len(files) - len(left_out.intersection(files)),
+        Counter(source for _, source in nodes),
+        sum(each.untried for each in kept),
+        not_evaluated=tuple(sorted(left_out.intersection(files))),
+        unknown_nodes=tuple(sorted({name for name, source in nodes if source == "none"})),
+    )
     problems = dict.fromkeys(
         problem for launch in chosen for problem in launch.workspace.workspace.environment.problems
     )
@@ -204,11 +229,17 @@ def _write_baseline(report: Report, file: str) -> int:
     return CLEAN
 
 
-def _print(report: Report, failing: Sequence[Finding], checked: Sequence[str], form: str) -> None:
+def _print(
+    report: Report,
+    failing: Sequence[Finding],
+    checked: Sequence[str],
+    homes: Sequence[str],
+    args: argparse.Namespace,
+) -> None:
     base = os.getcwd()
-    match form:
+    match args.format:
         case "json":
-            print_json(to_json(report))
+            print_json(with_paths(to_json(report), args, homes))
         case "sarif":
             from preflight_analysis.findings.sarif import to_sarif  # noqa: PLC0415, other formats start faster without
 
@@ -221,6 +252,10 @@ def _print(report: Report, failing: Sequence[Finding], checked: Sequence[str], f
             from preflight_analysis.findings.github import to_github  # noqa: PLC0415, likewise
 
             print_text(to_github(report, base))
+        case "gitlab":
+            from preflight_analysis.findings.gitlab import to_gitlab  # noqa: PLC0415, likewise
+
+            print_json(to_gitlab(report, base))
         case _:
             # Empty counts as not set: https://no-color.org
-            print_text(to_text(report, base=base, colour=colours()), painted=colours())
+            print_text(to_text(report, base=base, colour=colours(), host=links()), painted=colours())

@@ -14,8 +14,9 @@ from preflight_analysis import __version__
 from preflight_server.cli.errors import FAILED, CannotDoError
 from preflight_server.cli.output import LogFormatter, say
 
-_VERBS = {
+VERBS = {
     "check": "what is wrong with launch files",
+    "explain": "explain a rule or one finding",
     "tree": "what a launch file would start",
     "graph": "who talks to whom after the launch",
     "trace": "run the nodes of a launch file in the sandbox and show what they do",
@@ -24,21 +25,29 @@ _VERBS = {
     "watch": "compare a running system with what the launch file should have started",
     "capture": "write down what the nodes of a running system do",
     "rules": "list the rules, or explain one",
+    "completion": "print the code for the completion of a shell",
     "doctor": "the ROS environment and the sandbox, and what is missing",
     "lsp": "serve an editor over standard input and output",
 }
 """The verbs with their help. The module of one is imported only if the command line has its name."""
-_SEVERAL_FILES = ("check", "diff")
+_SEVERAL_FILES = ("check", "diff", "explain")
 """The verbs whose positional arguments are files too, in `launch_args`."""
+_COMPLETING = "_ARGCOMPLETE"
+"""The variable that a shell sets when it asks argcomplete for words."""
 _EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command; the return value is the exit code."""
+def version() -> str:
+    """The line of `--version`."""
+    return f"ros-preflight {__version__}"
+
+
+def main(argv: Sequence[str] | None = None, *, program: str = "ros-preflight") -> int:
+    """Run the command, called as `program`; the return value is the exit code."""
     handler = logging.StreamHandler()
     handler.setFormatter(LogFormatter("ros-preflight: %(message)s"))
     logging.basicConfig(level=logging.WARNING, handlers=[handler])
-    args = _parse(sys.argv[1:] if argv is None else argv)
+    args = _parse(sys.argv[1:] if argv is None else argv, program)
     if getattr(args, "cache_dir", None):
         from preflight_analysis.tracing.cache_folder import VARIABLE  # noqa: PLC0415, `--version` starts faster without
 
@@ -59,17 +68,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     return code
 
 
-def _parse(argv: Sequence[str]) -> argparse.Namespace:
+def _parse(argv: Sequence[str], program: str) -> argparse.Namespace:
+    is_completing = _COMPLETING in os.environ
+    named = os.environ.get("COMP_LINE", "").split() if is_completing else argv
     parser = argparse.ArgumentParser(
-        prog="ros-preflight",
+        prog=program,
         description="Tells what is wrong with a ROS launch configuration before a robot moves.",
         epilog=_EPILOG,
     )
-    parser.add_argument("--version", action="version", version=f"ros-preflight {__version__}")
+    parser.add_argument("--version", action="version", version=version())
     verbs = parser.add_subparsers(metavar="VERB", required=True)
-    for verb, text in _VERBS.items():
+    for verb, text in VERBS.items():
         sub = verbs.add_parser(verb, help=text)
-        if verb not in argv:
+        if verb not in named:
             continue
         module = importlib.import_module(f"preflight_server.cli.{verb}")
         sub.description = module.DESCRIPTION
@@ -77,6 +88,10 @@ def _parse(argv: Sequence[str]) -> argparse.Namespace:
         if sub.get_default("fail_on") is not None:
             sub.epilog = _EPILOG  # the others tell theirs themselves
         sub.set_defaults(run=module.run, verb=verb)
+    if is_completing:
+        from preflight_server.cli.completion import complete  # noqa: PLC0415, only a shell asks for it
+
+        complete(parser)
     args, rest = parser.parse_known_args(argv)
     if args.verb == "lsp":
         return args  # editors add arguments of their own, such as --clientProcessId

@@ -13,15 +13,19 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.workspace.sources import Sources
 
+from preflight_server.cli.completion import argument_names
 from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.paths import add_paths
 
 NEVER = "never"
 _ASSIGNMENT = ":="
 
 
 def add_format(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
-    """`--format`; the first one is the default."""
+    """`--format`; the first one is the default. With JSON also `--paths`."""
     parser.add_argument("--format", choices=formats, default=formats[0], help="what is printed (default: %(default)s)")
+    if "json" in formats:
+        add_paths(parser)
 
 
 def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
@@ -68,9 +72,10 @@ def _positive(text: str) -> int:
 def add_file(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
     """The launch file and its arguments."""
     parser.add_argument("file", metavar="FILE", nargs="?" if optional else None, help="a launch file")
-    parser.add_argument(
+    values = parser.add_argument(
         "launch_args", metavar="name:=value", nargs="*", default=[], help="arguments of the launch file"
     )
+    values.completer = argument_names  # type: ignore[attr-defined]  # argcomplete's
 
 
 def launch_file(args: argparse.Namespace) -> str:

@@ -16,7 +16,8 @@ _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u20
 """All but line break and tab, and what changes the direction of the text around it."""
 _PICTURES = 0x2400
 """U+2400 and the 32 after it show the control characters of ASCII."""
-_COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
+_PAINT = re.compile(r"(\x1b\[[0-9;]*[mJH]|\x1b\]8;;(?:file://[!-~]*)?\x1b\\)")
+"""Colours, an empty screen, and links to files (OSC 8)."""
 
 
 def visible(text: str) -> str:
@@ -35,19 +36,20 @@ def _picture(found: re.Match[str]) -> str:
     )
 
 
-def print_json(data: Mapping[str, Any], *, indent: int | None = 2) -> None:
+def print_json(data: Mapping[str, Any] | list[dict[str, Any]], *, indent: int | None = 2) -> None:
     """A JSON document and a newline."""
     print_text(dumps_json(data, indent=indent))
 
 
-def dumps_json(data: Mapping[str, Any], *, indent: int | None = 2) -> str:
+def dumps_json(data: Mapping[str, Any] | list[dict[str, Any]], *, indent: int | None = 2) -> str:
     """A JSON document with sorted keys, and a newline. What would drive a terminal is escaped as JSON has it."""
     return _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", dumps(data, indent=indent)) + "\n"
 
 
 def print_text(text: str, *, painted: bool = False) -> None:
-    """Text for reading, whatever the terminal's encoding can show of it. `painted`: colours are meant to be there."""
-    parts = _COLOUR.split(text) if painted else [text]
+    """Text for reading, whatever the terminal's encoding can show of it. `painted`: what paints it is meant to be
+    there."""
+    parts = _PAINT.split(text) if painted else [text]
     text = "".join(part if index % 2 else visible(part) for index, part in enumerate(parts))
     stream = sys.stdout
     try:
@@ -59,6 +61,13 @@ def print_text(text: str, *, painted: bool = False) -> None:
 def colours() -> bool:
     """Whether standard output shows colours, and its reader wants them (https://no-color.org)."""
     return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
+def links() -> str | None:
+    """The name of this host, for links to its files, where standard output shows them (OSC 8); else None. A terminal
+    that knows no links shows nothing of them, save those of Linux itself; `FORCE_HYPERLINK=0` switches them off."""
+    shown = colours() and os.environ.get("TERM") != "linux" and os.environ.get("FORCE_HYPERLINK") != "0"
+    return os.uname().nodename if shown else None
 
 
 def say(text: str) -> None:

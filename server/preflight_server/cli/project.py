@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.findings.report import place
+from preflight_analysis.findings.report import place, printable, relative
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.kept_traces import KeptTraces
@@ -30,6 +30,7 @@ from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.cli import options
 from preflight_server.cli.output import say
+from preflight_server.cli.progress import Progress
 
 if TYPE_CHECKING:
     from preflight_analysis.tracing.commands import CommandRunner
@@ -140,19 +141,19 @@ def open_workspace(environment: Environment, args: argparse.Namespace, *, simila
     return OpenWorkspace(workspace, results, args.no_run)
 
 
-def run_nodes(
-    project: Project,
-    args: argparse.Namespace,
-    only: str | None = None,
-    report: Callable[[int, int], None] = lambda done, total: None,
-) -> Analysis:
+def run_nodes(project: Project, args: argparse.Namespace, only: str | None = None) -> Analysis:
     """The analysis with the interfaces of all nodes (or of the one named `only`), run in the sandbox, as
-    the common options say. Where nothing may be run, earlier runs tell that would have the same result. `report` is
-    told how many of how many were run.
+    the common options say. Where nothing may be run, earlier runs tell that would have the same result. A terminal
+    shows how far it is.
 
     Interrupting it stops the runs.
     """
-    run_nodes_together([project], args, only, report)
+    progress = Progress(1)
+    progress.step(0, printable(relative(project.analysis.root, os.getcwd())))
+    try:
+        run_nodes_together([project], args, only, progress.part, progress.running)
+    finally:
+        progress.end()
     return project.with_results()
 
 
@@ -161,9 +162,10 @@ def run_nodes_together(
     args: argparse.Namespace,
     only: str | None = None,
     report: Callable[[int, int], None] = lambda done, total: None,
+    running: Callable[[Sequence[str]], None] = lambda names: None,
 ) -> None:
     """As `run_nodes`, of several launch files of one workspace: what one has to wait for keeps no other one waiting.
-    What is known of them then is in `Project.with_results`."""
+    What is known of them then is in `Project.with_results`. `running` is told the nodes that are run right now."""
     if not projects:
         return
     workspace, environment, cache = projects[0].workspace, projects[0].environment, TraceCache()
@@ -179,6 +181,8 @@ def run_nodes_together(
         def done(index: int, interface: Interface) -> None:
             each, key = missing[index]
             each.found[key] = interface
+            under_way.pop(index, None)
+            running([*under_way.values()])
             report(sum(len(each.found) for each in runs), total)
 
         # Who has to run nothing starts faster without.
@@ -186,8 +190,14 @@ def run_nodes_together(
 
         tracer = Tracer(environment, cache, disk=workspace.sources)
         requests = [each.requests[key] for each, key in missing]
+        under_way: dict[int, str] = {}
+
+        def begun(index: int) -> None:
+            under_way[index] = requests[index].node
+            running([*under_way.values()])
+
         try:
-            trace_all(tracer, requests, workers=args.jobs, on_done=done, cancel=cancel)
+            trace_all(tracer, requests, workers=args.jobs, on_begin=begun, on_done=done, cancel=cancel)
         except KeyboardInterrupt:
             cancel.set()
             raise

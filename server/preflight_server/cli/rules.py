@@ -23,27 +23,39 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-run", action="store_true", help="accepted as by the other verbs; nothing is ever run here"
     )
-    parser.add_argument("rule", metavar="RULE", nargs="?", help="an id or a name, such as TOP001")
+    rule = parser.add_argument("rule", metavar="RULE", nargs="?", help="an id or a name, such as TOP001")
+    rule.completer = rule_ids  # type: ignore[attr-defined]  # argcomplete's
+
+
+def rule_ids(prefix: str, **_: object) -> list[str]:
+    """For the completion of a shell."""
+    return [rule.id for rule in all_rules() if rule.id.startswith(prefix.upper())]
+
+
+def rules_named(name: str) -> tuple[Rule, ...]:
+    """The rule with this id or name, or none."""
+    asked = name.lower()
+    return tuple(rule for rule in all_rules() if asked in (rule.id.lower(), rule.name))
 
 
 def run(args: argparse.Namespace) -> int:
     """Print one rule or all."""
     rules = all_rules()
     if args.rule is not None:
-        asked = args.rule.lower()
-        rules = tuple(rule for rule in rules if asked in (rule.id.lower(), rule.name))
+        rules = rules_named(args.rule)
         if not rules:
             raise CannotDoError(f"there is no rule {args.rule}; `ros-preflight rules` lists them")
     if args.format == "json":
-        print_json({"schema": SCHEMA, "rules": [_json(rule) for rule in rules]})
+        print_json({"schema": SCHEMA, "rules": [rule_json(rule) for rule in rules]})
     elif args.rule is not None:
-        print_text(_page(rules[0]))
+        print_text(rule_page(rules[0]))
     else:
         print_text("".join(f"{rule.id}  {rule.severity:<7}  {rule.name}\n" for rule in rules))
     return CLEAN
 
 
-def _json(rule: Rule) -> dict[str, str]:
+def rule_json(rule: Rule) -> dict[str, str]:
+    """The object of a rule in the contract."""
     return {
         "id": rule.id,
         "name": rule.name,
@@ -55,7 +67,8 @@ def _json(rule: Rule) -> dict[str, str]:
     }
 
 
-def _page(rule: Rule) -> str:
+def rule_page(rule: Rule) -> str:
+    """The page of a rule as text."""
     return (
         f"{rule.id} {rule.name} ({rule.severity})\n\n{rule.what}\n\nWhy: {rule.why}\n\n"
         f"Example:\n\n{rule.example}\n\nInstead:\n\n{rule.instead}\n"

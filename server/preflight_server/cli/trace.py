@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
+from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.report import printable
 from preflight_analysis.tracing.interface import Interface
@@ -13,6 +14,7 @@ from preflight_analysis.tracing.trace_json import trace_json
 from preflight_server.cli import options
 from preflight_server.cli.errors import CannotDoError
 from preflight_server.cli.output import print_json, print_text
+from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
 
 DESCRIPTION = """Runs the nodes of a launch file in a sandbox until they reach their event loop, and shows what they
@@ -40,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
     interfaces = analysis.graph.processes if analysis.graph else ()
     shown = [(n, i) for n, i in zip(nodes, interfaces, strict=True) if only in (None, n.name)]
     if args.format == "json":
-        print_json(trace_json(shown))
+        print_json(with_paths(trace_json(shown), args, [workspace_of(analysis.root)]))
     else:
         print_text("".join(f"{printable(line)}\n" for node, interface in shown for line in _lines(node, interface)))
         say_errors(analysis)

@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.findings.finding import Finding
@@ -20,6 +21,7 @@ from preflight_server.cli import options
 from preflight_server.cli.batch import answer_all
 from preflight_server.cli.errors import CannotDoError
 from preflight_server.cli.output import colours, print_json, print_text
+from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import exit_code, open_project, say_errors
 
 DESCRIPTION = """Shows the nodes with their names, parameters, remaps and environment, and where each comes from.
@@ -50,7 +52,8 @@ def run(args: argparse.Namespace) -> int:
         raise CannotDoError("name a launch file, or jobs with --batch")
     analysis = open_project(args).analysis
     if args.format == "json":
-        print_json(tree_json(analysis.tree, analysis.documents, analysis.findings))
+        data = tree_json(analysis.tree, analysis.documents, analysis.findings)
+        print_json(with_paths(data, args, [workspace_of(analysis.root)]))
     elif args.format == "html":
         print_text(tree_page(node_tree(analysis, _by_file(analysis)), analysis.documents, os.getcwd()))
         say_errors(analysis)

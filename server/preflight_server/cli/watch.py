@@ -6,9 +6,12 @@ import argparse
 import os
 import sys
 import time
+from collections.abc import Mapping
 from dataclasses import field
+from typing import Any
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.live.model import Expected, Issue
 from preflight_analysis.live.report import event_json, line, summary
@@ -17,6 +20,7 @@ from preflight_analysis.live.watcher import LOOK_SECONDS, Attached, Event, Obser
 from preflight_server.cli import options
 from preflight_server.cli.errors import CLEAN, FAILED, FOUND, CannotDoError
 from preflight_server.cli.output import print_json, print_text, say
+from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import open_project, run_nodes, say_errors
 
 DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID), compares its
@@ -65,6 +69,10 @@ def run(args: argparse.Namespace) -> int:
         watched.close()
 
 
+def _json(event: Event, args: argparse.Namespace) -> Mapping[str, Any]:
+    return with_paths(event_json(event), args, [workspace_of(options.launch_file(args))])
+
+
 def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> int:
     watcher = Watcher(watched, lambda: expected, allow_extra=args.allow_extra)
     give_up = time.monotonic() + args.timeout
@@ -78,7 +86,7 @@ def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> in
         time.sleep(_POLL_SECONDS)
     assert last is not None
     if args.format == "json":
-        print_json(event_json(last), indent=None)
+        print_json(_json(last, args), indent=None)
     if not isinstance(last, State):
         raise CannotDoError(last.reason if isinstance(last, Waiting) else f"{watched.place} tells nothing")
     found = last.comparison
@@ -101,7 +109,7 @@ def _follow(watched: Observer, expected: Expected, args: argparse.Namespace) -> 
                 elif isinstance(event, State):
                     code = CLEAN if event.comparison.same else FOUND
                 if args.format == "json":
-                    print_json(event_json(event), indent=None)
+                    print_json(_json(event, args), indent=None)
                 else:
                     text.write(event)
                 sys.stdout.flush()
