@@ -12,7 +12,7 @@ PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_prel
 LUA = $(shell git ls-files '*.lua')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth fuzz endurance wheel vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth fuzz endurance wheel release vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -111,7 +111,11 @@ endurance: setup ## EDITS=100000 through the protocol of one server, and what it
 wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
-vsix test-editors lint format: export PATH := $(CURDIR)/out/tools/node/bin:$(PATH)
+release: setup ## all that a release consists of, in dist/, checked; DRY=1 before its tag: RELEASING.md
+	$(BIN)/python -m pip install --quiet --group release
+	$(BIN)/python packaging/release.py $(if $(DRY),--dry-run)
+
+vsix test-editors lint format release: export PATH := $(CURDIR)/out/tools/node/bin:$(PATH)
 
 vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
 	tests/editors/install.sh node

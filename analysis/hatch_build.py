@@ -1,7 +1,9 @@
 """Puts the compiled libraries for nodes in C++ into the wheel, so that a machine without a compiler can watch them.
 
-They are files of data that are only used where they fit (`tracing/preload.py`), so the wheel stays one for all
-platforms. Where they cannot be compiled the wheel is made without; `make wheel` insists.
+They are files of data that are only used where they fit (`tracing/preload.py`), so a wheel with them may be one for all
+platforms. `ROS_PREFLIGHT_PREBUILT` says what is built: `0` a wheel without them, `1` one with them for all platforms, a
+platform tag such as `manylinux_2_28_x86_64` one with them for that platform alone. Where it is not set they are in the
+wheel if they can be compiled.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface  # type: ignore[import-not-found]
 
 _MODULE = "analysis/preflight_analysis/tracing/preload_compile.py"
+_VARIABLE = "ROS_PREFLIGHT_PREBUILT"
 _INSIDE = "preflight_analysis/tracing/agents"
 
 
@@ -26,17 +29,21 @@ class PreloadHook(BuildHookInterface):  # type: ignore[misc]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Called by hatchling before the files are gathered."""
-        if version == "editable":
+        wanted = os.environ.get(_VARIABLE, "")
+        if version == "editable" or wanted == "0":
             return
         self._folder = tempfile.TemporaryDirectory()
         try:
             made = self._compile(Path(self._folder.name))
         except Exception as error:
-            if os.environ.get("ROS_PREFLIGHT_PREBUILT"):
+            if wanted:
                 raise
             said = error.stderr.decode(errors="replace") if isinstance(error, subprocess.CalledProcessError) else ""
             self.app.display_warning(f"without the compiled libraries for nodes in C++: {error} {said[:1000]}")
             return
+        if wanted not in ("", "1"):
+            build_data["tag"] = f"py3-none-{wanted}"
+            build_data["pure_python"] = False
         build_data["force_include"].update({str(path): f"{_INSIDE}/{path.name}" for path in made})
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:

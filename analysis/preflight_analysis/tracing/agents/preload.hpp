@@ -30,6 +30,10 @@ __asm__(".symver dlsym,dlsym@GLIBC_2.2.5");
 __asm__(".symver dlopen,dlopen@GLIBC_2.2.5");
 __asm__(".symver dlclose,dlclose@GLIBC_2.2.5");
 __asm__(".symver dladdr,dladdr@GLIBC_2.2.5");
+__asm__(".symver pthread_once,pthread_once@GLIBC_2.2.5");
+__asm__(".symver pthread_sigmask,pthread_sigmask@GLIBC_2.2.5");
+// Older ones have none; 0 says to the C++ library that there may be threads, which is always right.
+extern "C" __attribute__((visibility("hidden"))) char __libc_single_threaded = 0;
 #endif
 
 #define HOOK extern "C" __attribute__((visibility("default")))
