@@ -175,6 +175,13 @@ def test_a_component_that_only_its_source_tells_of(harness: Harness) -> None:
     assert ends(harness.read(CLASS + REGISTER, node=COMPONENT.format(plugin="p::Driver"))) == DRIVER
 
 
+def test_a_component_that_is_registered_within_its_namespace(harness: Harness) -> None:
+    harness.write("CMakeLists.txt", LIBRARY.replace("${PROJECT_NAME}::Driver", "Driver"))
+    within = CLASS + "namespace p {\nRCLCPP_COMPONENTS_REGISTER_NODE(Driver)\n}\n"
+    assert ends(harness.read(within)) == DRIVER
+    assert ends(harness.read(within, node=COMPONENT.format(plugin="Driver"))) == DRIVER
+
+
 def test_targets_made_by_a_function_with_keywords(harness: Harness) -> None:
     harness.write(
         "CMakeLists.txt",

@@ -572,3 +572,120 @@ def generate_launch_description():
 """,
     )
     assert names(tree) == ["/one", "/missing"]
+
+
+WHAT_IS_DONE_WITH_IT = {
+    "a text is taken apart": "package, plugin = text.split('/')",
+    "to more": "x, y, z = [float(each) for each in text.split()]",
+    "by map": "x, y, z = map(float, unknown.split(','))",
+    "its parts": "text.split('/')[2], text.split(':')[-2]",
+    "pairs": "for key, value in (pair.split('=') for pair in text.split(',')): key + value",
+    "a mapping for a call": "Node(**unknown), Node(package='p', **config['node'])",
+    "a list for a call": "(lambda a, b, c: a)(*unknown)",
+    "a default among choices": "DeclareLaunchArgument('a', default_value=unknown.a, choices=['a', 'b'])",
+    "choices": "DeclareLaunchArgument('a', default_value='c', choices=unknown.kinds())",
+    "a text in a list": "', '.join([unknown.name, 'a']), ' '.join(unknown)",
+    "written": "open('/tmp/a.txt', 'w').write(unknown.text())",
+    "written as YAML": "import yaml; yaml.safe_dump({'a': unknown, 'b': config})",
+    "a substitution": "TextSubstitution(text=unknown.name())",
+    "evaluated": "eval(text), eval(unknown)",
+    "a literal": "import ast; ast.literal_eval(text)[0]",
+    "a folder": "os.listdir(share)[0], [each for each in sorted(os.listdir(share)) if each.endswith('.yaml')][0]",
+    "a tree of folders": "for root, folders, files in os.walk(share): os.path.join(root, files[0])",
+    "a pattern": "import glob; glob.glob(share + '/*.yaml')[0]",
+    "a path": "import pathlib; next(pathlib.Path(share).glob('*')).stem, pathlib.Path(share).stat().st_size",
+    "a size": "os.path.getsize(share) + os.stat(share).st_mtime",
+    "a module at it": "import importlib.machinery as i; i.SourceFileLoader('m', share + '/m.py').load_module().f()[0]",
+    "a program in a shell": "import subprocess; subprocess.check_output('no_such_program | head -1', shell=True)[3]",
+    "a number that a program prints": "import subprocess; int(subprocess.check_output(['no_such_program']).strip())",
+    "a number that is read": "import subprocess as s; int(s.Popen(['no_such'], stdout=s.PIPE).communicate()[0])",
+    "a program that os starts": "os.popen('no_such_program -L').read().split(':')[1]",
+    "who is logged in": "os.getlogin() + '/'",
+    "an address": "import socket; socket.gethostbyname('no.such.host').split('.')[3]",
+    "deleted": "del config['a']",
+}
+
+
+@pytest.mark.parametrize("statement", WHAT_IS_DONE_WITH_IT.values(), ids=WHAT_IS_DONE_WITH_IT.keys())
+def test_whatever_is_done_with_something_unknown_goes_on(harness: PythonHarness, statement: str) -> None:
+    tree = tree_of(
+        harness,
+        f"""
+import no_such_module as unknown
+text = os.environ['NOT_SET_ANYWHERE']
+share = get_package_share_directory('not_here')
+config = unknown.load()
+
+def generate_launch_description():
+    {statement}
+    return LaunchDescription([Node(package="p", executable="x", name="one")])
+""",
+    )
+    assert not [p.kind for p in tree.problems if isinstance(p.kind, PythonException)]
+    assert names(tree) == ["/one"]
+
+
+def test_what_a_known_text_does_not_have_is_an_error(harness: PythonHarness) -> None:
+    for statement, error in {
+        "a, b = 'a b c'.split()": "ValueError",
+        "'a/b'.split('/')[2]": "IndexError",
+        "for a, b in [(1, 2, 3)]: pass": "ValueError",
+        "(lambda a, b: a)(*[1])": "TypeError",
+        "(lambda a: a)(**{'b': 1})": "TypeError",
+        "{'a': 1}['b']": "KeyError",
+        "import subprocess; subprocess.check_output('false | false', shell=True)": "CalledProcessError",
+        "DeclareLaunchArgument('a', default_value='c', choices=['a', 'b'])": "RuntimeError",
+    }.items():
+        text = f"""
+def generate_launch_description():
+    {statement}
+    return LaunchDescription([Node(package="p", executable="x", name="one")])
+"""
+        analysis = harness.launch(harness.write("launch/a.launch.py", HEAD + text))
+        raised = [p.kind.error for p in analysis.tree.problems if isinstance(p.kind, PythonException)]
+        assert raised == [error], statement
+
+
+def test_annotations_of_a_file_are_what_they_are(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+from typing import Dict, List, Optional, Type
+
+def named(kind: type[Node], names: list[str], more: dict[str, Optional[int]], old: Dict[str, List[Type[Node]]]) -> Node:
+    first, *rest = names
+    return kind(package="p", executable="x", name=first, **more)
+
+def generate_launch_description():
+    return LaunchDescription([named(Node, ["one", "other"], {}, {})])
+""",
+    )
+    assert names(tree) == ["/one"]
+
+
+def test_a_file_may_write_into_a_share_folder(harness: PythonHarness) -> None:
+    harness.write("models/old.yaml", "old: 1\n")
+    tree = tree_of(
+        harness,
+        """
+import pathlib
+SHARE = get_package_share_directory("p")
+MODELS = os.path.join(SHARE, "models", "tmp")
+
+def generate_launch_description():
+    if not os.path.isdir(MODELS):
+        pathlib.Path(MODELS).mkdir(parents=True, exist_ok=True)
+    os.makedirs(MODELS, exist_ok=True)
+    path = os.path.join(MODELS, "a.yaml")
+    with open(path, "w") as file:
+        file.write("one: {ros__parameters: {rate: 5}}")
+    with open(path) as file:
+        assert file.read().startswith("one:")
+    assert os.path.isfile(path) and pathlib.Path(path).is_file() and os.listdir(MODELS) == ["a.yaml"]
+    with open(os.path.join(SHARE, "models", "old.yaml")) as file:
+        assert file.read() == "old: 1\\n"
+    return LaunchDescription([Node(package="p", executable="x", name="one", parameters=[path])])
+""",
+    )
+    assert [(param.name, param.value) for param in tree.nodes[0].params] == [("rate", 5)]
+    assert not (harness.package / "models" / "tmp").exists()

@@ -298,3 +298,85 @@ def generate_launch_description():
 """,
     )
     assert [node.name for node in tree.nodes] == ["/one"] or "ValueError" in {each.what for each in tree.unknowns}
+
+
+@pytest.mark.parametrize(
+    "looked_for",
+    [
+        "dict(context.launch_configurations.get('of_the_vehicle', {}))",
+        "context.launch_configurations['of_the_vehicle']",
+        "context.launch_configurations['of_the_vehicle'] if 'of_the_vehicle' in context.launch_configurations else {}",
+    ],
+)
+def test_a_configuration_that_an_includer_sets(harness: PythonHarness, looked_for: str) -> None:
+    tree = _tree(
+        harness,
+        f"""
+def start(context):
+    vehicle = {looked_for}
+    return [Node(package='p', executable='x', name='one', parameters=[{{'length': vehicle['front'] + 1, 'a': 5}}])]
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=start)])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
+    assert [(param.name, param.value) for param in tree.nodes[0].params] == [("a", 5)]
+    assert not _raised(tree)
+    assert not tree.complete
+
+
+def test_a_configuration_that_a_file_can_do_without_is_not_set(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+def start(context):
+    name = context.launch_configurations.get('no_such', 'default')
+    if 'no_such' in context.launch_configurations or context.launch_configurations.get('no_such'):
+        name = 'wrong'
+    return [n(name)]
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=start)])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/default"]
+
+
+def test_a_list_that_is_asked_whether_it_is_one(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+import yaml
+
+def start(context):
+    cameras = yaml.safe_load(LaunchConfiguration('cameras').perform(context))
+    if not isinstance(cameras, list):
+        raise ValueError('no list')
+    return [n('one')] if all(isinstance(each, str) for each in cameras) else []
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument('cameras'), OpaqueFunction(function=start)])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/one"]
+    assert not _raised(tree)
+    assert any(unknown.decides for unknown in tree.unknowns)
+
+
+def test_a_name_that_a_branch_sets(harness: PythonHarness) -> None:
+    tree = _tree(
+        harness,
+        """
+MODEL = os.environ['NOT_SET_ANYWHERE']
+if MODEL == 'a':
+    name = 'of_a'
+elif MODEL == 'b':
+    name = 'of_b'
+
+def generate_launch_description():
+    return LaunchDescription([n(name)])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/of_b"]
+    assert not _raised(tree)

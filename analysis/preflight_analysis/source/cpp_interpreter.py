@@ -113,7 +113,11 @@ class _Interpreter(Expressions):
                 self.run(called, instance, args)
 
     def _class_at(self, path: Path) -> Class | None:
-        text = self._program.classes.get(path) or self._program.lookup(self._program.classes, path[-1:], path[:-1])
+        classes = self._program.classes
+        text = classes.get(path) or self._program.lookup(classes, path[-1:], path[:-1])
+        if text is None:  # it is registered within its namespace, by the name that it has there
+            within = [each for each in classes if each[-len(path) :] == path]
+            text = classes[within[0]] if len(within) == 1 else None
         return self._class(CppType("::".join(text.path))) if text is not None else None
 
     def _for_plugin(self, parameter: Parameter, name: str, method: FunctionText) -> Any:

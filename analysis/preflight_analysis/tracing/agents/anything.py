@@ -278,7 +278,8 @@ class Anything:
     def __setitem__(self, key: Any, value: Any) -> None:
         return None
 
-    __delitem__ = __setitem__
+    def __delitem__(self, key: Any) -> None:
+        return None
 
     def __contains__(self, item: Any) -> bool:
         used()

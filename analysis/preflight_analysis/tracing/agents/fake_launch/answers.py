@@ -75,14 +75,15 @@ class Answers:
         return answer
 
     def is_set(self, variable: str, frame: Any) -> bool:
-        """Whether a variable that is not set counts as set: the same whoever asks."""
+        """Whether a variable, or launch configuration, that is not set counts as set: the same whoever asks."""
         if variable not in self._variables:
             self._variables[variable] = self.choose(frame, self._all_set)
         return self._variables[variable]
 
     def may_try(self, error: dict[str, Any]) -> bool:
         """Whether a run that ended with an error may end in another way with other answers."""
-        return len(self._given) > self._part and error.get("type") not in _OWN_MISTAKES
+        is_own = error.get("type") in _OWN_MISTAKES and not error.get("elsewhere")
+        return len(self._given) > self._part and not is_own
 
     def first(self, text: str) -> str:
         """What the first run told; `text` is what this one does."""

@@ -74,9 +74,13 @@ class Recorder:
         that it gets."""
         if not is_own(frame):
             return answer
+        self.note_guess(name, frame)
+        return self.answers.choose(frame, answer)
+
+    def note_guess(self, name: str, frame: Any) -> None:
+        """Note alone that what a program does from here on depends on something that is not known."""
         place = self.place_of(frame)
         self.guessed.setdefault((str(name), place[0] if place is not None else 0), place)
-        return self.answers.choose(frame, answer)
 
     def place(self) -> Optional[list[int]]:
         """Line and column (-1: not known) in the launch file of the call that is going on."""
@@ -183,6 +187,8 @@ class Substitution(Made):
 
 class TextSubstitution(Substitution):
     def __init__(self, *, text: str) -> None:
+        if isinstance(text, Anything):
+            text = str(text)
         if not isinstance(text, str):
             raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
         self.__text = text
@@ -388,7 +394,8 @@ def normalize_to_list_of_entities(entities: Any) -> list[Any]:
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    text: str = marked("".join([context.perform_substitution(sub) for sub in subs]))
+    performed = (context.perform_substitution(sub) for sub in subs)
+    text: str = marked("".join([str(part) if isinstance(part, Anything) else part for part in performed]))
     return text
 
 

@@ -21,7 +21,7 @@ from typing import Any, Callable, Optional
 
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from ..process import own_seconds
-from . import installed, programs, reads, rewrites, rewritten, unknown_files
+from . import installed, programs, reads, rewrites, rewritten, unknown_files, written
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .modules import install
 from .serialize import Serializer
@@ -30,6 +30,7 @@ MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log", programs.PRINTED)
+_NOT_DEFINED = re.compile(r"name '(\w+)' is not defined")
 _fork, _dup2 = os.fork, os.dup2
 _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
 
@@ -113,7 +114,7 @@ def _answer(work: Callable[[], dict[str, Any]]) -> tuple[str, Optional[dict[str,
 def _clean() -> None:
     """Remove what was written."""
     for path in _files():
-        os.unlink(path)
+        os.unlink(written.place(path))
 
 
 def _branch(branch: dict[str, Any]) -> Optional[str]:
@@ -138,12 +139,12 @@ def _branch(branch: dict[str, Any]) -> Optional[str]:
         finally:
             os._exit(0)
     _, status = os.waitpid(child, 0)
-    with open(answer, "rb") as written:
-        written.seek(0)
-        text = written.read().decode(errors="surrogatepass")
+    with open(answer, "rb") as told:
+        told.seek(0)
+        text = told.read().decode(errors="surrogatepass")
     after = _files()
     for path in after.keys() - before.keys():
-        os.unlink(path)
+        os.unlink(written.place(path))
     return text if text and not status and all(after.get(path) == known for path, known in before.items()) else None
 
 
@@ -154,6 +155,7 @@ def _in_branch(branch: dict[str, Any]) -> dict[str, Any]:
 
 def _write(files: dict[str, str]) -> None:
     for path, text in files.items():
+        os.makedirs(os.path.dirname(path), exist_ok=True)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
@@ -256,6 +258,8 @@ def _error_record(error: BaseException) -> dict[str, Any]:
         frames.append([error.filename, error.lineno or 1, ""])
     message = error.msg if isinstance(error, SyntaxError) else str(error)
     record: dict[str, Any] = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
+    if isinstance(error, NameError) and _is_set_somewhere(message):
+        record["elsewhere"] = True
     if isinstance(error, ImportError):
         record["module"] = error.name or ""
     if isinstance(error, OSError) and isinstance(error.filename, str):
@@ -267,6 +271,12 @@ def _error_record(error: BaseException) -> dict[str, Any]:
     if isinstance(error, NotHereError):
         record["refused"] = True
     return record
+
+
+def _is_set_somewhere(message: str) -> bool:
+    """Whether a branch that was not taken may have set a name of the launch file."""
+    name, text = _NOT_DEFINED.search(message), "".join(linecache.getlines(RECORDER.file))
+    return name is not None and re.search(rf"(?:^\s+|:\s*){name[1]}\s*=[^=]", text, re.MULTILINE) is not None
 
 
 def _of_ours(error: BaseException, message: str) -> bool:
@@ -292,7 +302,7 @@ def _files() -> dict[str, str]:
                 info = os.lstat(path)
                 if len(found) < MAX_FILES and stat.S_ISREG(info.st_mode) and info.st_size <= MAX_FILE_BYTES:
                     with open(path, encoding="utf-8") as file:
-                        found[path] = file.read()
+                        found[written.own_path(path)] = file.read()
             except (OSError, ValueError):
                 continue
     return found

@@ -8,20 +8,29 @@ from __future__ import annotations
 
 import importlib
 import os
+import re
 import shlex
 import shutil
 import sys
 import tempfile
 from typing import Any
 
-from ..anything import is_unknown, unknown_text
+from .. import anything
+from ..anything import unknown_text
 from ..missing_modules import provided_for
-from .base import RECORDER, is_own
+from .base import OURS, RECORDER, is_own
 
 PRINTED = "preflight_printed"
 """The folder, in the one of temporary files, that has what such programs print."""
 _ERRORS = ("FileNotFoundError", "OSError", "CalledProcessError")
 _OF_SHELLS = frozenset("|&;<>$`(){}*?~#\n")
+_JOINS = re.compile(r"[|&;\n]+")
+_PROGRAM = re.compile(r"\s*(?:\w+=\S*\s+)*([A-Za-z][\w.+-]*)(?=\s|$)")
+_BUILT_IN = frozenset(
+    ("cd", "eval", "exec", "exit", "export", "for", "if", "read", "set", "source", "then", "unset", "while")
+)
+_THROUGH = ("subprocess", "os")
+"""Modules that start programs for others."""
 
 
 def install(subprocess: Any) -> None:
@@ -35,11 +44,28 @@ def install(subprocess: Any) -> None:
     subprocess.Popen = Popen
 
 
-def is_missing(line: Any, frame: Any) -> bool:
-    """Whether a command line names a program that is not installed here, and nobody provides for that."""
+def is_unknown(line: Any, frame: Any) -> bool:
+    """Whether a command line names a program that is not installed here, of which nobody knows what it prints, and
+    nobody provides for that."""
+    return not _is_own_xacro(_words(line)) and _is_missing(line, frame)
+
+
+def _is_own_xacro(words: list[str]) -> bool:
+    return bool(words) and words[0] == "xacro" and bool(RECORDER.own_xacro)
+
+
+def _is_missing(line: Any, frame: Any) -> bool:
     words = _words(line)
     missing = bool(words) and os.sep not in words[0] and shutil.which(words[0]) is None
-    return missing and not provided_for(frame, _ERRORS)
+    return (missing or _shell_lacks(line)) and not provided_for(frame, _ERRORS)
+
+
+def _shell_lacks(line: Any) -> bool:
+    """Whether a text that only a shell understands names a program that is not installed here."""
+    if not isinstance(line, str) or _OF_SHELLS.isdisjoint(line):
+        return False
+    programs = [found[1] for found in map(_PROGRAM.match, _JOINS.split(line)) if found is not None]
+    return any(each not in _BUILT_IN and shutil.which(each) is None for each in programs)
 
 
 def _words(line: Any) -> list[str]:
@@ -55,15 +81,14 @@ def _words(line: Any) -> list[str]:
 def _there(line: Any, frame: Any) -> Any:
     """A command line that prints what the one that is given would."""
     words = _words(line)
-    is_xacro = bool(words) and words[0] == "xacro" and bool(RECORDER.own_xacro)
-    while is_xacro and frame.f_back is not None and not is_own(frame):
+    while frame.f_back is not None and _starts_for_others(frame):
         frame = frame.f_back  # `check_output` and the like
-    if not is_own(frame) or not is_missing(line, frame):
+    if not is_own(frame) or not _is_missing(line, frame):
         return line
-    text = _of_xacro(words[1:]) if is_xacro else None
+    text = _of_xacro(words[1:]) if _is_own_xacro(words) else None
     if text is None:
         RECORDER.unknown = True
-        text = unknown_text(f"{words[0]} ...")
+        text = unknown_text(f"{words[0]} ..." if words else str(line))
     folder = os.path.join(tempfile.gettempdir(), PRINTED)
     os.makedirs(folder, exist_ok=True)
     handle, path = tempfile.mkstemp(dir=folder)
@@ -73,9 +98,13 @@ def _there(line: Any, frame: Any) -> Any:
     return shlex.join(prints) if isinstance(line, str) else prints
 
 
+def _starts_for_others(frame: Any) -> bool:
+    return frame.f_globals.get("__name__") in _THROUGH or frame.f_code.co_filename.startswith(OURS)
+
+
 def _of_xacro(words: list[str]) -> Any:
     """What it prints; None if that is not known."""
-    if any(map(is_unknown, words)):
+    if any(map(anything.is_unknown, words)):
         return None
     given = dict(word.split(":=", 1) for word in words if ":=" in word)
     files = [word for word in words if ":=" not in word and not word.startswith("-")]

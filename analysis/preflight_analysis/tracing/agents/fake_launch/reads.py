@@ -11,12 +11,13 @@ import os
 import sys
 from typing import Any, Callable, Iterator, Optional
 
-from ..anything import is_unknown
-from .base import RECORDER
+from ..anything import Anything, is_unknown
+from .base import RECORDER, is_own
 
 _STARTS_PROCESSES = ("subprocess.Popen", "os.system", "os.exec", "os.fork", "os.forkpty", "os.posix_spawn", "os.spawn")
 """Events of `sys.audit` by which another program gets the whole environment."""
-_BY_NAME = ("__getitem__", "__contains__", "__setitem__", "__delitem__", "get", "setdefault", "pop")
+_BY_NAME = ("__setitem__", "__delitem__", "setdefault", "pop")
+_CONFIGURATION = "the launch configuration"
 _AS_A_WHOLE = (
     *("__iter__", "__len__", "__reversed__", "__eq__", "__ne__", "__repr__", "__or__", "__ror__", "__ior__"),
     *("clear", "copy", "items", "keys", "popitem", "update", "values"),
@@ -77,6 +78,25 @@ def install() -> None:
     sys.addaudithook(_audited)
 
 
+def _looked_for(method: Any) -> Any:
+    """What asks for a launch configuration that nobody sets: a launch file that raises without has one that is not
+    known, as includers may set it."""
+
+    def called(self: Any, name: Any, *default: Any) -> Any:
+        self.preflight_read(name)
+        frame = sys._getframe(1)
+        is_lacking = isinstance(name, str) and not dict.__contains__(self, name) and is_own(frame)
+        if not is_lacking or any(default) or not RECORDER.answers.is_set(f"{_CONFIGURATION} {name}", frame):
+            return method(self, name, *default)
+        if method is dict.__getitem__:
+            RECORDER.miss("configuration", name)
+        else:
+            RECORDER.note_guess(name, frame)
+        return True if method is dict.__contains__ else Anything(name)
+
+    return called
+
+
 def _by_name(method: Any, read: Callable[[Any, Any], None]) -> Any:
     def called(self: Any, name: Any, *args: Any) -> Any:
         read(self, name)
@@ -108,6 +128,8 @@ def _audited(event: str, _: Any) -> None:
         _read_variables()
 
 
+for _name in ("__getitem__", "__contains__", "get"):
+    setattr(Configurations, _name, _looked_for(getattr(dict, _name)))
 for _name in _BY_NAME:
     setattr(Configurations, _name, _by_name(getattr(dict, _name), Configurations.preflight_read))
 for _name in _AS_A_WHOLE:

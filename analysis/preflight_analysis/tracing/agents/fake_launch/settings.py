@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Iterable, Optional
 
+from ..anything import is_unknown
 from .base import Action, Substitution, normalize_to_list_of_substitutions
 
 
@@ -28,8 +29,9 @@ class DeclareLaunchArgument(Action):
         if self.__choices is not None:
             if not self.__choices:
                 raise RuntimeError("Provided choices arg is empty. Use None to ignore the choice list.")
-            literal = default_value is not None and not isinstance(default_value, (Substitution, list))
-            if literal and default_value not in self.__choices:
+            literal = isinstance(default_value, str) and not is_unknown(default_value)
+            is_known = literal and all(isinstance(each, str) and not is_unknown(each) for each in self.__choices)
+            if is_known and default_value not in self.__choices:
                 raise RuntimeError(
                     f'Provided default_value "{default_value}" is not in provided choices "{self.__choices}".'
                 )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import builtins
 import functools
+import glob
 import importlib.abc
 import importlib.util
 import io
@@ -15,30 +16,34 @@ import os
 import pathlib
 import sys
 import xml.dom.minidom
-from typing import Any, Callable
+from typing import Any, Callable, Iterator
 
-from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, unknown_text
+from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, readable, unknown_text
 from ..missing_modules import provided_for
-from . import programs
+from . import programs, written
 from .base import OURS, RECORDER, is_own
 
 _PARSERS = {
+    "ast": ("literal_eval",),
     "json": ("load", "loads"),
     "re": ("findall", "finditer", "fullmatch", "match", "search", "split", "sub"),
     "yaml": ("load", "safe_load", "full_load", "unsafe_load", "load_all", "safe_load_all"),
-    "xacro": ("process_file", "parse", "process_doc"),
+    "socket": ("gethostbyname", "getaddrinfo", "getfqdn"),
+    "tomllib": ("load", "loads"),
+    "xacro": ("process", "process_file", "parse", "process_doc"),
     "xml.dom.minidom": ("parse", "parseString"),
     "xml.etree.ElementTree": ("parse", "fromstring"),
-    "subprocess": ("check_output", "run", "check_call", "call"),
+    "subprocess": ("check_output", "run", "check_call", "call", "getoutput", "getstatusoutput"),
 }
 """Functions whose value is unknown where something of what they are given is."""
+_SYSTEM_ERRORS = ("OSError", "IOError", "error", "gaierror", "herror", "timeout")
 _MAPPINGS = ("_collections_abc", "collections.abc", "os")
 """Which ask for a variable to tell whether it is there."""
 
 
 def install() -> None:
     """From now on what is unknown is there."""
-    open_file = io.open
+    open_file = written.install(io.open)
 
     def opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
         if not _is_of_unknown(file):
@@ -53,8 +58,19 @@ def install() -> None:
         setattr(os.path, name, _true(getattr(os.path, name)))
     for name in ("exists", "is_file", "is_dir"):
         setattr(pathlib.Path, name, _true(getattr(pathlib.Path, name)))
-    os.listdir = _empty(os.listdir)
+    os.listdir = _instead(os.listdir, lambda folder: [_in(folder)], list)
+    os.walk = _instead(os.walk, lambda folder: [(folder, [], [_in(folder)])], list)
+    os.scandir = _instead(os.scandir, lambda folder: Anything(f"scandir({folder})"), list)
+    glob.glob = _instead(glob.glob, lambda pattern: [_in(pattern)], list)
+    for name in ("glob", "rglob", "iterdir"):
+        setattr(pathlib.Path, name, _instead(getattr(pathlib.Path, name), _paths_in, _no_paths))
+    for name in ("getsize", "getmtime", "getctime", "getatime"):
+        setattr(os.path, name, _unasked(getattr(os.path, name), _about))
+    os.stat = _unasked(os.stat, _about)
+    setattr(pathlib.Path, "stat", _unasked(pathlib.Path.stat, _about))  # noqa: B010, mypy holds methods to be fixed
+    os.chdir = _unasked(os.chdir, lambda _: None)
     builtins.input = _asked
+    os.getlogin = _answered(os.getlogin)
     environment: Any = type(os.environ)
     environment.__getitem__ = _variable(environment.__getitem__)
     _look_for_variables(environment)
@@ -95,8 +111,12 @@ def _guard(module: Any, names: Any) -> None:
     if module.__name__ == "yaml":
         for representer in (module.representer.SafeRepresenter, module.representer.Representer):
             representer.add_representer(UnknownText, module.representer.SafeRepresenter.represent_str)
+            representer.add_representer(Anything, lambda to, value: to.represent_str(str(value)))
     elif module.__name__ == "subprocess":
         programs.install(module)
+    elif module.__name__ == "socket":
+        for name in names:
+            setattr(module, name, _answered(getattr(module, name)))
     elif module.__name__ == "json":
         module.JSONEncoder.default = _as_json(module.JSONEncoder.default)
     for name in names:
@@ -118,14 +138,12 @@ def _guarded(function: Any, name: str) -> Any:
             return function(*args, **kwargs)
         if any(map(_is_of_unknown, args)) or any(map(_is_of_unknown, kwargs.values())):
             return unknown()
-        try:
-            return function(*args, **kwargs)
-        except FileNotFoundError:
-            line = args[0] if args else kwargs.get("args")
-            if not name.startswith("subprocess.") or not programs.is_missing(line, frame):
-                raise
+        line = args[0] if args else kwargs.get("args")
+        if name.startswith("subprocess.") and programs.is_unknown(line, frame):
             RECORDER.unknown = True
             return unknown()
+        try:
+            return function(*args, **kwargs)
         except Exception as error:
             if BEGIN not in str(error) and not name.startswith("xacro."):
                 raise
@@ -171,20 +189,60 @@ def _is_of_unknown(value: Any) -> bool:
 
 
 def _true(function: Callable[..., bool]) -> Any:
-    return _instead(function, lambda: True)
+    return _instead(function, lambda _: True, lambda: False)
 
 
-def _empty(function: Any) -> Any:
-    return _instead(function, list)
+def _in(folder: Any) -> str:
+    """The name of a file in a folder, or of the path that a pattern fits."""
+    return unknown_text(f"a file in {readable(os.fspath(folder))}")
 
 
-def _instead(function: Any, value: Callable[[], Any]) -> Any:
+def _about(path: Any) -> Any:
+    return Anything(f"stat({path})")
+
+
+def _paths_in(folder: Any) -> Iterator[Any]:
+    return iter([folder / _in(folder)])
+
+
+def _no_paths() -> Iterator[Any]:
+    return iter([])
+
+
+def _instead(function: Any, there: Callable[[Any], Any], not_there: Callable[[], Any]) -> Any:
+    """What is asked of a path that is not known: as if it were there, or the other way round."""
+
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
         if not args or not _is_of_unknown(args[0]):
             return function(*args, **kwargs)
-        frame = sys._getframe(1)
-        return value() if asked(f"{function.__name__}({args[0]})", frame) else function(*args, **kwargs)
+        is_there = asked(f"{function.__name__}({args[0]})", sys._getframe(1))
+        return there(args[0]) if is_there else not_there()
+
+    return called
+
+
+def _unasked(function: Any, value: Callable[[Any], Any]) -> Any:
+    @functools.wraps(function)
+    def called(path: Any, *args: Any, **kwargs: Any) -> Any:
+        is_own_path = _is_of_unknown(path) and is_own(sys._getframe(1))
+        return value(path) if is_own_path else function(path, *args, **kwargs)
+
+    return called
+
+
+def _answered(function: Any) -> Any:
+    """What the sandbox does not tell: who is logged in, and which addresses the network has."""
+
+    @functools.wraps(function)
+    def called(*args: Any, **kwargs: Any) -> Any:
+        try:
+            return function(*args, **kwargs)
+        except OSError:
+            if provided_for(sys._getframe(1), _SYSTEM_ERRORS):
+                raise
+        RECORDER.unknown = True
+        return marked(unknown_text(f"{function.__name__}()"))
 
     return called
 
