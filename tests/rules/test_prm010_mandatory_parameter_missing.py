@@ -82,3 +82,37 @@ def test_a_node_that_died_of_a_misspelt_parameter_is_told_where_it_is_written() 
     """
     finding = next(f for f in check(text) if f.rule == "PRM010")
     assert '<param name="sample_rate"' in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+def test_a_type_alone_in_the_source_of_a_node_of_ros_2() -> None:
+    (finding,) = check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="guide" name="guide"><param name="gain" value="1.5"/></node>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] parameters 'file' and 'step' by their type alone, and
+        </launch>
+        //- interfaces
+        {"/guide": {"source": "source", "params": {"~gain": null, "~step": null, "~file": null, "~rate": 1.0}}}
+    """)
+    assert finding.confidence == "likely"
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "node",
+    [
+        '<node pkg="p" exec="guide" name="guide"><param name="step" value="1.5"/></node>',
+        '<node pkg="p" exec="guide" name="guide" args="--params-file /somewhere"/>',
+        '<node pkg="p" exec="guide" name="guide"><param from="$(env NOT_SET)"/></node>',
+    ],
+)
+def test_nothing_is_missing_where_something_may_set_it(node: str) -> None:
+    found = findings_of(f"""
+        //- /robot.launch.xml
+        <launch>
+          {node}
+        </launch>
+        //- interfaces
+        {{"/guide": {{"source": "source", "params": {{"~step": null}}}}}}
+    """)
+    assert not [each for each in found if each.rule == "PRM010"]

@@ -491,6 +491,7 @@ def test_ways_to_declare_parameters(harness: Harness) -> None:
         "~tolerance": 0.2,
     }
     assert [use.name for use in found.params if not use.has_default] == ["~frame", "~typed"]
+    assert [use.name for use in found.params if use.mandatory] == ["~frame"]
     assert found.endpoints[0].name == "a7"
 
 

@@ -241,8 +241,8 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
-    [0, 10], ...}}` of them; `status`, `exit_code`, `reason`, `stderr`, `notes`, `answers`, `lacks`; `md5`
-    `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and
+    [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
+    `answers`, `lacks`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and
     `on_demand`, lists of names; `nodes`, those that the process makes, with the fields of `MadeNode`."""
     made = data.get("made", {})
     endpoints = [
@@ -278,7 +278,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         answers=tuple(data.get("answers", ())),
         lacks=data.get("lacks"),
     )
-    source = "none" if outcome.status == "not-run" else "trace"
+    source = data.get("source", "none" if outcome.status == "not-run" else "trace")
     nodes = tuple(MadeNode(**node) for node in data.get("nodes", ()))
     return Interface(
         source,

@@ -6,17 +6,22 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFound, UnreadableParameterFile
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.missing_params import missing_params
-from preflight_analysis.rules.nearest import likeness
+from preflight_analysis.rules.nearest import likeness, nearest
 from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
 from preflight_analysis.rules.places import related_param_read
-from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.problems import include_chain, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import unread_params
 from preflight_analysis.tracing.interface import Interface, ParamUse
+
+_UNREAD = (ParameterFileNotFound, UnreadableParameterFile, BadYaml)
+_WITH_ZEROS = ("dashing", "eloquent", "foxy")
+"""Distributions in which a parameter that is declared by its type alone begins with a zero of it."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -62,6 +67,7 @@ def _hint(rule: Rule, node: LaunchNode, params: tuple[str, ...]) -> Finding:
 def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
     """Nodes that ended for a parameter that has to be set. Of a name that was meant for it PRM013 says more."""
     refusals = context.kept.each(_refusals, graph.interfaces)
+    yield from _of_sources(rule, context, graph)
     for node, uses in zip(graph.tree.nodes, refusals, strict=True):
         given = {f"~{param.name}" for param in node.params} if uses else ()
         for use in uses:
@@ -75,6 +81,40 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
                 confidence="likely",
                 related=include_chain(node.origin),
             )
+
+
+def _of_sources(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
+    """Nodes whose source declares, whatever the launch sets, a parameter by its type alone. Nothing is said where not
+    all that they get is known."""
+    needed = context.kept.each(_needed, graph.interfaces)
+    if not any(needed) or context.environment.distro in _WITH_ZEROS:
+        return
+    if any(each.fatal for each in graph.tree.problems) or any(problems_of(context, *_UNREAD)):
+        return
+    unknown = {each.location.file for each in graph.tree.unknowns}
+    for node, interface, uses in zip(graph.tree.nodes, graph.interfaces, needed, strict=True):
+        given = {f"~{param.name}" for param in node.params} if uses else set[str]()
+        names_missing = sorted({use.name for use in uses} - given)
+        if not names_missing or node.unknowns or "--" in node.args or unknown.intersection(p.file for p in node.origin):
+            continue
+        declared = {use.name for use in interface.params}
+        if any(nearest(name, names_missing) for name in given - declared):
+            continue  # PRM013 says it at the name that was meant for it
+        one = len(names_missing) == 1
+        yield rule.finding(
+            f"{node.name} declares parameter{'' if one else 's'} {quoted([name[1:] for name in names_missing])} by "
+            f"{'its' if one else 'their'} type alone, and nothing sets {'it' if one else 'them'}: rclcpp throws an "
+            "exception there",
+            node.location,
+            confidence="likely",
+            related=include_chain(node.origin),
+        )
+
+
+def _needed(interface: Interface) -> tuple[ParamUse, ...]:
+    if interface.source != "source":
+        return ()
+    return tuple(use for use in interface.params if use.mandatory and not use.conditional and use.name.startswith("~"))
 
 
 def _refusals(interface: Interface) -> tuple[ParamUse, ...]:
@@ -137,10 +177,11 @@ RULE = Rule(
     name="mandatory-parameter-missing",
     severity="warning",
     what="Reports a parameter that a node reads without giving a default and that the launch does not set. In ROS 2 it "
-    "is an error where the node was run and ended because of it. In ROS 1 it is a warning where the node ended because "
-    "of it, shown at the parameter that was meant if one is set under a like name or in a namespace around; otherwise "
-    "a hint, as the node may cope. Where the node goes on, and a parameter that nobody reads was meant, PRM001 says "
-    "so.",
+    "is an error where the node was run and ended because of it, and a warning where the source of a node in C++ "
+    "declares it by its type alone, in a line that no condition decides. In ROS 1 it is a warning where the node ended "
+    "because of it, shown at the parameter that was meant if one is set under a like name or in a namespace around; "
+    "otherwise a hint, as the node may cope. Where the node goes on, and a parameter that nobody reads was meant, "
+    "PRM001 says so.",
     why="rospy raises a KeyError; in roscpp the variable keeps whatever it had. rclcpp raises an exception where the "
     "parameter is declared with a type alone and has no value, and most nodes end by it.",
     example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'
