@@ -1,5 +1,7 @@
 """ARG008: an argument that its file declares and does not use."""
 
+from pathlib import Path
+
 import pytest
 from support.check import apply, check
 
@@ -220,4 +222,39 @@ def test_an_argument_that_is_passed_and_may_be_used_further_on_in_ros_2() -> Non
         </launch>
         //- /other.launch.xml
         <launch><log message="$(var speed)"/></launch>
+    """)
+
+
+@pytest.mark.parametrize(
+    ("include", "said"),
+    [
+        (
+            '"$(find p)/sensors.launch"> <arg name="camera" value="1"/> </include>',
+            "warning[ARG008] 'camera' has no effect",
+        ),
+        (
+            '"$(find p)/sensors.launch"> <arg name="other" value="1"/> </include>',
+            "hint[ARG008] declared and never used",
+        ),
+        (
+            '"$(arg p)/sensors.launch"> <arg name="camera" value="1"/> </include>',
+            "hint[ARG008] declared and never used",
+        ),
+        (
+            '"$(find p)/more_sensors.launch"> <arg name="camera" value="1"/> </include>',
+            "hint[ARG008] declared and never",
+        ),
+    ],
+)
+def test_an_argument_that_another_launch_passes(tmp_path: Path, include: str, said: str) -> None:
+    (tmp_path / "teleop.launch").write_text(f"<launch><include file={include}</include></launch>")
+    (tmp_path / "sensors.launch").touch()
+    check(f"""
+        //- {tmp_path}/sensors.launch
+        <launch>
+          <arg name="camera" default="true"/>
+                     ^^^^^^ {said}
+        </launch>
+        //- {tmp_path}/package.xml
+        <package><name>p</name></package>
     """)

@@ -1,7 +1,9 @@
 """ARG008: an argument that its file declares and does not use."""
 
+import os
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.dataclass import dataclass
@@ -16,6 +18,7 @@ from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.rules.arguments import declarations, pass_on
 from preflight_analysis.rules.problems import problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.written_elsewhere import in_package
 
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
 _EVAL = re.compile(r"\$\(\s*eval\b(.*)", re.DOTALL)
@@ -30,6 +33,7 @@ _WITHOUT_NAMES = sys.stdlib_module_names | {
     "xacro", "yaml",
 }  # fmt: skip
 """Modules that take arguments by no name of their own."""
+_GIVEN = re.compile(r"""<arg\s[^<>]*?\bname\s*=\s*["'](\w+)["'][^<>]*?\bvalue\s*=""")
 _FALSE = ("false", "0", "")
 _FIXED = ("find", "find-pkg-share", "dirname", "path-join")
 """Substitutions that give the same in every launch."""
@@ -64,6 +68,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 for include in {include.origin[-1]: include for include in givers}.values():
                     yield from _given_in_vain(rule, context, include, name, location)
             if givers:
+                continue
+            files = _passed_around(context, path)[name]
+            if files and not any(tag.value("value") is not None for tag in tags):
+                yield rule.finding(
+                    f"argument '{name}' has no effect: {_who_passes(files)}, and this file never uses it",
+                    location,
+                    severity="warning",
+                )
                 continue
             edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
             remove = Fix(f"Remove the declaration of '{name}'", edits)
@@ -104,6 +116,21 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
                 severity="warning",
                 related=(Related("declared here", declared),),
             )
+
+
+def _passed_around(context: Context, path: str) -> Counter[str]:
+    """How many launch files of the package that include the file by its place in a package pass it each argument."""
+    name = re.escape(os.path.basename(path))
+    pattern = re.compile(rf"""\$\(find \w+\)[\w./-]*/{name}["'][^<>]*>((?:\s*<arg\b[^<>]*>)+)""")
+    found: Counter[str] = Counter()
+    for text, count in in_package(context, (pattern,)).items():
+        for given in set(_GIVEN.findall(text)):
+            found[given] += count
+    return found
+
+
+def _who_passes(files: int) -> str:
+    return "a launch file of the package passes it" if files == 1 else f"{files} launch files of the package pass it"
 
 
 def _declared_below(context: Context, path: str, name: str) -> tuple[Include, Location] | None:
@@ -274,7 +301,8 @@ RULE = Rule(
     'with `subst_value="true"`, under whatever conditions, and by no include with `pass_all_args`. One that an '
     "include passes is left alone: without the declaration that include would fail. In ROS 2, where all that is "
     "included knows it, only in a launch of one file. An include that passes an argument which the included file "
-    "declares and never uses is a warning.",
+    "declares and never uses is a warning, which stands at the declaration where that include is of another launch of "
+    "the package.",
     why="Whoever sets it on the command line believes that it has an effect. An argument is known only in the file "
     "that declares it; what that file includes gets it only if it is passed.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',
