@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from preflight_analysis.rules.nearest import likeness, nearest
+from preflight_analysis.rules.nearest import is_word_more, likeness, nearest
 
 
 @pytest.mark.parametrize(
@@ -58,3 +58,19 @@ graph_names = st.lists(st.from_regex(r"[a-z][a-z0-9_]{0,6}", fullmatch=True), mi
 @given(graph_names, graph_names)
 def test_likeness_is_symmetric(name: str, other: str) -> None:
     assert likeness(name, other) == likeness(other, name)
+
+
+@pytest.mark.parametrize(
+    ("name", "other", "expected"),
+    [
+        ("/robot_base_controller/odom", "/robot_xl_base_controller/odom", True),
+        ("/ns/arm_controller/state", "/ns/left_arm_controller/state", True),
+        ("/camera/image", "/front_camera/image", False),
+        ("/laser/base_scan", "/laser/base_scan_filtered", False),
+        ("/robot_base_controller/odom", "/robot_xl_base_controller/odometry", False),
+        ("/robot_base_controller/odom", "/base_robot_xl_controller/odom", False),
+        ("/robot_base_controller/odom", "/ns/robot_base_controller/odom", False),
+    ],
+)
+def test_a_namespace_of_a_word_more(name: str, other: str, expected: bool) -> None:
+    assert is_word_more(name, other) == is_word_more(other, name) == expected

@@ -244,6 +244,21 @@ def test_in_an_incomplete_graph_a_near_miss_is_less_sure_and_says_why() -> None:
     assert "(1 of them not fully known)" in finding.message
 
 
+def test_a_namespace_of_a_word_more_is_evidence_even_where_not_all_nodes_are_known() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="ekf"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] did you mean '/robot_xl_base_controller/odom'
+          <node pkg="p" type="t" name="robot_xl_base_controller"/>
+          <node pkg="p" type="t" name="unknown"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC004]
+        </launch>
+        //- interfaces
+        {"/ekf": {"subscribers": {"/robot_base_controller/odom": "nav_msgs/Odometry"}},
+         "/robot_xl_base_controller": {"publishers": {"~odom": "nav_msgs/Odometry"}}}
+    """)
+
+
 @pytest.mark.silent
 def test_what_lives_outside_of_most_launches_may_dangle() -> None:
     check("""

@@ -1,5 +1,7 @@
 """TOP004: a remap of a name that its node does not use."""
 
+import json
+
 import pytest
 from support.check import apply, check, findings_of
 
@@ -169,3 +171,25 @@ def test_a_remap_of_an_actions_name_has_an_effect() -> None:
                                   "move_base/feedback": "m/GoActionFeedback", "move_base/result": "m/GoActionResult"},
                    "subscribers": {"move_base/goal": "m/GoActionGoal", "move_base/cancel": "actionlib_msgs/GoalID"}}}
     """)
+
+
+@pytest.mark.parametrize(
+    ("args", "more"),
+    [("", {}), ("/in1", {}), ("", {"params": {"/": {"access": "list"}}})],
+)
+def test_a_node_that_the_catalogue_has(args: str, more: dict[str, object]) -> None:
+    interface = {
+        "source": "catalogue",
+        "status": "not-run",
+        "subscribers": {"joint_states": "sensor_msgs/JointState"},
+        **more,
+    }
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="state" name="state" args="{args}"><remap from="/base/cmd_vel" to="/cmd_vel"/></node>
+        </launch>
+        //- interfaces
+        {json.dumps({"/state": interface})}
+    """)
+    remaps = [each for each in found if each.rule == "TOP004"]
+    assert [(each.severity, each.confidence) for each in remaps] == ([] if args or more else [("info", "possible")])

@@ -242,8 +242,9 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
-    `answers`, `lacks`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`, `speculative` and
-    `on_demand`, lists of names; `nodes`, those that the process makes, with the fields of `MadeNode`."""
+    `answers`, `lacks`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`,
+    `speculative` and `on_demand`, lists of names; `nodes`, those that the process makes, with the fields of `MadeNode`.
+    """
     made = data.get("made", {})
     endpoints = [
         Endpoint(

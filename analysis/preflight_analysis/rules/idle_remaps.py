@@ -18,6 +18,9 @@ from preflight_analysis.rules.well_known import is_transform
 from preflight_analysis.tracing.interface import Interface
 
 _TOPIC_ROLES = ("publisher", "subscriber")
+BY_CATALOGUE = "by what the catalogue has of it"
+_BY_RUN = "before its event loop"
+_KNOWN_BY = {"source": "in its source", "catalogue": BY_CATALOGUE}
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +29,8 @@ class IdleRemap:
 
     remap: Remap
     nodes: tuple[LaunchNode, ...]
-    of_source: bool
-    """Whether the nodes are known from their source alone."""
+    known_by: str
+    """How the names of the nodes are known, as a message says it."""
     meant: Connection | None = None
     """The end of the first node that it was most likely meant for."""
     partner: Connection | None = None
@@ -41,7 +44,7 @@ class _Reached:
     remap: Remap
     node: LaunchNode
     has_effect: bool
-    of_source: bool
+    known_by: str
 
 
 def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
@@ -71,9 +74,9 @@ def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
     if not node.remaps:
         return ()
     used = _used(node, interface) if _reports_names(node, interface) else None
-    of_source = interface.source == "source"
+    known_by = _KNOWN_BY.get(interface.source, _BY_RUN)
     return tuple(
-        _Reached(remap, node, used is None or not _has_no_effect(remap, node, used), of_source) for remap in node.remaps
+        _Reached(remap, node, used is None or not _has_no_effect(remap, node, used), known_by) for remap in node.remaps
     )
 
 
@@ -85,7 +88,9 @@ def _idle(reached: tuple[_Reached, ...]) -> IdleRemap | None:
     """What is to say of a tag, of all nodes that it reaches; nothing where it has an effect at any."""
     if any(each.has_effect for each in reached):
         return None
-    return IdleRemap(reached[0].remap, tuple(each.node for each in reached), all(each.of_source for each in reached))
+    ways = {each.known_by for each in reached}
+    known_by = _BY_RUN if len(ways) > 1 else reached[0].known_by
+    return IdleRemap(reached[0].remap, tuple(each.node for each in reached), known_by)
 
 
 def _own_ends(channel: Channel) -> tuple[Connection, ...]:
@@ -132,13 +137,20 @@ def _meaning(
 
 
 def _reports_names(node: LaunchNode, interface: Interface) -> bool:
-    """Whether a run showed, or the source tells, all names that the node uses. One that made nothing of its own is a
-    wrapper or a loader of something else, whose names nobody saw."""
-    if interface.declared or not interface.known_in_full or node.unknowns:
+    """Whether a run showed, or the source or the catalogue tells, all names that the node uses. One that made nothing
+    of its own is a wrapper or a loader of something else, whose names nobody saw."""
+    known = interface.known_in_full or (interface.source == "catalogue" and not node.args and _is_plain(interface))
+    if interface.declared or not known or node.unknowns:
         return False
     if node.package == "nodelet":
         return False  # those of images subscribe only while somebody reads what they make of it
     return any(not (e.builtin or e.speculative) for e in interface.endpoints)
+
+
+def _is_plain(interface: Interface) -> bool:
+    """Whether the catalogue has a node of which no condition and no plugin decides what it does."""
+    decided = any(end.conditional for end in interface.endpoints) or any(use.conditional for use in interface.params)
+    return not decided and not any(use.access == "list" for use in interface.params)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Confidence, Severity
 from preflight_analysis.graph.model import Connection, Graph
-from preflight_analysis.rules.nearest import has_all_words
+from preflight_analysis.rules.nearest import has_all_words, is_word_more
 
 Evidence = Literal["typo", "slash", "level", "words"]
 """How two names are alike, the strongest first. `typo` and `words` as in `nearest`. `slash`: one end was given an
@@ -80,12 +80,17 @@ def weight(near: NearMiss, complete: bool, likely_complete: bool) -> tuple[Sever
     connections = (near.consumer.endpoint, near.provider.endpoint)
     speculative = any(connection.uncertain for connection in connections)
     sure = complete and near.same_type and not speculative
-    alike = near.likeness == "typo" or (near.provider_dangles and likely_complete and not _of_another_node(near))
+    lone = near.provider_dangles and not _of_another_node(near)
+    alike = near.likeness == "typo" or (lone and (likely_complete or is_word_more(*_both_names(near))))
     evidence = near.same_type and alike
     severity: Severity = (
         "info" if any(connection.assumed or connection.on_demand for connection in connections) else "warning"
     )
     return severity if evidence else "hint", "likely" if sure else "possible"
+
+
+def _both_names(near: NearMiss) -> tuple[str, str]:
+    return near.consumer.name, near.provider.name
 
 
 def _of_another_node(near: NearMiss) -> bool:

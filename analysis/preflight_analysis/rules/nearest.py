@@ -141,6 +141,19 @@ def has_all_words(name: str, other: str) -> bool:
     return mine <= theirs or theirs <= mine
 
 
+def is_word_more(name: str, other: str) -> bool:
+    """Whether the names differ in one namespace alone, which has a word more in one of them, and several in both:
+    `/robot_base_controller/odom`, `/robot_xl_base_controller/odom`. A word more at the end of a name (`scan_filtered`)
+    is mostly another thing."""
+    parts, others = _segments(name), _segments(other)
+    pairs = [(a, b) for a, b in zip(parts, others, strict=False) if a != b]
+    if len(parts) != len(others) or len(pairs) != 1 or parts[-1] != others[-1]:
+        return False
+    short, long = sorted((_words(each) for each in pairs[0]), key=len)
+    rest = iter(long)
+    return len(short) > 1 and len(long) == len(short) + 1 and all(word in rest for word in short)
+
+
 def share_words(name: str, other: str) -> bool:
     """Whether a word is in both names. Numbers are none."""
     return not _plain_words(name).isdisjoint(_plain_words(other))

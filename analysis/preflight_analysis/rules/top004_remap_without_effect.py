@@ -9,7 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.idle_remaps import IdleRemap, idle_remaps
+from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps
 from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -30,9 +30,9 @@ def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
     message = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
     if meant is None:
         return rule.finding(
-            f"{message} {'in its source' if idle.of_source else 'before its event loop'}",
+            f"{message} {idle.known_by}",
             remap.source_location,
-            severity="hint",
+            severity="info" if idle.known_by == BY_CATALOGUE else "hint",
             confidence="possible",
             related=include_chain(remap.origin),
         )
@@ -75,8 +75,9 @@ RULE = Rule(
     what="Reports a remap whose `from` is no topic, service or parameter of the nodes that it reaches, all of which "
     "were run to their event loop or tell all by their source. It is a warning that names what was probably meant where"
     " a node has a dangling end of a like name, or only one that fits what is there under the remap's `to`; "
-    "otherwise a hint, since a node or a library that it links may use the name later. Namespaces of names that are"
-    " used, and names below one, count as used: actions, image transports and `dynamic_reconfigure` make theirs so.",
+    "otherwise a hint, since a node or a library that it links may use the name later, and an information where the "
+    "catalogue has the node and nothing that decides what it does. Namespaces of names that are used, and names below "
+    "one, count as used: actions, image transports and `dynamic_reconfigure` make theirs so.",
     why="A remap of a name that does not occur is ignored without a word, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
     instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',
