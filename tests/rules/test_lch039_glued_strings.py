@@ -65,3 +65,19 @@ def test_what_is_broken_on_purpose() -> None:
                     "b")]),
             ])
     """)
+
+
+def test_values_of_a_parameter_without_a_comma() -> None:
+    check("""
+        <launch><rosparam command="load" file="/ekf.yaml"/></launch>
+        //- /ekf.yaml
+        odom0_config: [true, false, true
+        ^^^^^^^^^^^^ warning[LCH039] 'true' and 'false' are one text among the values of '/odom0_config'
+                       false, false]
+        gains: [1.0, 2 3e-1, 4]
+        ^^^^^ warning[LCH039] '2' and '3e-1' are one text
+        names: [a, b c]
+        mixed: [1, 2, "1 a"]
+        one: [1, "2 3"]
+        words: [true, false, "2 3"]
+    """)

@@ -6,6 +6,7 @@ import pytest
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.check import findings_of
 from support.demo_package import judge
 
 
@@ -131,3 +132,15 @@ def test_a_node_of_which_no_more_is_known_than_its_program(tmp_path: Path, name:
     (finding,) = (each for each in findings if each.rule == "PKG002")
     assert (finding.severity, finding.confidence) == ("error", "likely")
     assert "did you mean 'driver'?" in finding.message
+
+
+def test_a_blank_name() -> None:
+    (finding,) = (
+        each
+        for each in findings_of("""
+            //- /robot.launch.xml
+            <launch><node pkg="not_here" exec="  " name="spawner"/></launch>
+        """)
+        if each.rule == "PKG002"
+    )
+    assert (finding.severity, finding.message) == ("error", "the name of the executable is blank")

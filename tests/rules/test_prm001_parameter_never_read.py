@@ -309,3 +309,17 @@ def test_a_parameter_beside_its_node_that_says_nothing(value: str, reads: str) -
         {{"/n": {{"params": {reads}}}}}
     """
     assert findings_of(text) == []
+
+
+def test_a_name_as_on_the_command_line() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="unknown" name="laser"><param name="_firmware_version" value="2"/></node>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC004]
+                                                                 ^^^^^^^^^^^^^^^^^ warning[PRM001] is mostly
+          <node pkg="p" type="t" name="reads_it"><param name="_odd" value="2"/></node>
+          <param name="_of_no_node" value="2"/>
+        </launch>
+        //- interfaces
+        {"/reads_it": {"params": {"~_odd": 1}}}
+    """)

@@ -1,7 +1,7 @@
 """PRM013: a parameter that its node does not declare (ROS 2)."""
 
 import pytest
-from support.check import check
+from support.check import apply, check
 
 
 def test_a_parameter_that_is_not_declared() -> None:
@@ -97,3 +97,24 @@ def test_parameters_that_are_declared_or_may_be() -> None:
         {"/pump": {"params": {"~max_pressure": 6.0}},
          "/takes_all": {"params": {"~a": 1, "/": {"access": "list"}}}}
     """)
+
+
+def test_a_slip_of_what_each_node_has() -> None:
+    text = """
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="unknown" name="unknown">
+            <param name="use_sime_time" value="true"/>
+                         ^^^^^^^^^^^^^ warning[PRM013] 'use_sime_time' of /unknown is no 'use_sim_time'
+          </node>
+          <node pkg="p" exec="pump" name="pump">
+            <param name="use_simtime" value="true"/>
+                         ^^^^^^^^^^^ warning[PRM013] 'use_simtime' of /pump is no 'use_sim_time'
+          </node>
+          <node pkg="p" exec="own" name="own"><param name="use_sim_times" value="true"/></node>
+        </launch>
+        //- interfaces
+        {"/pump": {"params": {"~a": 1}}, "/own": {"params": {"~use_sim_times": false}}}
+    """
+    found = next(each for each in check(text) if "/unknown is" in each.message)
+    assert '<param name="use_sim_time" value="true"/>' in apply(text, found.fixes[0].edits)["/robot.launch.xml"]

@@ -96,3 +96,22 @@ def test_a_file_that_is_of_something_else(tmp_path: Path) -> None:
     assert not _with_files(
         tmp_path, "src/robot/docs/nav.yaml", "docs/config/nav.yaml", "src/robot/p/test/config/nav.yaml"
     )
+
+
+def test_a_controller_of_moveit_without_a_section() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch><node pkg="p" exec="e" name="move_group"><param from="/p/controllers.yaml"/></node></launch>
+        //- /p/controllers.yaml
+        move_group:
+          ros__parameters:
+            moveit_simple_controller_manager:
+              controller_names: ["arm_trajectory_controller"]
+              ^^^^^^^^^^^^^^^^ warning[PRM018] there is no 'moveit_simple_controller_manager.arm_trajectory_controller'
+              arm:
+                type: FollowJointTrajectory
+              other:
+                type: GripperCommand
+            other_manager:
+              controller_names: ["leg"]
+    """)

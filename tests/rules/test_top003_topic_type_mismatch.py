@@ -60,3 +60,18 @@ def test_any_type_fits_and_so_does_an_unknown_one() -> None:
         {"/a": {"publishers": {"pose": "x/Pose"}, "md5": {"pose": "11"}},
          "/b": {"subscribers": {"pose": "*"}, "md5": {"pose": "*"}}}
     """)
+
+
+def test_two_types_of_one_node() -> None:
+    found = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="simulator"><remap from="throttle" to="mast"/></node>
+          <node pkg="p" type="t" name="other"/>
+        </launch>
+        //- interfaces
+        {"/simulator": {"subscribers": {"mast": "x/Position", "throttle": "x/Throttle", "any": "*"}},
+         "/other": {"subscribers": {"mast": "x/Velocity"}}}
+    """)
+    (finding,) = (each for each in found if each.rule == "TOP003")
+    assert (finding.severity, finding.confidence) == ("error", "likely")
+    assert finding.message == "/simulator subscribes to '/mast' as x/Position and as x/Throttle"

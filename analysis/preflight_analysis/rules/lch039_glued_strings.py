@@ -1,9 +1,10 @@
-"""LCH039: two strings of a list between which the comma is missing."""
+"""LCH039: two items of a list between which the comma is missing."""
 
 from __future__ import annotations
 
 import ast
 import io
+import re
 import tokenize
 from collections.abc import Iterator
 
@@ -12,9 +13,13 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
-from preflight_analysis.rules.problems import quoted, shortened
+from preflight_analysis.rules.problems import include_chain, quoted, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
+_BOOLEAN = re.compile(r"true|false", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_PLAIN = 2
+"""How many items of a list have to be what the text is made of."""
 _BREAKS = "/_-.:,=@[](){}"
 """Where somebody breaks a long path, name or expression on purpose."""
 
@@ -28,6 +33,26 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 context.location(path, span),
                 confidence="likely",
                 fixes=(Fix("Insert the comma", (Edit(comma, ","),), True),),
+            )
+    if not context.tree.ros.own_parameters:
+        yield from _in_parameters(rule, context)
+
+
+def _in_parameters(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Lists of numbers, or of `true` and `false`, with one text that is made of several such. ROS 2 refuses them."""
+    for param in context.tree.all_params:
+        value = param.value
+        texts = [item for item in value if isinstance(item, str)] if isinstance(value, list) else []
+        if not isinstance(value, list) or not texts or len(value) - len(texts) < _PLAIN:
+            continue
+        kind = _BOOLEAN if any(isinstance(item, bool) for item in value) else _NUMBER
+        if all(len(text.split()) > 1 and all(map(kind.fullmatch, text.split())) for text in texts):
+            yield rule.finding(
+                f"{quoted(texts[0].split())} are one text among the values of '{param.name}': the comma between them "
+                "is missing",
+                param.place,
+                confidence="likely",
+                related=include_chain(param.origin),
             )
 
 
@@ -83,12 +108,12 @@ RULE = Rule(
     name="glued-strings",
     severity="warning",
     what="Reports two strings in a list in a Python launch file, between which there is no comma: Python makes one "
-    "string of them. Lists with texts that have blanks, and what is broken at a `/` or another sign, are left alone.",
+    "string of them. Lists with texts that have blanks, and what is broken at a `/` or another sign, are left alone. "
+    "In ROS 1 a list of a parameter file, too, in which one text is made of values like the others (`true false`).",
     why="The list has neither of the two: an argument refuses a value that seems to be among its choices, a node "
     "gets one word for two.",
     example='choices=["diff_drive" "mecanum", "tricycle"]',
     instead='choices=["diff_drive", "mecanum", "tricycle"]',
-    generations=(2,),
     check=_check,
     in_branches=True,
 )

@@ -25,6 +25,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables, known = context.executables, dict[tuple[str, str], _Program]()
     for node in context.tree.nodes:
         found = node.resolved
+        if node.executable.isspace() and not node.unknowns:
+            place = attribute_location(context, node, context.tree.ros.executable)
+            yield rule.finding("the name of the executable is blank", place, related=include_chain(node.origin))
+            continue
         if found.path is not None or found.package_path is None or not program_known(node):
             continue
         if node.kind == "composable":

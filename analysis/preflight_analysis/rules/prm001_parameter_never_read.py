@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Collection, Iterator
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import renamed
@@ -11,6 +13,8 @@ from preflight_analysis.rules.places import known_by_source, related_node, relat
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import Unread, unread_params
+
+_ARGUMENT = re.compile(r"_[A-Za-z]\w*")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -23,6 +27,29 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for each in unread:
         if each.meant is not None:
             yield _finding(rule, context, context.graph, each, each.meant)
+    explained = {each.param.name for each in unread}
+    yield from _as_on_the_command_line(rule, context, context.graph, explained)
+
+
+def _as_on_the_command_line(
+    rule: Rule, context: Context, graph: Graph, explained: Collection[str]
+) -> Iterator[Finding]:
+    """Parameters of a node whose names begin as private ones do among its arguments, be the node known or not."""
+    odd = [p for p in graph.tree.all_params if names.leaf(p.name).startswith("_") and p.name not in explained]
+    if not odd:
+        return
+    nodes, read = {node.name for node in graph.tree.nodes}, {each.name for each in graph.param_reads}
+    for param in odd:
+        above, _, leaf = param.name.rpartition("/")
+        if above in nodes and param.name not in read and _ARGUMENT.fullmatch(leaf):
+            yield rule.finding(
+                f"a parameter '{leaf}' is mostly '{leaf[1:]}': only among the arguments of a node private ones begin "
+                f"with '_' ('{leaf}:=...')",
+                param.place,
+                confidence="likely",
+                related=include_chain(param.origin),
+                fixes=renamed(context, param, f"{above}/{leaf[1:]}"),
+            )
 
 
 def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
@@ -79,7 +106,8 @@ RULE = Rule(
     what="Reports a parameter that no node reads. Where a node reads one of a like name that nothing sets, or the "
     "same name in another namespace (a level too many or too few, global instead of private), it is a warning that "
     "names both; otherwise a hint, and only for parameters of a node that is known to its event loop. Reading a "
-    "namespace as a whole reads all parameters in it.",
+    "namespace as a whole reads all parameters in it. A parameter of a node that begins with `_`, and that nobody is "
+    "known to read, is a warning, too: so they are written on the command line alone.",
     why="The node goes on with its default, and nothing says that the value of the launch file is not used.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
     instead='<param name="publish_objects" value="false"/>',

@@ -2,9 +2,9 @@
 
 from collections.abc import Collection, Iterator
 
-from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -13,6 +13,7 @@ from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _OF_ALL_NODES = frozenset({"use_sim_time", "start_type_description_service"})
 _PREFIXES = ("qos_overrides.",)
+_CLOCK = "use_sim_time"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -22,11 +23,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = [(n, _declared(i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
     wanted = {p.name_location for n, declared, _ in nodes for p in n.params if declared is None or p.name in declared}
     for node, declared, interface in nodes:
+        for param in node.params:
+            if is_slip(param.name, _CLOCK) and param.name != _CLOCK and param.name not in (declared or ()):
+                yield _clock(rule, context, node, param)
         if declared is None:
             continue
         given = {(param.name, param.place.file) for param in node.params}
         for param in node.params:
             if param.name in declared or param.name in _OF_ALL_NODES or param.name.startswith(_PREFIXES):
+                continue
+            if is_slip(param.name, _CLOCK):
                 continue
             if param.name_location is not None and param.name_location in wanted:
                 continue  # what is written once for several nodes, one of which wants it
@@ -45,6 +51,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=(*related, *include_chain(node.origin)),
                 fixes=_rename(context, param, near) if near is not None else (),
             )
+
+
+def _clock(rule: Rule, context: Context, node: LaunchNode, param: Param) -> Finding:
+    """A slip of the one parameter that each node has, be the node known or not."""
+    return rule.finding(
+        f"'{param.name}' of {node.name} is no '{_CLOCK}', which each node has: it goes by the clock of the machine",
+        param.place,
+        confidence="likely",
+        related=include_chain(node.origin),
+        fixes=_rename(context, param, _CLOCK),
+    )
 
 
 def _declared(interface: Interface) -> dict[str, ParamUse] | None:
@@ -82,8 +99,9 @@ RULE = Rule(
     name="parameter-not-declared",
     severity="warning",
     what="Reports a parameter, in the launch file or in a parameter file, that the node it is for does not declare, "
-    "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters, nor of "
-    "what is written once for several nodes of which one declares it, be it in another launch.",
+    "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters, but for "
+    "a slip of `use_sim_time`, nor of what is written once for several nodes of which one declares it, be it in "
+    "another launch.",
     why="The client libraries drop it without a word, and the node keeps its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',

@@ -16,10 +16,11 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.places import getters_of
-from preflight_analysis.rules.problems import quoted
+from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
 _KINDS = ("plugin", "type")
+_MOVEIT = "moveit_simple_controller_manager"
 _WITH_DEFAULTS = frozenset(
     map(
         frozenset,
@@ -57,6 +58,7 @@ class Missing(NamedTuple):
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _of_moveit(rule, context)
     getters: dict[str, Related] = {}
     for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes_and_simulated)):
         getters.setdefault(path, getter)
@@ -84,6 +86,27 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 getters[path],
             ),
         )
+
+
+def _of_moveit(rule: Rule, context: Context) -> Iterator[Finding]:
+    """The controllers of a controller manager of MoveIt, which asks for `NAME.type` and more of each by that name. Of a
+    file that has some of them it is said as of any list."""
+    for node in context.tree.nodes:
+        given = {param.name for param in node.params}
+        for param in node.params:
+            if param.name != f"{_MOVEIT}.controller_names" or not isinstance(param.value, list):
+                continue
+            listed = [each for each in param.value if isinstance(each, str)]
+            lacking = [name for name in listed if not any(each.startswith(f"{_MOVEIT}.{name}.") for each in given)]
+            of_file = any(source.path == param.place.file for source in node.param_sources)
+            for name in lacking if len(lacking) == len(listed) or not of_file else ():
+                yield rule.finding(
+                    f"'{name}' is listed in '{param.name}', and there is no '{_MOVEIT}.{name}' beside it: MoveIt "
+                    "has no such controller",
+                    param.place,
+                    confidence="likely",
+                    related=include_chain(node.origin),
+                )
 
 
 def missing_in(document: Document) -> tuple[Missing, ...]:
@@ -133,7 +156,7 @@ RULE = Rule(
     what="Reports a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, ...) for "
     "which there is no `NAME.plugin`, or `NAME.type`, while there is one for another name of the list (ROS 2). The "
     "lists that nav2 has by default are left alone: it knows their plugins. Files of the package that no node of the "
-    "launch gets are looked at, too.",
+    "launch gets are looked at, too. So is a name in MoveIt's `controller_names` without a section of that name.",
     why="Whoever reads the list asks for that parameter of each name, and does not start without it. Mostly the list "
     "has another name than the section with its parameters.",
     example='plugins: ["voxel_layer", "inflation_layer"]\n'

@@ -1,15 +1,43 @@
 """TOP003: publisher and subscriber of a topic have different types."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.places import Verbs
+from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.channels import channels_of
+from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.type_mismatch import mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    return mismatches(rule, context, "topics", Verbs("publishes", "subscribes to"))
+    yield from mismatches(rule, context, "topics", Verbs("publishes", "subscribes to"))
+    for first, second in chain.from_iterable(context.kept.each(_of_one_node, channels_of(context)["topics"])):
+        does = "publishes" if first.endpoint.role == "publisher" else "subscribes to"
+        yield rule.finding(
+            f"{first.node.name} {does} '{first.name}' as {first.endpoint.type} and as {second.endpoint.type}",
+            connection_location(second),
+            severity="info" if first.endpoint.assumed or second.endpoint.assumed else None,
+            confidence="possible" if first.endpoint.assumed or second.endpoint.assumed else "likely",
+            related=(related_endpoint(first, does), *include_chain(second.node.origin)),
+            endpoints=endpoints_of(first, second),
+        )
+
+
+def _of_one_node(channel: Channel) -> tuple[tuple[Connection, Connection], ...]:
+    """Ends of the same kind that one node has under the name with two types, which its client library refuses."""
+    found: list[tuple[Connection, Connection]] = []
+    for ends in (channel.providers, channel.consumers):
+        first: dict[int, Connection] = {}
+        for end in ends:
+            if end.endpoint.type in (None, "*") or end.endpoint.catalogued or end.action is not None:
+                continue
+            other = first.setdefault(id(end.node), end)
+            if other.endpoint.type != end.endpoint.type:
+                found.append((other, end))
+    return tuple(found)
 
 
 RULE = Rule(
@@ -17,7 +45,8 @@ RULE = Rule(
     name="topic-type-mismatch",
     severity="error",
     what="Reports a topic that one node publishes with another type than a second one subscribes to, or with another "
-    "definition (MD5 sum) of the same type. `*` fits any type.",
+    "definition (MD5 sum) of the same type. `*` fits any type. So is one that the same node publishes, or subscribes "
+    "to, with two types.",
     why="The two nodes refuse to connect, with one line in a log; no message arrives.",
     example="<!-- /pose: geometry_msgs/Pose published, geometry_msgs/PoseStamped subscribed -->\n"
     '<remap from="goal" to="/pose"/>',
