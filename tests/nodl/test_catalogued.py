@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from preflight_analysis.catalogue import packages
+from preflight_analysis.catalogue import packages, renamed
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.nodl import catalogued
 from preflight_analysis.tracing.interface import ParamUse, Range
@@ -191,6 +191,29 @@ def test_what_it_does_not_know_stays_unknown(tmp_path: Path) -> None:
         '<node pkg="somebody" type="scan_node" name="c"/></launch>',
     )
     assert known(graph) == [("none", 0, 0)] * 3
+
+
+@pytest.mark.parametrize(
+    ("package", "executable"),
+    [("scanner", "scan_node.py"), ("nav2_recoveries", "recoveries_server"), ("rtabmap_ros", "rgbd_odometry")],
+)
+def test_a_node_that_another_distribution_calls_differently(tmp_path: Path, package: str, executable: str) -> None:
+    for name, node in (("nav2_behaviors", "behavior_server"), ("rtabmap_odom", "rgbd_odometry")):
+        data = {**DATA, "executables": {node: SCANNER}}
+        (packages.INTERFACES / "jazzy" / f"{name}.json").write_text(json.dumps(data))
+    text = f'<launch><node pkg="{package}" exec="{executable}" name="s"/></launch>'
+    graph = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", distro="jazzy").graph
+    assert graph is not None
+    assert known(graph) == [("catalogue", 2, 3)]
+    assert {end.of_other_distribution for end in graph.interfaces[0].endpoints} == {True}
+
+
+def test_the_data_has_what_others_are_called_now(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.undo()
+    packages.interfaces_of.cache_clear()
+    for kind, table in (("executables", renamed._RENAMED), ("components", renamed._COMPONENTS)):
+        for package, name in table.values():
+            assert name in packages.interfaces_of(package, "jazzy")[kind], (package, name)
 
 
 def test_a_package_of_the_workspace_is_what_it_is_there(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
@@ -73,6 +74,10 @@ def _filled_in(
     is_used = environment.distro == distro
     found = catalogued(package, kind, name, distro, is_used=is_used)
     if found is None:
+        # What had another name then may have had other parameters, too.
+        others = (catalogued(*known, distro, is_used=False) for known in _renamed(package, kind, name, distro))
+        found = next(filter(None, others), None)
+    if found is None:
         return interface
     does = (_as_set(node, given, found), *_controllers(node, distro, is_used=is_used))
     whole = interface.with_more(
@@ -89,6 +94,11 @@ def _filled_in(
 def _is_annotated(node: LaunchNode) -> bool:
     """Whether the user says what it does. The tag of a simulated node is that of what spawns its robot."""
     return node.kind != "simulated" and read_annotation(node.action)[0] is not None
+
+
+def _renamed(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[str, str, str]]:
+    for other, named in other_names(package, kind, name, distro):
+        yield other, kind, named
 
 
 def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Catalogued]:

@@ -1,0 +1,54 @@
+"""Nodes that have another name, or another package, in the distribution that the catalogue knows.
+
+By what the projects say themselves: scripts of ROS 2 have been installed without `.py` since Galactic (`spawner.py`,
+`view_frames.py`); nav2's migration guide (`configuration/migration/Galactic.rst`: recoveries server to behavior
+server); the change from `ros_ign` to `ros_gz` (`ros_gz`, README.md); rtabmap_ros 0.21, which was taken apart to
+packages (`CHANGELOG.rst`); MoveIt's MIGRATION.md (servo); cartographer_ros and velodyne_pointcloud, which gave their
+executables other names than on ROS 1 (`CMakeLists.txt`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+_DISTRIBUTION = "jazzy"
+_SCRIPT = ".py"
+_RTABMAP: Mapping[str, tuple[str, ...]] = {
+    "rtabmap_slam": ("rtabmap",),
+    "rtabmap_odom": ("icp_odometry", "rgbd_odometry", "stereo_odometry"),
+    "rtabmap_sync": ("rgb_sync", "rgbd_sync", "rgbdx_sync", "stereo_sync"),
+    "rtabmap_util": (
+        *("disparity_to_depth", "imu_to_tf", "lidar_deskewing", "map_assembler", "obstacles_detection"),
+        *("point_cloud_aggregator", "point_cloud_assembler", "point_cloud_xyz", "point_cloud_xyzrgb"),
+        *("pointcloud_to_depthimage", "rgbd_relay", "rgbd_split"),
+    ),
+    "rtabmap_viz": ("rtabmap_viz",),
+}
+_RENAMED: Mapping[tuple[str, str], tuple[str, str]] = {
+    ("nav2_recoveries", "recoveries_server"): ("nav2_behaviors", "behavior_server"),
+    ("nav2_recoveries", "recoveries_node"): ("nav2_behaviors", "behavior_server"),
+    ("moveit_servo", "servo_node_main"): ("moveit_servo", "servo_node"),
+    ("moveit_servo", "servo_server"): ("moveit_servo", "servo_node"),
+    ("cartographer_ros", "cartographer_occupancy_grid_node"): ("cartographer_ros", "occupancy_grid_node"),
+    ("velodyne_pointcloud", "velodyne_convert_node"): ("velodyne_pointcloud", "velodyne_transform_node"),
+    ("ros_ign_bridge", "parameter_bridge"): ("ros_gz_bridge", "parameter_bridge"),
+    ("ros_ign_gazebo", "create"): ("ros_gz_sim", "create"),
+    ("ros_ign_image", "image_bridge"): ("ros_gz_image", "image_bridge"),
+    ("rtabmap_ros", "rtabmapviz"): ("rtabmap_viz", "rtabmap_viz"),
+    **{("rtabmap_ros", name): (package, name) for package, names in _RTABMAP.items() for name in names},
+}
+_COMPONENTS: Mapping[tuple[str, str], tuple[str, str]] = {
+    ("moveit_servo", "moveit_servo::ServoServer"): ("moveit_servo", "moveit_servo::ServoNode"),
+    ("nav2_recoveries", "recovery_server::RecoveryServer"): ("nav2_behaviors", "behavior_server::BehaviorServer"),
+}
+
+
+def other_names(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[str, str]]:
+    """The packages and names under which a distribution may have a node: `kind` is `executables` or `components`."""
+    if distro != _DISTRIBUTION:
+        return
+    table = _RENAMED if kind == "executables" else _COMPONENTS if kind == "components" else {}
+    if (package, name) in table:
+        yield table[package, name]
+    if kind == "executables" and name.endswith(_SCRIPT):
+        yield package, name.removesuffix(_SCRIPT)
