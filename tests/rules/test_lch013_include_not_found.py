@@ -3,7 +3,10 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import check, findings_of
 from support.python_launch_harness import PythonHarness
 
@@ -106,3 +109,26 @@ def test_a_file_of_another_machine_or_of_the_folder_where_the_launch_is_started(
                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[LCH013] it depends on the folder where
         </launch>
     """)
+
+
+@pytest.mark.parametrize(
+    ("file", "severity"),
+    [
+        ("config/$(arg robot)/drive.launch", "info"),
+        ("config/$(arg robot).launch", "info"),
+        ("config/drive_$(arg robot).launch", "info"),
+        ("config/$(arg robot)_arm.launch", "info"),
+        ("config/$(arg robot)/steer.launch", "error"),
+        ("config/arm.launch", "error"),
+    ],
+)
+def test_an_argument_that_is_empty_has_to_be_given(tmp_path: Path, file: str, severity: str) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+    for name in ("rover/drive.launch", "drive_rover.launch", "rover_of_the_arm_arm.launch"):
+        (tmp_path / "config" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "config" / name).write_text("<launch/>")
+    path = tmp_path / "main.launch"
+    path.write_text(f'<launch><arg name="robot" default=""/><include file="$(find p)/{file}"/></launch>')
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "1"}, (str(tmp_path),)), Sources())
+    (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "LCH013"]
+    assert (finding.severity, "'robot' may have to be given" in finding.message) == (severity, severity == "info")

@@ -81,6 +81,22 @@ def test_a_file_that_is_not_there_may_be_another_one(tmp_path: Path) -> None:
         assert finding.message.endswith("params/nav2.yaml'?") == near
 
 
+@pytest.mark.parametrize(
+    ("path", "severity"),
+    [
+        ("/opt/ros/humble/lib/teleop/teleop", "hint"),
+        ("/sim_ws/src/robot/params.yaml", "info"),
+        ("{}/params.yaml", "error"),
+    ],
+)
+def test_a_file_of_another_machine_is_no_mistake_of_the_launch_file(tmp_path: Path, path: str, severity: str) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    said = f"[Errno 2] No such file or directory: '{path.format(tmp_path)}'"
+    analysis = _launched(tmp_path, _error(tmp_path, "FileNotFoundError", said))
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.severity == severity
+
+
 def test_an_assert_without_a_message_is_shown(tmp_path: Path) -> None:
     text = "import os\nassert os.path.isdir(\n    '/no/such/folder')\nraise StopIteration\n"
     path = str(tmp_path / "a.launch.py")

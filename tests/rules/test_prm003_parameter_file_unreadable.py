@@ -12,13 +12,13 @@ def test_a_parameter_file_that_is_a_folder(tmp_path: Path) -> None:
 
 
 def test_a_parameter_file_whose_path_is_empty() -> None:
-    """It is the current folder."""
+    """It is the current folder: launch warns that it is no file, and goes on."""
     check("""
         //- /robot.launch.xml
         <launch>
           <arg name="params_file" default=""/>
           <node pkg="p" exec="a" name="a"><param from="$(var params_file)"/></node>
-                                                       ^^^^^^^^^^^^^^^^^^ error[PRM003] parameter file '' cannot be read: argument 'params_file' is empty
+                                                       ^^^^^^^^^^^^^^^^^^ info[PRM003] parameter file '' cannot be read: argument 'params_file' is empty
         </launch>
     """)  # noqa: E501
 

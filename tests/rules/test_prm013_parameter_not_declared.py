@@ -118,3 +118,38 @@ def test_a_slip_of_what_each_node_has() -> None:
     """
     found = next(each for each in check(text) if "/unknown is" in each.message)
     assert '<param name="use_sim_time" value="true"/>' in apply(text, found.fixes[0].edits)["/robot.launch.xml"]
+
+
+@pytest.mark.silent
+def test_parameters_of_transports_are_declared_for_each_topic() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="camera" name="camera">
+            <param name="camera.image.compressed.jpeg_quality" value="75"/>
+            <param name="image_raw.enable_pub_plugins" value="image_transport/raw"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/camera": {"params": {"~rate": 6.0}}}
+    """)
+
+
+def test_of_a_row_of_parameters_a_node_may_take_as_many_as_it_is_given() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="ekf" name="ekf">
+            <param name="odom1_queue_size" value="4"/>
+            <param name="imu1_queue_size" value="4"/>
+                         ^^^^^^^^^^^^^^^ info[PRM013] 'imu1_queue_size'
+          </node>
+          <node pkg="p" exec="whole" name="whole">
+            <param name="odom1_queue_size" value="4"/>
+                         ^^^^^^^^^^^^^^^^ warning[PRM013] 'odom1_queue_size'
+          </node>
+        </launch>
+        //- interfaces
+        {"/ekf": {"params": {"~odom0_queue_size": 6}, "answers": ["x"]},
+         "/whole": {"params": {"~odom0_queue_size": 6}}}
+    """)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -17,10 +18,13 @@ from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.rules.elsewhere import absent_top, depends_on_working_folder
 from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
+
+_GAP = re.compile(r"(?:\A()(?=[._-])|([._-])(?=[._-]))")
+"""Where the name of a file lacks a part: `_map.yaml`, `map_.yaml`."""
 
 
 def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
@@ -41,6 +45,8 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 severity, message = "info", f"{message}: a part of it has to be given"
             elif near is None and is_ignored(context.disk, path):
                 severity, message = "info", f"{message}; git ignores it, so it may be made on each machine"
+            elif empty := _empty_arguments(context, path, problem.location, near):
+                severity, message = "info", f"{message}; {quoted(empty)} may have to be given"
             elif (absent := _absent_top(context, path)) is not None:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
             elif near is None and depends_on_working_folder(context, problem.location):
@@ -49,6 +55,28 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check
+
+
+def _empty_arguments(context: Context, path: str, place: Location, near: str | None) -> list[str]:
+    """The arguments that are empty, where there is such a file with a folder, or a part of its name, more:
+    `config/rover/robot.yaml` for `config/robot.yaml`, `maps/hall.yaml` for `maps/.yaml`. Where another file may be
+    meant, `near`, only those that are written at the place."""
+    empty = [name for name, arg in context.tree.args.items() if arg.value == ""]
+    if near is not None:
+        written = context.text(place)
+        empty = [name for name in empty if re.search(rf"\$\((?:arg|var) {re.escape(name)}[ )]", written)]
+    if not empty or package_folder(path, context.environment) is None:
+        return []
+    folder, name = os.path.split(os.path.normpath(path))
+    gap = _GAP.search(name)
+    before, after = (name[: gap.end()], name[gap.end() :]) if gap is not None else ("", "")
+    for there in files_in(context.disk, folder, deep=True):
+        where, other = os.path.split(there)
+        if where != folder and other == name:
+            return empty
+        if gap is not None and len(other) > len(name) and other.startswith(before) and other.endswith(after):
+            return empty
+    return []
 
 
 def _absent_top(context: Context, path: str) -> str | None:
@@ -68,7 +96,9 @@ def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for problem in problems_of(context, kind):
             path, reason = shown(problem.kind.path, context), problem.kind.reason
-            yield problem_finding(rule, problem, f"{what} '{path}' cannot be read: {reason}")
+            # ros2 launch warns of the file of a node and goes on: an argument may stay empty that users give one by.
+            severity: Severity | None = None if problem.fatal else "warning" if path else "info"
+            yield problem_finding(rule, problem, f"{what} '{path}' cannot be read: {reason}", severity=severity)
 
     return check
 

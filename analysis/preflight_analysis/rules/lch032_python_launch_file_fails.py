@@ -7,8 +7,9 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.elsewhere import absent_top
 from preflight_analysis.rules.files import nearest_file
-from preflight_analysis.rules.installed import has_ros, lack_of_module
+from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -34,6 +35,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 near = _near_file(context, error, said)
                 if near is not None:
                     message += f"; did you mean '{shown(near, context)}'?"
+                elif (path := _missing_file(error, said)) is not None:
+                    lack = lack_of_made(context, path) or lack_of_file(context, path)
+                    if lack is None and (absent := absent_top(context.disk, path)) is not None:
+                        severity, message = "info", f"{message}; this machine has no '{absent}'"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
@@ -43,8 +48,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _near_file(context: Context, error: str, said: str) -> str | None:
     """The file that was meant by one that is not there."""
+    path = _missing_file(error, said)
+    return nearest_file(context.disk, path, context.environment) if path is not None else None
+
+
+def _missing_file(error: str, said: str) -> str | None:
     found = _NO_FILE.search(said) if error == "FileNotFoundError" else None
-    return nearest_file(context.disk, found[1], context.environment) if found else None
+    return found[1] if found is not None else None
 
 
 def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:

@@ -10,7 +10,8 @@ RULE = Rule(
     severity="error",
     what="Reports a parameter file that exists but is a folder, is not permitted to be read, too large, or not text "
     "where text is needed.",
-    why="`roslaunch` stops and starts nothing.",
+    why="`roslaunch` stops and starts nothing. `ros2 launch` starts a node without the file, and stops at that of a "
+    "component: the first is a warning, and information where the path is an argument that is empty.",
     example='<rosparam command="load" file="$(find camera)/config"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     check=check_unreadable_files(UnreadableParameterFile, "parameter file"),

@@ -1,5 +1,6 @@
 """PRM013: a parameter that its node does not declare (ROS 2)."""
 
+import re
 from collections.abc import Collection, Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -14,6 +15,11 @@ from preflight_analysis.tracing.interface import Interface, ParamUse
 _OF_ALL_NODES = frozenset({"use_sim_time", "start_type_description_service"})
 _PREFIXES = ("qos_overrides.",)
 _CLOCK = "use_sim_time"
+_OF_TRANSPORT = re.compile(
+    r"\.(?:(?:en|dis)able_pub_plugins|(?:compressed|compressedDepth|theora|zstd|ffmpeg|draco|zlib|cloudini)\.\w+)\Z"
+)
+"""What image_transport and point_cloud_transport declare for each topic that they publish."""
+_NUMBER = re.compile(r"\d+")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -36,6 +42,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             if param.name_location is not None and param.name_location in wanted:
                 continue  # what is written once for several nodes, one of which wants it
+            if _OF_TRANSPORT.search(param.name):
+                continue
+            numbered = _NUMBER.sub("#", param.name)
+            if not interface.known_in_full and numbered in {_NUMBER.sub("#", name) for name in declared}:
+                continue  # one of a row, `odom1` beside `odom0`, of which the node may take as many as it is given
             near = _near(param.name, [name for name in declared if (name, param.place.file) not in given])
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
