@@ -1,4 +1,4 @@
-"""Topics that the nodes of topic_tools are given."""
+"""Topics that the nodes of topic_tools and bridges to Gazebo are given."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support import package_elsewhere
 
 
 def topics_of(folder: Path, node: str, name: str = "a.launch") -> tuple[set[str], set[str]]:
@@ -58,3 +59,60 @@ def test_ros2_has_parameters_for_it(tmp_path: Path) -> None:
 def test_a_remap_and_the_users_word_count(tmp_path: Path) -> None:
     node = '<node pkg="topic_tools" type="relay" name="tool" args="scan out"><remap from="scan" to="/laser"/></node>'
     assert topics_of(tmp_path, node) == ({"/out"}, {"/laser"})
+
+
+BRIDGES = """
+- {ros_topic_name: odom, gz_topic_name: /model/odom, ros_type_name: nav_msgs/msg/Odometry, direction: GZ_TO_ROS}
+- {topic_name: /cmd_vel, ros_type_name: geometry_msgs/msg/Twist, direction: ROS_TO_GZ}
+- {gz_topic_name: both, ros_type_name: std_msgs/msg/String}
+- {ros_topic_name: none, ros_type_name: std_msgs/msg/String, direction: NOWHERE}
+- {ros_topic_name: 1, ros_type_name: std_msgs/msg/String}
+- {ros_topic_name: untyped}
+- 3
+"""
+
+
+def bridged(folder: Path, node: str, config: str = BRIDGES) -> dict[str, str]:
+    """The topics of a bridge in the namespace `r`: the type, and `<`, `>` or `<>` for what the bridge is."""
+    analysis = package_elsewhere.analysed(
+        folder, f"<launch>{node}</launch>", "a.launch.xml", "jazzy", **{"bridge.yaml": config}
+    )
+    assert analysis.graph is not None
+    return {
+        name: f"{'<' * len(channel.consumers)}{'>' * len(channel.providers)} {channel.types[0]}"
+        for name, channel in analysis.graph.topics.items()
+    }
+
+
+def test_bridges_of_a_command_line(tmp_path: Path) -> None:
+    words = "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock cmd@geometry_msgs/Twist]ignition.msgs.Twist both@a/msg/B@gz.C"
+    words += " /service@ros_gz_interfaces/srv/ControlWorld --ros-args -r both:=two"
+    node = f'<node pkg="ros_gz_bridge" exec="parameter_bridge" namespace="r" args="{words}"/>'
+    assert bridged(tmp_path, node) == {
+        "/clock": "> rosgraph_msgs/msg/Clock",
+        "/r/cmd": "< geometry_msgs/msg/Twist",
+        "/r/both": "<> a/msg/B",
+    }
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        'args="--ros-args -p config_file:=$(dirname)/bridge.yaml"/>',
+        '><param name="config_file" value="$(dirname)/bridge.yaml"/></node>',
+    ],
+)
+def test_bridges_of_a_file(tmp_path: Path, given: str) -> None:
+    assert bridged(tmp_path, f'<node pkg="ros_gz_bridge" exec="parameter_bridge" namespace="r" {given}') == {
+        "/r/odom": "> nav_msgs/msg/Odometry",
+        "/cmd_vel": "< geometry_msgs/msg/Twist",
+        "/r/both": "<> std_msgs/msg/String",
+    }
+
+
+@pytest.mark.parametrize("config", ["", "3", "{a: 1}", "[", "- [ros_topic_name]", "&a [*a]"])
+def test_a_file_that_is_no_list_of_bridges(tmp_path: Path, config: str) -> None:
+    node = (
+        '<node pkg="ros_gz_bridge" exec="parameter_bridge"><param name="config_file" value="$(dirname)/bridge.yaml"/>'
+    )
+    assert bridged(tmp_path, f"{node}</node>", config) == {}

@@ -1,4 +1,4 @@
-"""Topics that the nodes of topic_tools are given by their command lines.
+"""Topics that nodes are given by their command lines: those of topic_tools, and bridges to Gazebo.
 
 http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools. Such a node takes any type, and its source
 does not say which topics: the command line does, where the node was not run.
@@ -7,13 +7,16 @@ does not say which topics: the command line does, where the node was not run.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import compress
 
+from preflight_analysis.documents.document import Document
+from preflight_analysis.evaluation.ros2.bridges import config_file_of, is_bridge
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.nodl.bridges import bridged
 from preflight_analysis.tracing.interface import Endpoint, Interface, Role
 from preflight_analysis.tracing.request import split_args
 
@@ -21,9 +24,12 @@ _TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
 _ANY = "*"
 
 
-def with_command_lines(tree: LaunchTree, interfaces: Sequence[Interface], kept: Kept) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order, with what their command lines name."""
-    found = kept.each(_endpoints, tree.nodes)
+def with_command_lines(
+    tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document], kept: Kept
+) -> Sequence[Interface]:
+    """The interfaces of the nodes of `tree`, in order, with what their command lines name, and the files of bridges."""
+    files = [documents.get(config_file_of(node) or "") if is_bridge(node) else None for node in tree.nodes]
+    found = kept.each_row(_endpoints, (tree.nodes, files))
     if not any(found):
         return interfaces
     whole = list(interfaces)
@@ -35,7 +41,9 @@ def with_command_lines(tree: LaunchTree, interfaces: Sequence[Interface], kept: 
     return whole
 
 
-def _endpoints(node: LaunchNode) -> tuple[Endpoint, ...]:
+def _endpoints(node: LaunchNode, config: Document | None) -> tuple[Endpoint, ...]:
+    if is_bridge(node):
+        return tuple(bridged(node, config))
     if node.package != "topic_tools" or node.unknowns:
         return ()
     return tuple(Endpoint(role, name, _ANY) for role, name in dict.fromkeys(_of_tool(node)) if _TOPIC.fullmatch(name))

@@ -335,12 +335,12 @@ class Workspace:
             analysis = _under_names(analysis, tree)
         project = self.settings
         managed = with_spawned(tree, analysis.documents)
-        whole = self._filled_in(managed, interfaces, project, kept)
+        whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
         of_source = resolve_node_names(tree, whole[: len(tree.nodes)], analysis.documents)
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             managed = with_spawned(of_source, analysis.documents)
-            whole = self._filled_in(managed, interfaces, project, kept)
+            whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
         db.leave_if_cancelled()
         graph = build_graph(managed, whole, project.external_topics, self.environment.distro, analysis.documents, kept)
         document, problems = located_problems(project)
@@ -360,7 +360,12 @@ class Workspace:
         return _ahead_of_runs(self.sources.db, self, analysis)
 
     def _filled_in(
-        self, tree: LaunchTree, interfaces: Sequence[Interface], project: ProjectSettings, kept: Kept
+        self,
+        tree: LaunchTree,
+        interfaces: Sequence[Interface],
+        project: ProjectSettings,
+        documents: Mapping[str, Document],
+        kept: Kept,
     ) -> Sequence[Interface]:
         """The interfaces with what is known beside runs; those of simulated nodes after them."""
         environment = self.environment_of(tree.file)
@@ -369,7 +374,7 @@ class Workspace:
         sources = SourceAnalysis(environment, self.sources)
         interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
         interfaces = (*interfaces, *(NOT_RUN for _ in tree.simulated)) if tree.simulated else interfaces
-        return with_command_lines(tree, from_catalogue(tree, interfaces, environment, kept), kept)
+        return with_command_lines(tree, from_catalogue(tree, interfaces, environment, kept), documents, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

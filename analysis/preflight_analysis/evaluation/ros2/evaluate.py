@@ -16,6 +16,7 @@ from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
 from preflight_analysis.evaluation.ros2.actions.registry import actions, parts, python_classes, tags
+from preflight_analysis.evaluation.ros2.bridges import note_files_of_bridges
 from preflight_analysis.evaluation.ros2.check_language import check_language_ros2
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, NotByPartsError
@@ -61,6 +62,7 @@ def evaluate_ros2(
         state = State(files, executables, environment, cwd, commands, assumed=assumed)
         _launch(path, args, variables or {}, state)
     note_files_of_spawners(state)
+    note_files_of_bridges(state)
     simulated = simulated_managers(state)
     return LaunchTree(
         os.path.normpath(path),

@@ -58,7 +58,7 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
     controllers: list[str] = []
     files: list[str] = []
     remaps: list[tuple[str, str]] = []
-    words = iter(_split(spawner.args))
+    words = iter(words_of(spawner.args))
     for word in words:
         option, equals, value = word.partition("=") if word.startswith("--") else (word, "", "")
         if option in _MANAGER:
@@ -84,7 +84,8 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
     return Asked(named, tuple(controllers), tuple(filter(None, files)), type_ or None, tuple(remaps), plain)
 
 
-def _split(text: str) -> list[str]:
+def words_of(text: str) -> list[str]:
+    """The words of a command line; split at blanks where a quote is left open."""
     try:
         return shlex.split(text)
     except ValueError:

@@ -1,0 +1,62 @@
+"""Topics that bridges between ROS and Gazebo carry: the command line or a file says which, in which direction.
+
+https://docs.ros.org/en/jazzy/p/ros_gz_bridge/: `/topic@ros_type@gz_type` goes both ways, `[` in the place of the second
+`@` to ROS, `]` to Gazebo. A file is a list of bridges; a bridge with one name has it on both sides.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.bridges import is_bridge
+from preflight_analysis.evaluation.ros2.types import loaded
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.tracing.interface import Endpoint, Role
+from preflight_analysis.tracing.request import split_args
+
+_ARGUMENT = re.compile(r"([^@\s]+)@(\w+/(?:msg/)?\w+)([@\[\]])[\w.:]+\Z")
+_TYPE = re.compile(r"\w+/(?:msg/)?\w+\Z")
+_ROLES: dict[str, tuple[Role, ...]] = {
+    "@": ("publisher", "subscriber"),
+    "[": ("publisher",),
+    "]": ("subscriber",),
+    "BIDIRECTIONAL": ("publisher", "subscriber"),
+    "GZ_TO_ROS": ("publisher",),
+    "ROS_TO_GZ": ("subscriber",),
+}
+_NAMES = ("ros_topic_name", "topic_name", "gz_topic_name", "ign_topic_name")
+
+
+def bridged(node: LaunchNode, config: Document | None) -> Iterator[Endpoint]:
+    """The ends of the bridge on the side of ROS; none of other nodes. `config` is its file."""
+    if not is_bridge(node):
+        return
+    rows = [(found[1], found[2], found[3]) for word in split_args(node.args) if (found := _ARGUMENT.match(word))]
+    for name, type_, direction in (*rows, *_configured(config)):
+        package, _, rest = type_.partition("/")
+        for role in _ROLES.get(direction, ()) if names.is_legal(name) else ():
+            yield Endpoint(role, name, f"{package}/msg/{rest.removeprefix('msg/')}")
+
+
+def _configured(config: Document | None) -> Iterator[tuple[str, str, str]]:
+    """Name, type and direction of each bridge of a file."""
+    found = config.once(_data) if config is not None else None
+    for row in found if isinstance(found, list) else ():
+        if not isinstance(row, dict):
+            continue
+        name = next((row[key] for key in _NAMES if isinstance(row.get(key), str)), None)
+        type_, direction = row.get("ros_type_name"), row.get("direction", "BIDIRECTIONAL")
+        if name is not None and isinstance(type_, str) and _TYPE.match(type_) and isinstance(direction, str):
+            yield name, type_, direction
+
+
+def _data(document: Document) -> Any:
+    try:
+        return loaded(document.text)
+    except CONSTRUCTION_ERRORS:
+        return None
