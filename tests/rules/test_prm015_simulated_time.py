@@ -88,11 +88,20 @@ def test_the_clock_of_what_has_no_times_does_not_matter() -> None:
           <node pkg="p" exec="clock" name="clock"/>
           <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
           <node pkg="p" exec="static_transform_publisher" name="fixed"/>
+          <node pkg="ros_gz_sim" exec="create" name="create"/>
+          <node pkg="ros_gz_bridge" exec="parameter_bridge" name="bridge"/>
+          <node pkg="controller_manager" exec="spawner" name="spawner"/>
           <node_container pkg="p" exec="component_container" name="box" namespace="">
             <composable_node pkg="p" plugin="p::B" name="b" namespace=""><param name="use_sim_time" value="true"/>
             </composable_node>
           </node_container>
         </launch>
+        //- /ros_gz_sim/package.xml
+        <package><name>ros_gz_sim</name></package>
+        //- /ros_gz_bridge/package.xml
+        <package><name>ros_gz_bridge</name></package>
+        //- /controller_manager/package.xml
+        <package><name>controller_manager</name></package>
         //- interfaces
         {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}
     """)

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.ros2.bridges import is_bridge
+from preflight_analysis.evaluation.ros2.spawners import SPAWN, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
@@ -89,7 +91,11 @@ def _sim_time(node: LaunchNode) -> Param | None:
 def _has_times(node: LaunchNode) -> bool:
     """Whether it matters which clock the node is on, as far as is known: a container does nothing by itself, and what
     is unknown of a node may be its parameters."""
-    return not node.unknowns and node.kind != "container" and node.executable not in _TIMELESS
+    if node.unknowns or node.kind == "container":
+        return False
+    # What puts a robot or a controller in its place ends then, and a bridge passes on the times of others.
+    helps = is_spawner(node) or is_bridge(node) or (node.package, node.executable) in SPAWN
+    return not helps and node.executable not in _TIMELESS
 
 
 def _counted(number: int) -> str:

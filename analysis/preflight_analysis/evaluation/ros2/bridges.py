@@ -5,9 +5,13 @@ https://docs.ros.org/en/jazzy/p/ros_gz_bridge/
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from preflight_analysis.evaluation.ros2.spawners import words_of
-from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.tree import LaunchNode
+
+if TYPE_CHECKING:
+    from preflight_analysis.evaluation.ros2.state import State
 
 PACKAGES = ("ros_gz_bridge", "ros_ign_bridge")
 _CONFIG = "config_file"

@@ -21,20 +21,12 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.ros2.param_files import EVERY, read_param_file
 from preflight_analysis.evaluation.ros2.params import Sources, of_file
-from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.spawners import PACKAGE, SPAWN, asked_of, is_spawner
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource, Remap, Unknown
 
 KIND = "simulated"
 """The `LaunchNode.kind` of a node that the simulator makes, not the launch."""
-_SPAWN = frozenset(
-    {
-        ("ros_gz_sim", "create"),
-        ("ros_ign_gazebo", "create"),
-        ("gazebo_ros", "spawn_entity.py"),
-    }
-)
-"""What puts a robot description into a simulator: package and executable."""
 _DESCRIPTION = "robot_description"
 _PUBLISHER = "robot_state_publisher"
 _MANAGER = "ros2_control_node"
@@ -55,7 +47,7 @@ class _Plugin(NamedTuple):
 def simulated_managers(state: State) -> tuple[LaunchNode, ...]:
     """The managers that the robots of a launch have in the simulator that they are spawned in, each with its parameters
     as if the launch file gave them. `origin` and tag are those of what spawns the robot."""
-    spawns = [node for node in state.nodes if (node.package, node.executable) in _SPAWN]
+    spawns = [node for node in state.nodes if (node.package, node.executable) in SPAWN]
     if not spawns:
         return ()
     described = [(node, text) for node in state.nodes if (text := _description(node)) is not None]

@@ -19,6 +19,14 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, ParamSource, Remap
 
 PACKAGE = "controller_manager"
+SPAWN = frozenset(
+    {
+        ("ros_gz_sim", "create"),
+        ("ros_ign_gazebo", "create"),
+        ("gazebo_ros", "spawn_entity.py"),
+    }
+)
+"""What puts a robot description into a simulator: package and executable."""
 _SPAWNERS = ("spawner", "spawner.py")
 _MANAGER = ("-c", "--controller-manager")
 _FILE = ("-p", "--param-file")
