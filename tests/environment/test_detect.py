@@ -276,6 +276,17 @@ def test_each_generation_has_its_packages_where_both_are(tmp_path: Path) -> None
     assert "rospy" not in ros2
 
 
+def test_a_package_that_both_generations_build_is_seen_by_each_as_it_builds_it(tmp_path: Path) -> None:
+    manifest = """<package format="3"><name>both</name><export>
+      <build_type condition="$ROS_VERSION == 1">catkin</build_type>
+      <build_type condition="$ROS_VERSION == 2">ament_python</build_type></export></package>"""
+    (package(tmp_path / "ws" / "src" / "both") / "package.xml").write_text(manifest)
+    for version in ("1", "2"):
+        environment = detect_environment(str(tmp_path / "ws"), {"ROS_VERSION": version}, root=str(tmp_path))
+        built = [of_generation(environment, generation).packages["both"].build_type for generation in (1, 2)]
+        assert built == ["catkin", "ament_python"]
+
+
 def test_a_folder_inside_of_a_package_is_not_taken_for_the_workspace(tmp_path: Path) -> None:
     """Editors that know of no project name the folder of the file that was opened first."""
     launch = tmp_path / "ws" / "robot" / "launch"

@@ -94,3 +94,40 @@ def test_programs_that_are_installed_as_they_are(tmp_path: Path) -> None:
     for unknown in ("scripts=named()", "entry_points=points()", "entry_points={'console_scripts': made()}", "**more"):
         disk = disk_with({tmp_path / "setup.py": text.format(unknown)})
         assert not read_python_build(str(tmp_path), "p", disk).all_programs, unknown
+
+
+SETUP_OF_BOTH = """
+import os
+ROS_VERSION = {}
+if {}:
+    from catkin_pkg.python_setup import generate_distutils_setup
+    setup(**generate_distutils_setup(packages=['p']))
+else:
+    name = 'p'
+    setup(
+        name=name,
+        data_files=[('share/' + name, glob('launch/*.py'))],
+        entry_points={{'console_scripts': ['{{}}_node = {{}}.{{other}}:main'.format(name, name, other='b')]}},
+    )
+"""
+
+
+@pytest.mark.parametrize(
+    ("value", "test"),
+    [
+        ("int(os.environ['ROS_VERSION'])", "ROS_VERSION == 1"),
+        ('os.environ["ROS_VERSION"]', "ROS_VERSION == '1'"),
+        ("os.environ.get('ROS_VERSION', '1')", "ROS_VERSION != '2'"),
+        ("os.getenv('ROS_VERSION')", "__name__ == '__main__' != 1 and ROS_VERSION == '1'"),
+    ],
+)
+def test_a_package_for_both_generations_is_that_of_ros_2(tmp_path: Path, value: str, test: str) -> None:
+    for path in ("launch/a.launch.py", "p/b.py"):
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).touch()
+    text = SETUP_OF_BOTH.format(value, test)
+    found = read_python_build(str(tmp_path), "p", disk_with({tmp_path / "setup.py": text}))
+    known = " and " not in test
+    assert {name: each.file for name, each in found.scripts.items()} == {"p_node": str(tmp_path / "p/b.py")}
+    assert found.data == {"a.launch.py": str(tmp_path / "launch/a.launch.py")}
+    assert (found.complete, found.all_programs) == (known, known)

@@ -33,6 +33,10 @@ _MAX_STEPS = 20_000
 """Expressions that are computed of one file; loops within loops have no end otherwise."""
 _MAX_SIZE = 100_000
 """Characters of a text or items of a list that an expression makes."""
+_ROS_VERSION = re.compile(r"(?:os\.)?(?:environ\[|environ\.get\(|getenv\()'ROS_VERSION'(?:, [^(]*)?[])]")
+"""How Python reads which ROS is built for; this is read of a package that ROS 2 builds."""
+_FIELD = re.compile(r"(?:[^{}]|\{\w*\})*")
+"""A text to format whose fields have neither a width nor an attribute."""
 _BIG_NUMBER = re.compile(r"\d{4}|\*")
 """Of a `%` that would make its text that wide."""
 
@@ -138,6 +142,11 @@ def _scripts(lines: list[str]) -> list[tuple[str, str]]:
     return [(name.strip(), target.strip()) for name, target in pairs]
 
 
+def _variable(expression: str) -> str | None:
+    """`ROS_VERSION`, as the set-up scripts of ROS 2 set it; None for any other expression."""
+    return "2" if _ROS_VERSION.fullmatch(expression) else None
+
+
 class _Unknown(Exception):  # noqa: N818 - what is not computed, not an error
     pass
 
@@ -174,12 +183,25 @@ class _Setup:
             self._augment(statement)
         elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
             self._call(statement.value)
-        elif isinstance(statement, (ast.For, ast.While, ast.FunctionDef, ast.If, ast.With, ast.Try)):
+        elif isinstance(statement, ast.If):
+            self._choice(statement)
+        elif isinstance(statement, (ast.For, ast.While, ast.FunctionDef, ast.With, ast.Try)):
             # What a loop adds to the data files is not known; that it adds is.
             self.complete = False
             for inner in ast.walk(statement):
                 if isinstance(inner, ast.Call):
                     self._call(inner)
+
+    def _choice(self, statement: ast.If) -> None:
+        """The branch that is taken; both where that is not known."""
+        try:
+            branches = [statement.body if self._value(statement.test) else statement.orelse]
+        except (_Unknown, RecursionError):
+            branches = [statement.body, statement.orelse]
+            self.complete = False
+        for branch in branches:
+            for inner in branch:
+                self._statement(inner)
 
     def _assign(self, name: str, value: ast.expr) -> None:
         try:
@@ -283,6 +305,14 @@ class _Setup:
                 return value
             case ast.Name(id=name) if name in self._names:
                 return self._names[name]
+            case ast.Name(id="__name__"):
+                return "__main__"
+            case ast.Subscript(slice=ast.Constant(value="ROS_VERSION")):
+                return _variable(ast.unparse(node))
+            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as operator], comparators=[right]):
+                return (self._value(left) == self._value(right)) is isinstance(operator, ast.Eq)
+            case ast.Call(func=ast.Attribute(value=ast.Constant(value=str()) | ast.Name() as form, attr="format")):
+                return self._formatted(self._value(form), node)
             case ast.JoinedStr(values=parts):
                 return "".join(str(self._value(p.value if isinstance(p, ast.FormattedValue) else p)) for p in parts)
             case ast.List(elts=elements):
@@ -322,7 +352,20 @@ class _Setup:
         self._names = before
         return found
 
+    def _formatted(self, form: Any, call: ast.Call) -> str:
+        values = [self._value(arg) for arg in call.args]
+        named = {keyword.arg: self._value(keyword.value) for keyword in call.keywords if keyword.arg is not None}
+        simple = isinstance(form, str) and _FIELD.fullmatch(form) and len(named) == len(call.keywords)
+        try:
+            if not simple or len(form) * max(map(len, (*values, *named.values())), default=0) > _MAX_SIZE:
+                raise _Unknown
+            return str(form.format(*values, **named))
+        except (TypeError, ValueError, LookupError):
+            raise _Unknown from None
+
     def _called(self, name: str, args: list[ast.expr], call: ast.Call) -> Any:
+        if (variable := _variable(ast.unparse(call))) is not None:
+            return variable
         values = [self._value(arg) for arg in args]
         texts = [value for value in values if isinstance(value, str)]
         if name in ("os.path.join", "join", "path.join") and texts and len(texts) == len(values):
@@ -332,6 +375,8 @@ class _Setup:
             return self._glob(texts[0], recursive)
         if name in ("str", "os.path.basename") and len(texts) == 1:
             return texts[0] if name == "str" else os.path.basename(texts[0])
+        if name == "int" and texts in (["1"], ["2"]):
+            return int(texts[0])
         if name in ("list", "sorted") and len(values) == 1 and isinstance(values[0], (list, tuple)):
             return list(values[0])
         raise _Unknown

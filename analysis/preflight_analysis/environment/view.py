@@ -19,7 +19,7 @@ def of_generation(environment: Environment, generation: int) -> Environment:
     packages: dict[str, Package] = {}
     shadowed: dict[str, tuple[Package, ...]] = {}
     for name, first in environment.packages.items():
-        candidates = (first, *environment.shadowed.get(name, ()))
+        candidates = tuple(each.built_for(generation) for each in (first, *environment.shadowed.get(name, ())))
         if ros(generation).ament:
             candidates = by_generation(p for p in candidates if not is_installed_ros1(p, installed, prefixes))
         else:  # rospkg takes what its path has, whatever it is built with

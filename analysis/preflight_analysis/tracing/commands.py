@@ -61,7 +61,7 @@ _NO_NETWORK = re.compile(
 )
 _PATH = re.compile(r"(?<![\w.])/[^\s:;,'\"`()<>\[\]]+")
 _LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
-_VARIABLES = {1: recipes.variables, 2: ros2_recipe.variables}
+_VARIABLES = {1: ros1_recipe.variables, 2: ros2_recipe.variables}
 
 
 class CommandCache(Store):

@@ -169,8 +169,9 @@ def out_of_reach(recipe: Recipe, executable: str, visible: Iterable[str]) -> str
     return next((p for p in places if os.path.exists(p) and not interior.shown(p, visible)), None)
 
 
-def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """What a node gets of the user's variables, and what the launch file sets."""
+def variables(environment: Environment, extra: Iterable[tuple[str, str]], generation: int) -> dict[str, str]:
+    """What a node of a generation of ROS gets of the user's variables, with what the set-up of that ROS would set
+    whatever is sourced here, and what the launch file sets."""
     overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
     overridden.add(VARIABLE)  # where the cache lies is nothing that a run may depend on
     kept = {
@@ -181,6 +182,8 @@ def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dic
         and not is_secret(name, value)
     }
     kept.setdefault("PATH", _DEFAULT_PATH)
+    if kept.get("ROS_VERSION") != str(generation):
+        kept |= {"ROS_VERSION": str(generation), "ROS_PYTHON_VERSION": "3"}
     kept.update((name, value) for name, value in extra if name and "=" not in name and "\0" not in name + value)
     return kept
 

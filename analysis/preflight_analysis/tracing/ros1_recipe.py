@@ -24,7 +24,7 @@ def make(
 ) -> Recipe:
     """The recipe of a request of generation 1. Reads the executable's first line; an unreadable one is left for exec
     to complain of. `preload` is the library for the executable, if it is a program that one can be loaded into."""
-    stable = recipes.variables(environment, request.env)
+    stable = variables(environment, request.env)
     user_python = environment.python or recipes.any_python(environment)
     interpreter, python = recipes.shebang_interpreter(user_python, request.executable, stable["PATH"])
     if python:
@@ -57,12 +57,17 @@ def make_command(
     environment: Environment, executable: str, args: Iterable[str], cwd: str, modules: Sequence[str] = ()
 ) -> Recipe:
     """The recipe of a command of a parameter, whose program was found as `executable`."""
-    stable = recipes.variables(environment, ())
+    stable = variables(environment, ())
     interpreter, python = recipes.shebang_interpreter(environment.python, executable, stable["PATH"])
     if python:
         stable |= _unbuilt(modules)
     argv, workspaces = (*interpreter, executable, *args), environment.workspace_folders
     return Recipe(argv, recipes.inside(stable), stable, cwd, python, workspaces=workspaces)
+
+
+def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """The variables of what is run for ROS 1, with what the launch file sets."""
+    return recipes.variables(environment, extra, 1)
 
 
 def _unbuilt(modules: Sequence[str]) -> dict[str, str]:

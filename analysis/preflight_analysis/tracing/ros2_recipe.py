@@ -118,7 +118,7 @@ def make_command(environment: Environment, executable: str, args: Iterable[str],
 
 def variables(environment: Environment, extra: Iterable[tuple[str, str]]) -> dict[str, str]:
     """The variables of what is run for ROS 2: as if all prefixes were sourced, with what the launch file sets."""
-    found = {k: v for k, v in recipes.variables(environment, extra).items() if k not in _ELSEWHERE}
+    found = {k: v for k, v in recipes.variables(environment, extra, 2).items() if k not in _ELSEWHERE}
     if not middleware.is_there(environment, found.get(middleware.VARIABLE, ""), os.path.isfile):
         # Whichever it is, a node does the same: PKG008 speaks of one that is not installed.
         found.pop(middleware.VARIABLE, None)
