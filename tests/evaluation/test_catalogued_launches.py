@@ -107,6 +107,12 @@ def test_what_is_passed_in_ros1_is_checked(tmp_path: Path, distro: str | None, s
     ]
 
 
+@pytest.mark.parametrize("passed", [("rate", "ratte", "raate"), ("rate", "enable_imu")])
+def test_what_another_version_may_declare(tmp_path: Path, passed: tuple[str, ...]) -> None:
+    found = said(analysed(tmp_path, include("scan.launch", *passed), distro="noetic"))
+    assert found == [("ARG004", "info", "possible")] * (len(passed) - 1)
+
+
 def test_what_is_passed_in_ros2_is_checked(tmp_path: Path) -> None:
     text = include("scan.launch.py", "mode", ros2=True)
     assert said(analysed(tmp_path, text, "a.launch.xml", "jazzy")) == [("ARG002", "error", "likely")]

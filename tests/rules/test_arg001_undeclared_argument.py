@@ -47,7 +47,7 @@ def test_an_argument_is_declared_by_a_fix() -> None:
     text = """
         <launch>
           <param name="a" value="$(arg rate)"/>
-                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared
+                                 ^^^^^^^^^^^ warning[ARG001] argument 'rate' is not declared: roslaunch
         </launch>
     """
     (finding,) = check(text)
@@ -123,3 +123,56 @@ def test_an_argument_that_the_files_which_include_this_one_have(tmp_path: Path, 
     workspace = Workspace(detect_environment(None, {"ROS_VERSION": "2"}, (str(tmp_path),)), Sources())
     (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "ARG001"]
     assert finding.severity == severity
+
+
+def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
+    """As real roslaunch has it: see `arg_given.txt` and `include_pass_all.txt` of `fixtures/ros1/meaning`."""
+    check("""
+        <launch>
+          <arg name="map_file" default="1"/>
+          <param name="b" value="$(arg file)"/>
+                                 ^^^^^^^^^^^ warning[ARG001] argument 'file' is not declared: roslaunch takes it
+          <param name="c" value="$(arg mapfile)"/>
+                                 ^^^^^^^^^^^^^^ error[ARG001] 'mapfile' is not declared; did you mean 'map_file'?
+          <include file="/part.launch" pass_all_args="true"/>
+          <include file="/other.launch"/>
+        </launch>
+        //- /part.launch
+        <launch><param name="d" value="$(arg size)"/></launch>
+                                       ^^^^^^^^^^^ warning[ARG001] from the command line alone (size:=...)
+        //- /other.launch
+        <launch><param name="e" value="$(arg size)"/></launch>
+                                       ^^^^^^^^^^^ error[ARG001] argument 'size' is not declared
+    """)
+
+
+@pytest.mark.parametrize(("place", "severity"), [("README.md", "info"), ("../README", "info"), ("notes.md", "warning")])
+def test_a_readme_says_how_to_give_what_is_not_declared(tmp_path: Path, place: str, severity: str) -> None:
+    package = tmp_path / "robot"
+    package.mkdir()
+    (package / "package.xml").write_text("<package><name>robot</name></package>")
+    (package / "play.launch").write_text('<launch><param name="a" value="$(arg bagfile)"/></launch>')
+    (package / place).write_text("roslaunch robot play.launch bagfile:=/a.bag")
+    workspace = Workspace(detect_environment(str(tmp_path), {}, root=str(tmp_path / "nowhere")), Sources())
+    (finding,) = workspace.static(str(package / "play.launch")).findings
+    assert (finding.rule, finding.severity) == ("ARG001", severity)
+
+
+def test_the_command_line_chooses_what_is_declared() -> None:
+    mode = """
+        <launch>
+          <arg name="first" default="false"/>
+          <arg name="model" value="1" if="$(arg first)"/>
+          <param name="a" value="$(arg model)"/>
+                                 ^^^^^^^^^^^^ {}[ARG001] under a condition
+        </launch>
+    """
+    check(mode.format("info"))
+    # Who includes it chooses, and nobody has.
+    check(
+        """
+        <launch><include file="/mode.launch"/></launch>
+        //- /mode.launch
+    """
+        + mode.format("error")
+    )

@@ -71,3 +71,20 @@ def test_arguments_that_are_passed_or_have_a_default() -> None:
           <param name="mode" value="$(arg mode) $(arg rate)"/>
         </launch>
     """)
+
+
+def test_what_the_command_line_can_give() -> None:
+    check("""
+        <launch>
+          <include file="/inc.launch" pass_all_args="true"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[ARG002] which is not passed; launch with bag:=...
+          <include file="/between.launch"/>
+        </launch>
+        //- /inc.launch
+        <launch><arg name="bag"/><param name="p" value="$(arg bag)"/></launch>
+        //- /between.launch
+        <launch>
+          <include file="/inc.launch" pass_all_args="true"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] which is not passed
+        </launch>
+    """)

@@ -258,3 +258,21 @@ def test_an_argument_that_another_launch_passes(tmp_path: Path, include: str, sa
         //- {tmp_path}/package.xml
         <package><name>p</name></package>
     """)
+
+
+@pytest.mark.parametrize(
+    "left_out",
+    ["<!-- <param name='rate' value='$(arg rate)'/> -->", "<rosparam><![CDATA[# rate: $(arg rate)]]></rosparam>"],
+)
+def test_an_argument_whose_use_is_left_out_is_for_information(left_out: str) -> None:
+    check(f"""
+        <launch>
+          <include file="/inc.launch"><arg name="rate" value="2"/></include>
+                                                 ^^^^ info[ARG008] declares it and speaks of it in a comment only
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="rate" default="10"/>
+          {left_out}
+        </launch>
+    """)

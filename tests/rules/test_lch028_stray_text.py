@@ -16,6 +16,10 @@ def test_text_between_tags_means_nothing() -> None:
           </group>
           <param name="x" value="1">2</param>
                                     ^ warning[LCH028] the text '2' in <param>
+          <![CDATA[
+            node pkg="p" type="t" name="o">
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH028] means nothing: roslaunch does not look at it
+          ]]>
         </launch>
     """)
     titles = [fix.title for finding in findings for fix in finding.fixes]

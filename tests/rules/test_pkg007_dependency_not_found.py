@@ -41,6 +41,7 @@ def test_what_somebody_knows_and_what_is_like_nothing() -> None:
           <buildtool_depend>catkin</buildtool_depend>
           <exec_depend condition="$ROS_VERSION == 2">nav2_bringup</exec_depend>
           <exec_depend>python3-numpy</exec_depend>
+          <exec_depend condition="$ROS_PYTHON_VERSION == 2">python-tk</exec_depend>
           <exec_depend>acme_gripper_firmware</exec_depend>
           <exec_depend>laser_driver</exec_depend>
         </package>

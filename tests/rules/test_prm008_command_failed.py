@@ -138,6 +138,11 @@ def test_a_file_that_is_made_on_each_machine_is_for_information() -> None:
     assert _of_xacro(missing.format("xacro", "xacro")).severity == "error"
 
 
+def test_a_file_of_the_robot() -> None:
+    finding = _of_xacro("/usr/bin/cat: /var/lib/robot/password.txt: No such file or directory")
+    assert finding.lack == Lack("file", "/var/lib/robot/password.txt")
+
+
 def test_a_path_that_is_made_of_a_variable_that_is_not_set() -> None:
     missing = "error: No such file or directory: /p/None.xacro"
     finding = _of_xacro(missing, "<!-- os.getenv('ROBOT_BASE') -->")

@@ -1,15 +1,22 @@
 """ARG001: $(arg) of an argument that is not declared."""
 
+import os
+import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.problems import Problem, UndeclaredArgument
-from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.arguments import declarations, declare
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.launch.model import Action
+from preflight_analysis.rules.arguments import declarations, declare, passes_all
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parts_of_launches import is_configured_elsewhere, is_part
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
+
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_README = re.compile(r"readme\b", re.IGNORECASE)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -19,11 +26,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message = f"argument '{name}' is not declared"
         launch_file = context.launch_files.get(place.file)
         elsewhere = declarations(launch_file).get(name, ()) if launch_file is not None else ()
+        asked = passes_all(context, problem.origin[:-1])
         if elsewhere:
             later = elsewhere[0].span.start > place.span.start
             where = "before this place" if later else "here, but in another <group> or under a condition"
             declared = Related("declared here", context.location(place.file, elsewhere[0].head_span))
-            yield problem_finding(rule, problem, f"{message} {where}", related=(declared,))
+            chosen = asked and not later and _may_be_chosen(context, elsewhere)
+            message = f"{message} {where}" + ("; an argument of the command line chooses" if chosen else "")
+            yield problem_finding(rule, problem, message, severity="info" if chosen else None, related=(declared,))
             continue
         near = nearest(name, problem.kind.declared)
         if problem.kind.not_followed is not None:
@@ -34,7 +44,32 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             message += ": another launch file that includes this one has to set it"
             yield problem_finding(rule, problem, message, severity="info", confidence="possible", fixes=fixes)
             continue
-        yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
+        severity: Severity = "error"
+        if asked and not (near is not None and is_slip(name, near)):
+            severity = "info" if _is_documented(context, place.file, name) else "warning"
+            message += f": roslaunch takes it from the command line alone ({name}:=...)"
+        yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
+
+
+def _may_be_chosen(context: Context, tags: tuple[Action, ...]) -> bool:
+    """Whether the command line decides over a condition of one of the declarations, and does not yet."""
+    conditions = (value.text for tag in tags for kind in ("if", "unless") if (value := tag.value(kind)) is not None)
+    names = {name for condition in conditions for name in _WORD.findall(condition)}
+    args = context.tree.args
+    return any(args[name].default is not None and args[name].value_origin is not None for name in names & args.keys())
+
+
+def _is_documented(context: Context, file: str, name: str) -> bool:
+    """Whether the package or the workspace of a launch file says how to give it the argument."""
+    package, workspace = package_around(context.environment, file), context.environment.workspace
+    folders = (package.share if package is not None else None, workspace, os.path.dirname(file))
+    texts = (
+        context.disk.content(os.path.join(folder, each))
+        for folder in dict.fromkeys(filter(None, folders))
+        for each in context.disk.names(folder)
+        if _README.match(each)
+    )
+    return any(re.search(rf"(?<!\w){re.escape(name)}:=", text) for text in texts if text is not None)
 
 
 def _unsure(
@@ -60,7 +95,9 @@ RULE = Rule(
     what="Reports `$(arg name)` where the file has not declared that argument before, and names the nearest one that "
     "it has declared. In ROS 2 an included file sets arguments of its includer too: after an include that cannot be "
     "read it is a warning where there is a name that near, and a hint else. It knows those of its includer as well: in "
-    "a file that is made to be included it is information.",
+    "a file that is made to be included it is information. In ROS 1 the command line gives arguments "
+    "that nothing declares, too: of the launch file itself it is a warning, unless the name is a slip, and an "
+    "information where a README says `name:=`, or where the command line chooses what is declared.",
     why="`roslaunch` stops. An argument is known only in the file that declares it, from its `<arg>` on; files that "
     "are included get it only if it is passed.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import MissingArgument
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.arguments import pass_on
+from preflight_analysis.rules.arguments import pass_on, passes_all
 from preflight_analysis.rules.catalogued import as_sure, by_catalogue
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
@@ -19,6 +19,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         known = by_catalogue(context, problem.kind.file)
         message = f"'{file}' requires argument '{name}', which is not passed{hint}{known}"
         severity, confidence = as_sure(context, problem.kind.file, rule.severity)
+        if passes_all(context, problem.origin):
+            severity, message = "info", f"{message}; launch with {name}:=..."
         fixes = pass_on(context, problem.location, name)
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
@@ -27,7 +29,8 @@ RULE = Rule(
     id="ARG002",
     name="missing-argument",
     severity="error",
-    what="Reports an `<include>` that gives no value to an argument that the included file declares without default.",
+    what="Reports an `<include>` that gives no value to an argument that the included file declares without default. "
+    "Where `pass_all_args` leads there from the launch file on, the command line can give it: that is an information.",
     why="`roslaunch` stops with `requires the 'name' arg to be set`.",
     example='<include file="$(find camera)/launch/camera.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch">\n  <arg name="serial" value="7cd1"/>\n</include>',

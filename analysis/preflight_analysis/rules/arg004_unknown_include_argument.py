@@ -1,5 +1,6 @@
 """ARG004: an include passes an argument that the file does not declare."""
 
+from collections import Counter
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import UnknownIncludeArgument
@@ -12,7 +13,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for problem in problems_of(context, UnknownIncludeArgument):
+    problems = [*problems_of(context, UnknownIncludeArgument)]
+    unknown_of = Counter((problem.origin[:-1], problem.kind.file) for problem in problems)
+    for problem in problems:
         name, file = problem.kind.name, shown(problem.kind.file, context)
         near = nearest(name, problem.kind.declared)
         fixes = (
@@ -25,6 +28,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message += did_you_mean(near) + by_catalogue(context, problem.kind.file)
         severity: Severity = "error" if problem.fatal else "warning"
         severity, confidence = as_sure(context, problem.kind.file, severity)
+        if confidence == "likely" and (near is None or unknown_of[problem.origin[:-1], problem.kind.file] > 1):
+            # Nobody makes several slips in one include: it is written for another version of the package.
+            severity, confidence = "info", "possible"
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
@@ -35,7 +41,8 @@ RULE = Rule(
     what="Reports an `<arg>` in an `<include>` that the included file does not declare, and names the nearest one that "
     "it does.",
     why="`roslaunch` stops with `unused args`. `ros2 launch` takes it without a word, and the file has its default; "
-    "there nothing is said where an include that is not taken might use it.",
+    "there nothing is said where an include that is not taken might use it. Of a package that is not here the "
+    "catalogue knows one version: what is no slip of an argument of that may be one of another, and is an information.",
     example='<include file="camera.launch">\n  <arg name="frame" value="front"/>\n</include>',
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',
     check=_check,

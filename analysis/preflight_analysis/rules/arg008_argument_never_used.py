@@ -34,6 +34,7 @@ _WITHOUT_NAMES = sys.stdlib_module_names | {
 }  # fmt: skip
 """Modules that take arguments by no name of their own."""
 _GIVEN = re.compile(r"""<arg\s[^<>]*?\bname\s*=\s*["'](\w+)["'][^<>]*?\bvalue\s*=""")
+_LEFT_OUT = re.compile(r"<!(?:--.*?-->|\[CDATA\[.*?\]\]>)", re.DOTALL)
 _FALSE = ("false", "0", "")
 _FIXED = ("find", "find-pkg-share", "dirname", "path-join")
 """Substitutions that give the same in every launch."""
@@ -74,7 +75,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield rule.finding(
                     f"argument '{name}' has no effect: {_who_passes(files)}, and this file never uses it",
                     location,
-                    severity="warning",
+                    severity="info" if _is_left_out(context, path, name) else "warning",
                 )
                 continue
             edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
@@ -110,10 +111,12 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
         value = given.value("name")
         if given.kind == "arg" and value is not None and value.text == name:
             where = shown(str(include.path), context)
+            left_out = _is_left_out(context, declared.file, name)
             yield rule.finding(
-                f"argument '{name}' has no effect: '{where}' declares it and never uses it",
+                f"argument '{name}' has no effect: '{where}' declares it and "
+                + ("speaks of it in a comment only" if left_out else "never uses it"),
                 context.location(include.origin[-1].file, value.span),
-                severity="warning",
+                severity="info" if left_out else "warning",
                 related=(Related("declared here", declared),),
             )
 
@@ -131,6 +134,14 @@ def _passed_around(context: Context, path: str) -> Counter[str]:
 
 def _who_passes(files: int) -> str:
     return "a launch file of the package passes it" if files == 1 else f"{files} launch files of the package pass it"
+
+
+def _is_left_out(context: Context, path: str, name: str) -> bool:
+    """Whether a comment or a section of character data of the file speaks of the argument: whoever wrote that knows
+    that it is not used, and keeps it for those who pass it."""
+    document = context.documents.get(path)
+    word = re.compile(rf"(?<!\w){re.escape(name)}(?!\w)")
+    return document is not None and any(word.search(text) for text in _LEFT_OUT.findall(document.text))
 
 
 def _declared_below(context: Context, path: str, name: str) -> tuple[Include, Location] | None:
@@ -302,7 +313,7 @@ RULE = Rule(
     "include passes is left alone: without the declaration that include would fail. In ROS 2, where all that is "
     "included knows it, only in a launch of one file. An include that passes an argument which the included file "
     "declares and never uses is a warning, which stands at the declaration where that include is of another launch of "
-    "the package.",
+    "the package. It is an information where a comment of that file speaks of the argument.",
     why="Whoever sets it on the command line believes that it has an effect. An argument is known only in the file "
     "that declares it; what that file includes gets it only if it is passed.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.xml_text import quoted_attribute
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import insert_child, remove_tag
@@ -32,6 +32,22 @@ def _declarations(action: Action) -> Iterator[Action]:
             yield from _declarations(child)
 
 
+def passes_all(context: Context, includes: Origin) -> bool:
+    """Whether what is given on the command line reaches the file that these includes lead to: in ROS 1 each has to have
+    `pass_all_args`."""
+    found = (_include_at(context, place) for place in includes)
+    flags = (action.value("pass_all_args") if action is not None else None for action in found)
+    return not context.tree.ros.shared_configurations and all(
+        flag is not None and flag.text.strip().lower() in ("true", "1") for flag in flags
+    )
+
+
+def _include_at(context: Context, place: Location) -> Action | None:
+    launch_file = context.launch_files.get(place.file)
+    action = action_at(launch_file, place.span.start + 1) if launch_file is not None else None
+    return action if action is not None and action.kind.lower() == "include" else None
+
+
 def remove_at(context: Context, location: Location, title: str) -> tuple[Fix, ...]:
     """A fix that removes the tag at `location`."""
     launch_file = context.launch_files.get(location.file)
@@ -53,9 +69,8 @@ def declare(context: Context, file: str, name: str) -> tuple[Fix, ...]:
 def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:
     """A fix that passes an argument in the `<include>` whose start tag is at `include`: the includer's own argument of
     that name if it has one, else an empty value to be filled in."""
-    launch_file = context.launch_files.get(include.file)
-    action = action_at(launch_file, include.span.start + 1) if launch_file is not None else None
-    if launch_file is None or action is None or action.kind.lower() != "include" or launch_file.document.problems:
+    launch_file, action = context.launch_files.get(include.file), _include_at(context, include)
+    if launch_file is None or action is None or launch_file.document.problems:
         return ()
     known = name in declarations(launch_file)
     value = f"$(arg {name})" if known else ""

@@ -23,6 +23,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         bad = problem.kind
         near = _meant(bad)
         message = f"{bad.attribute}='{bad.value}' of <{bad.tag}> is not {bad.expected}"
+        if bad.expected == "not empty":
+            message = f"{bad.attribute}='' of <{bad.tag}> is empty"
         fixes = rename(context, problem.location, bad.value, near) if near else ()
         yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
 

@@ -19,13 +19,17 @@ _REMARK = re.compile(r"(?:#|//)")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, StrayText):
         text = problem.kind.text
-        lost = _TAG.match(text) is not None
+        location = problem.location
+        document = context.documents.get(location.file)
+        # What stands in a section of character data was put there to be left out.
+        put = document is not None and document.text[: location.span.start].rstrip().endswith("<![CDATA[")
+        lost = not put and _TAG.match(text) is not None
         hint = "; is a '<' missing before it?" if lost else ""
         message = (
             f"the text '{shortened(text)}' in <{problem.kind.tag}> means nothing: roslaunch does not look at it{hint}"
         )
-        severity: Severity | None = "hint" if _REMARK.match(text) else None
-        fixes = _fixes(context, problem.location, text, lost)
+        severity: Severity | None = "hint" if put or _REMARK.match(text) else None
+        fixes = _fixes(context, location, text, lost)
         yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)
 
 
@@ -42,7 +46,8 @@ RULE = Rule(
     id="LCH028",
     name="stray-text",
     severity="warning",
-    what="Reports text between the tags of a launch file, outside of `<rosparam>`.",
+    what="Reports text between the tags of a launch file, outside of `<rosparam>`. A remark, or what a `CDATA` section "
+    "leaves out, is a hint.",
     why="""XML allows it and `roslaunch` does not look at it. It is what is left of a tag whose `<` was lost, so that a
 node is never started, or a remark that was meant as a comment.""",
     example='<launch>\n  node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',

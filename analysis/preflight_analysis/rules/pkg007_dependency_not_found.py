@@ -53,7 +53,9 @@ def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[Span, 
     unknown: dict[str, Span] = {}
     for found in _DEPENDENCY.finditer(without_comments(manifest.text)):
         name = found[2]
-        known = name in environment.packages or name in system_keys() or name in unknown
+        # rosdep has forgotten Python 2; manifests for both still name it.
+        key = f"python3-{name[7:]}" if name.startswith("python-") else name
+        known = name in environment.packages or not system_keys().isdisjoint((name, key)) or name in unknown
         if not known and not any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
             unknown[name] = Span(*found.span(2))
     return tuple((span, name) for name, span in unknown.items())

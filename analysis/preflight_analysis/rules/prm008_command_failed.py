@@ -60,7 +60,7 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
     severity: Severity | None = None
     if lack is None and (found := next(filter(None, map(_NO_FILE.search, failed.stderr)), None)) is not None:
         path = found["after"] or found["before"]
-        lack = _variable_in(context, path, problem.origin) or lack_of_made(context, path)
+        lack = _variable_in(context, path, problem.origin) or lack_of_made(context, path) or lack_of_file(context, path)
         if lack is None and is_ignored(context.disk, path):
             severity, message = "info", f"{message}; git ignores the file, so it may be made on each machine"
     elif any(_NO_INPUT in line for line in failed.stderr):
