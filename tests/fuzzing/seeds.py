@@ -198,6 +198,14 @@ parameters: {/x: [1, 2.5, yes]}
 errors: [x]
 unknown: [y]
 """
+BRIDGES = b"""- {ros_topic_name: odom, gz_topic_name: /odom, ros_type_name: nav_msgs/msg/Odometry, direction: GZ_TO_ROS}
+- {topic_name: cmd_vel, ros_type_name: geometry_msgs/msg/Twist, gz_type_name: gz.msgs.Twist, direction: ROS_TO_GZ}
+- {gz_topic_name: both, ros_type_name: std_msgs/msg/String}
+"""
+ROBOT = b"""<robot><gazebo><plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
+<parameters>/a/b.yaml</parameters><controller_manager_name>cm</controller_manager_name><!-- <plugin> -->
+<ros><namespace>left</namespace><remapping>/tf:=tf</remapping></ros></plugin></gazebo></robot>
+"""
 NODL = b"""nodl_version: 2
 include: [{ref: 'local://common.nodl.yaml'}]
 parameters: {rate: {type: double, default_value: 10.0}}

@@ -36,6 +36,7 @@ from preflight_analysis.environment.packages import LEGACY_MANIFEST, find_packag
 from preflight_analysis.environment.setup_py import read_python_build
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2.param_files import read_made_param_file
+from preflight_analysis.evaluation.ros2.simulated import plugins_in
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.findings.baseline import read_baseline
@@ -449,6 +450,23 @@ def cmake(data: bytes) -> None:
         build.library(name)
 
 
+_BRIDGE = (
+    "<launch><node pkg='ros_gz_bridge' exec='parameter_bridge' args='-p config_file:=$(find-pkg-share p)/b.yaml'/>"
+    "</launch>"
+)
+
+
+def gazebo_bridges(data: bytes) -> None:
+    """The configuration file of a bridge."""
+    look(2, {"b.yaml": text_of(data), "launch/x.launch.xml": _BRIDGE}, "launch/x.launch.xml")
+
+
+def robot_description(data: bytes) -> None:
+    """What it says to the plugins of ros2_control in Gazebo."""
+    for plugin in plugins_in(text_of(data)):
+        assert plugin.namespace.startswith("/")
+
+
 def setup_py(data: bytes) -> None:
     text = text_of(data)
     for name in ("setup.py", "setup.cfg", "pyproject.toml"):
@@ -687,6 +705,8 @@ TARGETS = (
         lambda: [*seeds.files("**/setup.py", "**/setup.cfg"), seeds.SETUP, seeds.SETUP_CFG, seeds.PYPROJECT],
         seeds.PYTHON,
     ),
+    Target("gazebo-bridges", gazebo_bridges, lambda: [seeds.BRIDGES], seeds.YAML),
+    Target("robot-description", robot_description, lambda: [seeds.ROBOT], seeds.XML),
     Target("settings", settings, lambda: [seeds.SETTINGS], seeds.YAML),
     Target("cache-entries", cache_entries, _entries, seeds.JSON),
     Target("kept-index", kept_index, _written_index, seeds.JSON),

@@ -108,6 +108,24 @@ def test_hover_of_the_node_says_what_it_gets_and_from_where() -> None:
     assert "- `on` = `True` from [p.yaml:4]" in found.markdown
 
 
+PLUGIN = """
+    /left/pump:
+      ros__parameters:
+        planner:
+          plugin: "nav2_navfn_planner::NavfnPlanner"
+          {}
+"""
+
+
+def test_what_a_plugin_declares_is_its_node_s() -> None:
+    names = labels(PLUGIN.format("$0"))
+    assert {"tolerance", "use_astar", "allow_unknown"} <= {*names}
+    assert "tolerance" not in labels(PLUGIN.format("tolerance: 1.0\n          $0"))
+    assert offered(PLUGIN.format("tolerance: $0"))[:1] == [("0.5", "default")]
+    assert "`/left/pump` declares it: double, default `0.5`" in hovered(PLUGIN.format("toler$0ance: 1.0"))
+    assert "declares it" not in hovered(PLUGIN.format("nothing$0: 1.0"))
+
+
 def test_to_the_declaration_in_the_source(tmp_path: Path) -> None:
     made = '{"/pump": {"params": {"rate": 10.0}, "made": {"rate": ["%s/pump.py", 2]}}}' % tmp_path
     text = (

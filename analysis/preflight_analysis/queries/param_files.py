@@ -4,6 +4,7 @@ declare."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
@@ -16,6 +17,7 @@ from preflight_analysis.queries.param_texts import default_text, type_text, valu
 from preflight_analysis.queries.places import link, place
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import made_at
+from preflight_analysis.rules.plugin_params import declared_of_plugins
 from preflight_analysis.tracing.interface import NOT_RUN, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -45,10 +47,24 @@ def readers(analysis: Analysis, path: str) -> tuple[Reader, ...]:
     nodes = graph.tree.nodes if graph is not None else analysis.tree.nodes
     interfaces = graph.interfaces if graph is not None else (NOT_RUN,) * len(nodes)
     return tuple(
-        Reader(node, interface)
+        Reader(node, _with_plugins(analysis, node, interface))
         for node, interface in zip(nodes, interfaces, strict=True)
         if any(source.path == path for source in node.param_sources)
     )
+
+
+def _with_plugins(analysis: Analysis, node: LaunchNode, interface: Interface) -> Interface:
+    """The interface with what the plugins declare that the node loads, as far as they are known."""
+    declared = declared_of_plugins({param.name: param.value for param in node.params}, analysis.context.plugins)
+    if not declared:
+        return interface
+    known = {use.name.removeprefix("~") for use in interface.params}
+    uses = (
+        ParamUse(name, "get", default, default is not None, inferred=True, catalogued=plugin.evidence)
+        for name, (default, plugin) in declared.items()
+        if name not in known
+    )
+    return replace(interface, params=(*interface.params, *uses))
 
 
 def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover | None:

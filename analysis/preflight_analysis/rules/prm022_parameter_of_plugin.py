@@ -6,8 +6,7 @@ declares.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import chain
 from typing import NamedTuple
 
@@ -19,16 +18,9 @@ from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param
 from preflight_analysis.findings.finding import Confidence, Finding, Related
 from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.rules.places import getters_of
+from preflight_analysis.rules.plugin_params import KIND, LISTED, declared_below
 from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Plugin, Plugins, Rule
-
-_KIND = ".plugin"
-_LISTED = re.compile(r"\{(\w+)\}")
-_OF_PARENT = "../"
-_CRITICS, _NAMESPACES = "critics", "default_critic_namespaces"
-_MPPI = "mppi::critics"
-_MOST = 64
-"""Plugins that one loads."""
 
 
 class Wrong(NamedTuple):
@@ -78,8 +70,8 @@ def wrong_in(document: Document, plugins: Plugins) -> Iterator[Wrong]:
         plugin = plugins.plugin(type_)
         if plugin is None or not plugin.params:
             continue
-        declared = _declared(plugin, values, plugins)
-        elsewhere = {*plugin.elsewhere, _KIND[1:]}
+        declared = declared_below(plugin, values, plugins)
+        elsewhere = {*plugin.elsewhere, KIND[1:]}
         free = [name for name in declared if name not in values]
         for param in below:
             name = param.name[len(loaded) + 1 :]
@@ -96,7 +88,7 @@ def _loaded(document: Document) -> tuple[tuple[str, str, Mapping[str, object], t
     found = []
     for section in read_param_file(document).sections:
         for param in section.params:
-            name = param.name.removesuffix(_KIND)
+            name = param.name.removesuffix(KIND)
             if name != param.name and name and isinstance(param.value, str):
                 below = tuple(each for each in section.params if each.name.startswith(f"{name}."))
                 values = {each.name[len(name) + 1 :]: each.value for each in below}
@@ -104,48 +96,9 @@ def _loaded(document: Document) -> tuple[tuple[str, str, Mapping[str, object], t
     return tuple(found)
 
 
-def _declared(plugin: Plugin, values: Mapping[str, object], plugins: Plugins) -> Mapping[str, object]:
-    """What is declared below the name of a plugin, with defaults: by itself, and by what it loads."""
-    found: dict[str, object] = {}
-    for name, default in plugin.params.items():
-        listed = _LISTED.match(name)
-        if listed is None:
-            found[name] = default
-            continue
-        for item in _items(values.get(listed[1])):
-            found[f"{item}{name[listed.end() :]}"] = default
-    for name in [*found]:
-        value = values.get(name, found[name])
-        inner = plugins.plugin(value) if isinstance(value, str) and "::" in value.replace("/", "::") else None
-        for each, default in inner.params.items() if inner is not None else ():
-            found.setdefault(each, default)
-    for critic in _items(values.get(_CRITICS)):
-        inner = _critic(plugin, critic, {**found, **values}, plugins)
-        for each, default in inner.params.items() if inner is not None else ():
-            at_parent = each.startswith(_OF_PARENT)
-            found.setdefault(each.removeprefix(_OF_PARENT) if at_parent else f"{critic}.{each}", default)
-    return found
-
-
-def _critic(plugin: Plugin, name: str, values: Mapping[str, object], plugins: Plugins) -> Plugin | None:
-    """What a controller loads by a name in the list of its critics."""
-    if _NAMESPACES not in plugin.params:
-        return plugins.plugin(f"{_MPPI}::{name}")
-    cls = values.get(f"{name}.class") or name
-    spaces = values.get(_NAMESPACES)
-    names = [f"{space}::{cls}{end}" for space in _items(spaces) for end in ("", "Critic")]
-    return next((found for each in (str(cls), *names) if (found := plugins.plugin(each)) is not None), None)
-
-
-def _items(value: object) -> Sequence[str]:
-    """What a list of texts has, or a text with spaces in between."""
-    items = value.split() if isinstance(value, str) else value if isinstance(value, (list, tuple)) else ()
-    return [each for each in items if isinstance(each, str)][:_MOST]
-
-
 def _endings(elsewhere: set[str]) -> Iterator[str]:
     """Of what other versions declare below what a parameter lists."""
-    return (name[found.end() :] for name in elsewhere if (found := _LISTED.match(name)) is not None)
+    return (name[found.end() :] for name in elsewhere if (found := LISTED.match(name)) is not None)
 
 
 def _is_near(name: str, declared: str, values: Mapping[str, object]) -> bool:
