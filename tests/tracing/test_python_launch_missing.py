@@ -585,6 +585,8 @@ WHAT_IS_DONE_WITH_IT = {
     "a default among choices": "DeclareLaunchArgument('a', default_value=unknown.a, choices=['a', 'b'])",
     "choices": "DeclareLaunchArgument('a', default_value='c', choices=unknown.kinds())",
     "a text in a list": "', '.join([unknown.name, 'a']), ' '.join(unknown)",
+    "replaced": "'/sensing/CAMERA'.replace('CAMERA', unknown.name()), 'a'.startswith(unknown.name())",
+    "joined to a path": "os.path.join(share, 'a', unknown.name(), *['b', 'c'])",
     "written": "open('/tmp/a.txt', 'w').write(unknown.text())",
     "written as YAML": "import yaml; yaml.safe_dump({'a': unknown, 'b': config})",
     "a substitution": "TextSubstitution(text=unknown.name())",

@@ -27,7 +27,7 @@ _AS_CODE, _VALUE = "__preflight_as_code__", "__preflight_value__"
 _OF_VALUES = ("int", "float", "dict", "type", "isinstance")
 _GIVEN = {"map": _CALLED, "eval": _AS_CODE}
 """Functions of which the first argument is asked."""
-_OF_TEXTS = ("join", "write", "writelines")
+_OF_TEXTS = ("join", "replace", "startswith", "endswith", "write", "writelines")
 """Methods that want texts."""
 _COLLECTIONS: tuple[type, ...] = (dict, list, tuple)
 _PLAIN: tuple[type, ...] = (str, int, float, bool)
@@ -109,8 +109,8 @@ class _Rewriter(ast.NodeTransformer):
             node.func = _call(_CALLED, node.func)
         elif isinstance(node.func, ast.Name) and node.func.id in _GIVEN and node.args:
             node.args[0] = _call(_GIVEN[node.func.id], node.args[0])
-        elif isinstance(node.func, ast.Attribute) and node.func.attr in _OF_TEXTS and len(node.args) == 1:
-            node.args = [_call(_AS_TEXT, node.args[0])]
+        elif isinstance(node.func, ast.Attribute) and node.func.attr in _OF_TEXTS:
+            node.args = [each if isinstance(each, ast.Starred) else _call(_AS_TEXT, each) for each in node.args]
         more = [each for each in node.keywords if each.arg is None]
         for each in more:
             each.value = _call(_MORE, each.value)
