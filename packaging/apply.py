@@ -96,6 +96,15 @@ def _addresses(text: str, known: Project) -> str:
     return _HOOK.sub(rf"\g<1>{known.revision}", text)
 
 
+def _mason(text: str, known: Project) -> str:
+    return re.sub(r"(?m)^(  id: pkg:pypi/ros-preflight@)\S+$", rf"\g<1>{known.version}", _addresses(text, known))
+
+
+def _feature_install(text: str, known: Project) -> str:
+    source = "ros-preflight==" + known.version if known.published else f"git+{known.repository}"
+    return re.sub(r"(?m)^DEFAULT=.*$", f'DEFAULT="{source}"', text)
+
+
 def _between(mark: str, comment: str, made: Callable[[Project], str]) -> Callable[[str, Project], str]:
     """Replaces the lines between `MARK: begin` and `MARK: end`, which are comments of the file's own kind."""
     begin, end = (comment.format(f"{mark}: {which}") for which in ("begin", "end"))
@@ -157,6 +166,10 @@ _FILES: Mapping[str, tuple[Callable[[str, Project], str], ...]] = {
     "README.md": (_addresses, _between("how to install", "<!-- {} -->", _readme)),
     "docs/start/install.md": (_between("how to install", "<!-- {} -->", _install_page),),
     "docs/ci.md": (_addresses,),
+    "packaging/devcontainer/ros-preflight/devcontainer-feature.json": (_feature_json,),
+    "packaging/devcontainer/ros-preflight/install.sh": (_feature_install,),
+    "packaging/editors/mason/package.yaml": (_mason,),
+    "packaging/editors/nvim-lspconfig/lsp/ros_preflight.lua": (_addresses,),
 }
 
 

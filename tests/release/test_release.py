@@ -1,0 +1,113 @@
+"""What a release demands, and what images and dev containers install."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGING = ROOT / "packaging"
+READY = SimpleNamespace(version="1.2.3", repository="https://github.com/someone/ros-preflight")
+
+
+def load() -> Any:
+    """`packaging/release.py`, which is no package."""
+    spec = importlib.util.spec_from_file_location("packaging_release", PACKAGING / "release.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+release = load()
+
+
+def test_the_section_of_the_changelog() -> None:
+    text = "# Changelog\n\n## 1.2.3 (2027-01-31)\n- a\n- b\n\n## 1.2.2 (2026-01-01)\n- c\n"
+    assert release.changes("1.2.3", text) == ("2027-01-31", "- a\n- b\n")
+    assert release.changes("1.2.2", text) == ("2026-01-01", "- c\n")
+    with pytest.raises(SystemExit, match=r"1\.2\.4"):
+        release.changes("1.2.4", text)
+
+
+def test_the_changelog_has_the_version() -> None:
+    known = release.project()
+    _, section = release.changes(known.version, (ROOT / "CHANGELOG.md").read_text())
+    assert section.startswith("- ")
+
+
+@pytest.mark.parametrize(
+    ("known", "date", "git", "why"),
+    [
+        (READY, "2027-01-31", {"tag": "v1.2.3\n", "status": ""}, None),
+        (READY, "unreleased", {"tag": "v1.2.3\n", "status": ""}, "instead of a date"),
+        (READY, "2027-01-31", {"tag": "v1.2.2\n", "status": ""}, "no tag v1.2.3"),
+        (READY, "2027-01-31", {"tag": "v1.2.3\n", "status": " M a\n"}, "uncommitted"),
+        (
+            SimpleNamespace(version="1.2.3", repository="https://github.com/OWNER/x"),
+            "2027-01-31",
+            {"tag": "v1.2.3\n", "status": ""},
+            "placeholder",
+        ),
+    ],
+)
+def test_what_is_not_ready_is_not_released(
+    known: SimpleNamespace, date: str, git: dict[str, str], why: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(release, "run", lambda _, verb, *rest: git[verb])
+    if why is None:
+        assert release.check_ready(known, date) is None
+    else:
+        with pytest.raises(SystemExit, match=why):
+            release.check_ready(known, date)
+
+
+def test_the_image_is_for_each_distribution_and_copies_what_is_there() -> None:
+    text = (PACKAGING / "docker/Dockerfile").read_text()
+    assert "FROM ros:${ROS_DISTRO}-ros-base" in text
+    kept = re.findall(r"(?m)^!(\S+)$", (PACKAGING / "docker/Dockerfile.dockerignore").read_text())
+    assert all((ROOT / name).exists() for name in kept)
+    (copied,) = re.findall(r"(?m)^COPY (\S+) ", text)
+    assert copied in kept
+    # The build of the wheel needs them.
+    assert {"pyproject.toml", "README.md", "LICENSE", "analysis", "server"} <= set(kept)
+
+
+@pytest.mark.ros
+def test_the_image_sources_ros_and_the_workspace(tmp_path: Path) -> None:
+    (tmp_path / "install").mkdir()
+    (tmp_path / "install/setup.bash").write_text("export SOURCED=yes\n")
+    command = tmp_path / "ros-preflight"
+    command.write_text('#!/bin/sh\necho "$SOURCED $*"\nexit 3\n')
+    command.chmod(0o755)
+    done = subprocess.run(
+        ["bash", PACKAGING / "docker/entrypoint.sh", "check", "a b"],
+        cwd=tmp_path,
+        env={"PATH": f"{tmp_path}:{os.environ['PATH']}", "ROS_DISTRO": "none"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (3, "yes check a b\n")
+
+
+def test_the_feature_of_dev_containers() -> None:
+    folder = PACKAGING / "devcontainer/ros-preflight"
+    feature = json.loads((folder / "devcontainer-feature.json").read_text())
+    # https://containers.dev/implementors/features/: these three are required, the folder has the name of the id
+    assert {"id", "version", "name"} <= feature.keys()
+    assert feature["id"] == folder.name
+    script = (folder / "install.sh").read_text()
+    assert set(re.findall(r"\$\{(SOURCE)", script)) == {name.upper() for name in feature["options"]}
+    assert os.access(folder / "install.sh", os.X_OK)
