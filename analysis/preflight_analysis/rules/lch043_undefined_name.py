@@ -1,0 +1,133 @@
+"""LCH043: a name that nothing in a Python launch file defines (ROS 2)."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import symtable
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.problems import PythonException
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import problems_of
+from preflight_analysis.rules.rule import Context, Rule
+
+_KNOWN = {*dir(builtins), "__file__", "__path__", "__annotations__", "WindowsError"}
+_MADE_AT_RUN_TIME = ("globals", "vars", "locals", "exec", "eval", "setattr")
+"""What may define names that the text does not."""
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+_SCOPES = (
+    ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp,
+    ast.GeneratorExp,
+)  # fmt: skip
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    # Where the run came to it, its exception says it.
+    raised = {problem.location.file for problem in problems_of(context, PythonException)}
+    for path, launch_file in context.launch_files.items():
+        for name, near, span, called in _undefined(launch_file) if path.endswith(".py") and path not in raised else ():
+            yield rule.finding(
+                f"nothing defines '{name}': a NameError where the launch comes to it{did_you_mean(near)}",
+                context.location(path, span),
+                severity="error" if called else "info",
+                confidence="likely",
+            )
+
+
+@memoize_by_file
+def _undefined(launch_file: LaunchFile) -> tuple[tuple[str, str | None, Span, bool], ...]:
+    """The names, each with what was probably meant, its first place, and whether the file speaks of its function."""
+    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    if source.module is None:
+        return ()
+    try:
+        top = symtable.symtable(source.text, launch_file.path, "exec")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return ()
+    tables = [*_tables(top)]
+    defined = {s.get_name() for s in top.get_symbols() if s.is_assigned() or s.is_imported() or s.is_namespace()}
+    defined |= {s.get_name() for t in tables for s in t.get_symbols() if s.is_declared_global() and s.is_assigned()}
+    outside = [
+        (symbol.get_name(), table.get_lineno() if table is not top else 0)
+        for table in tables
+        for symbol in table.get_symbols()
+        if symbol.is_referenced() and (symbol.is_global() or (table is top and not symbol.is_local()))
+    ]
+    missing = [(name, line) for name, line in outside if name not in defined and name not in _KNOWN]
+    if not missing or _is_open(source.module):
+        return ()
+    noted = {id(inner) for each in ast.walk(source.module) for note in _notes(each) for inner in ast.walk(note)}
+    scopes: dict[int, ast.AST] = {0: source.module}
+    for node in ast.walk(source.module):
+        if isinstance(node, _SCOPES):
+            scopes.setdefault(node.lineno, node)
+    places: dict[str, ast.Name] = {}
+    for name, line in missing:
+        for node in ast.walk(scopes.get(line, source.module)):
+            if isinstance(node, ast.Name) and node.id == name and id(node) not in noted:
+                first = places.setdefault(name, node)
+                if (node.lineno, node.col_offset) < (first.lineno, first.col_offset):
+                    places[name] = node
+    idle = [scopes[line] for _, line in missing if isinstance(scopes.get(line), _FUNCTIONS)]
+    idle = [each for each in idle if not _is_spoken_of(source.module, each)]
+    unused = {id(inner) for each in idle for inner in ast.walk(each)}
+    return tuple(
+        (name, nearest(name, defined), source.whole_span(node), id(node) not in unused)
+        for name, node in sorted(places.items())
+    )
+
+
+def _is_spoken_of(module: ast.Module, function: ast.AST) -> bool:
+    name = getattr(function, "name", "")
+    return name == "generate_launch_description" or any(
+        isinstance(node, ast.Name) and node.id == name for node in ast.walk(module)
+    )
+
+
+def _tables(table: symtable.SymbolTable) -> Iterator[symtable.SymbolTable]:
+    yield table
+    for child in table.get_children():
+        yield from _tables(child)
+
+
+def _is_open(module: ast.Module) -> bool:
+    """Whether more names may be there than the text tells."""
+    for node in ast.walk(module):
+        if isinstance(node, ast.ImportFrom) and any(alias.name == "*" for alias in node.names):
+            return True
+        if isinstance(node, ast.Name) and node.id in _MADE_AT_RUN_TIME:
+            return True
+        if isinstance(node, ast.ExceptHandler) and "NameError" in ast.dump(node.type or node):
+            return True
+    return False
+
+
+def _notes(node: ast.AST) -> Iterator[ast.AST]:
+    """Annotations, which newer versions of Python do not look up."""
+    for each in (getattr(node, "annotation", None), getattr(node, "returns", None)):
+        if isinstance(each, ast.AST):
+            yield each
+
+
+RULE = Rule(
+    id="LCH043",
+    name="undefined-name",
+    severity="error",
+    what="Reports a name in a Python launch file that nothing in it defines, imports or takes as an argument, be it in "
+    "a branch that this launch does not take (ROS 2). Files that import `*`, or make names while they run, are left "
+    "alone, as are annotations; in a function that the file does not speak of again it is for information.",
+    why="Python notices it only where it comes to the line: the launch ends with a NameError, for those who set the "
+    "argument that leads there.",
+    example="def setup(context):\n    gz_paused = LaunchConfiguration('paused').perform(context)\n"
+    "    return simulation(world, paused)",
+    instead="def setup(context):\n    gz_paused = LaunchConfiguration('paused').perform(context)\n"
+    "    return simulation(world, gz_paused)",
+    generations=(2,),
+    check=_check,
+)
