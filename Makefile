@@ -143,7 +143,7 @@ docs: $(READY) ## the documentation site, in out/site, with the rule reference f
 	$(BIN)/python -m preflight_analysis.rules.reference docs/rules
 	$(BIN)/python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json
 	$(BIN)/python -m preflight_server.lsp.contribution vscode-client/package.json
-	$(BIN)/mkdocs build --quiet --config-file mkdocs.yml
+	$(BIN)/zensical build --strict --clean --config-file mkdocs.yml
 
 clean:
 	rm -rf $(LINTERS) $(VENV) out dist vscode-client/node_modules vscode-client/dist vscode-client/server tests/editors/vscode/node_modules

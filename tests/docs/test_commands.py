@@ -111,21 +111,19 @@ def test_a_command_that_prints_something_else_is_noticed() -> None:
 
 
 def test_the_site_is_built_and_no_link_is_broken(tmp_path: Path) -> None:
-    mkdocs = shutil.which("mkdocs", path=str(Path(sys.executable).parent))
-    assert mkdocs is not None, "mkdocs is missing: pip install --group dev"
-    done = subprocess.run(
-        [
-            mkdocs,
-            "build",
-            "--strict",
-            "--quiet",
-            "--config-file",
-            ROOT / "mkdocs.yml",
-            "--site-dir",
-            tmp_path / "site",
-        ],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+    zensical = shutil.which("zensical", path=str(Path(sys.executable).parent))
+    assert zensical is not None, "zensical is missing: pip install --group dev"
+    shutil.copyfile(ROOT / "mkdocs.yml", tmp_path / "mkdocs.yml")
+    shutil.copytree(ROOT / "docs", tmp_path / "docs")
+
+    def built() -> subprocess.CompletedProcess[str]:
+        command = [zensical, "build", "--strict", "--clean", "--config-file", tmp_path / "mkdocs.yml"]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
+
+    done = built()
+    assert done.returncode == 0, done.stdout + done.stderr
+    page = (tmp_path / "out/site/index.html").read_text()
+    loaded = re.findall(r'<(?:script|img|link rel="(?:stylesheet|preload)")[^>]*(?:src|href)="(https?:[^"]+)', page)
+    assert loaded == [], "nothing is loaded from elsewhere"
+    (tmp_path / "docs/index.md").write_text("# Index\n[there is no such page](nothing.md)\n")
+    assert built().returncode != 0, "a broken link is noticed"
