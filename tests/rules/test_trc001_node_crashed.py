@@ -9,7 +9,7 @@ from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.installed import lack_of_build, lack_of_made, lack_said
-from support.check import analyse, check, findings_of, read_fixture
+from support.check import analyse, check, findings_of, read_fixture, run_rules
 
 
 def test_where_a_node_is_not_known_a_global_parameter_may_be_its() -> None:
@@ -245,6 +245,8 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
             ("program", "sudo"),
         ),
         ("FileNotFoundError: [Errno 2] No such file or directory: 'model'", None),
+        ("ModuleNotFoundError: No module named 'django'\nImportError: Couldn't import Django.", ("module", "django")),
+        ("ModuleNotFoundError: No module named 'django'\nValueError: 3", None),
     ],
 )
 def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | None) -> None:
@@ -328,3 +330,44 @@ def test_a_file_in_a_folder_of_another_machine(said: str, severity: str) -> None
     """)
     (finding,) = [each for each in found if each.rule == "TRC001"]
     assert finding.severity == severity
+
+
+def test_a_signal_that_killed_another_program_of_a_script() -> None:
+    for program, severity in (("chromium", "info"), ("./detector", "warning")):
+        check(f"""
+            <launch>
+              <node pkg="p" type="t" name="n"/>
+              ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TRC001] Trace/breakpoint trap
+            </launch>
+            //- interfaces
+            {{"/n": {{"status": "crashed", "exit_code": 133,
+                     "stderr": ["/p/gui.sh: line 9:     7 Trace/breakpoint trap   {program} --app=$1"]}}}}
+        """)
+
+
+@pytest.mark.parametrize(("ignored", "severity"), [("*.bag", "info"), ("*.txt", "warning")])
+def test_a_file_that_git_ignores_is_made_on_each_machine(tmp_path: Path, ignored: str, severity: str) -> None:
+    (tmp_path / ".gitignore").write_text(ignored)
+    check(f"""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TRC001] Error opening file
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["Error opening file: {tmp_path}/drive.bag"]}}}}
+    """)
+
+
+def test_a_file_of_the_home_folder_that_is_not_here() -> None:
+    said = "FileNotFoundError: [Errno 2] No such file or directory: '{}/.ros/data'"
+    for folder, lacks in (("/home/me", True), ("/p", False), ("/home/you", False)):
+        context = analyse(
+            read_fixture(f"""
+            <launch><node pkg="p" type="t" name="n"/></launch>
+            //- interfaces
+            {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said.format(folder)}"]}}}}
+        """)
+        )
+        environment = replace(context.environment, variables={"HOME": "/home/me"})
+        (finding,) = [each for each in run_rules(replace(context, environment=environment)) if each.rule == "TRC001"]
+        assert (finding.lack is not None) is lacks

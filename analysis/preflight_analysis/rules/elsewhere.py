@@ -9,7 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.rules.rule import Context
 
 _MISSING = re.compile(
-    r"(?i)no such file|file ?not ?found|(?<!command )not found|does(?: not|n't) exist|bad file|"
+    r"(?i)no such file|file ?not ?found|(?<!command )not found|does(?: not|n't) exist|bad file|error opening|"
     r"(?:can(?:not|'t)|could not|failed to|unable to) (?:be )?(?:open|read|find|load)"
 )
 _PATH = re.compile(r"(?<![\w/.:~$})-])(/[\w.+-]+)/[\w.+/-]+")

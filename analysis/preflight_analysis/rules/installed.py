@@ -166,6 +166,14 @@ def lack_of_file(context: Context, path: str) -> Lack | None:
     return Lack("file", path) if outside and not inside else None
 
 
+def lack_of_own_file(context: Context, path: str) -> Lack | None:
+    """A file below the home folder of whoever runs this, which is another on the robot: what programs fetch or write
+    lies there."""
+    home = context.environment.variables.get("HOME")
+    own = home is not None and len(home) > 1 and path.startswith(home.rstrip("/") + "/")
+    return lack_of_file(context, path) if own else None
+
+
 def lack_of_module(context: Context, module: str) -> Lack | None:
     """A module of Python that cannot be imported. None where the workspace should have it: one within a package that is
     there, or one whose name is a slip of a package's."""
@@ -187,6 +195,8 @@ def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lac
         return lack_of_variable(context, found[1])
     if (found := _NOT_STARTED.fullmatch(last)) and "subprocess" in whole:
         return lack_of_program(context, found[1])
+    if last.startswith("ImportError") and (found := _NO_MODULE.search(whole)):
+        return lack_of_module(context, found[1])  # Django says more of it
     if last.startswith("SyntaxError") and _OPEN_F_STRING.search(whole):
         return lack_of_program(context, "python3.12")
     return None

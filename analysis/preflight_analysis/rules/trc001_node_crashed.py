@@ -4,18 +4,24 @@ import re
 from collections.abc import Iterator
 from itertools import compress
 
+from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.elsewhere import absent_top_said, paths_said
-from preflight_analysis.rules.installed import lack_of_made, lack_of_python, lack_said
+from preflight_analysis.rules.installed import lack_of_made, lack_of_own_file, lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 from preflight_analysis.tracing.request import split_args
+
+_KILLED = re.compile(
+    r": line \d+: +\d+ (?:Trace/breakpoint trap|Segmentation fault|Illegal instruction|Bus error|Aborted|Killed)"
+    r"(?: +\(core dumped\))? +([^\s]+)"
+)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -36,14 +42,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             lacking is not None
             or outcome.lacks is not None
             or bool(outcome.answers)
+            or _is_of_another_program(outcome)
             or any(e.speculative for e in interface.endpoints)
         )
-        absent = absent_top_said(context.disk, f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}")
+        told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
+        absent = absent_top_said(context.disk, told)
+        made = any(is_ignored(context.disk, path) for path in paths_said(told))
         message = _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else "")
         yield rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
             node.location,
-            severity="info" if ours or reported or absent or _waits(node, outcome) else None,
+            severity="info" if ours or reported or absent or made or _waits(node, outcome) else None,
             confidence="possible" if ours or absent else "likely",
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
@@ -57,8 +66,16 @@ def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:
     for path in paths_said(f"{outcome.reason or ''}\n{telling}"):
         if (made := lack_of_made(context, path)) is not None:
             return made
+        if (own := lack_of_own_file(context, path)) is not None:
+            return own
     said = lack_said(context, (outcome.reason or "", telling))
     return said if said is not None else lack_of_python(context, telling, outcome.stderr_tail)
+
+
+def _is_of_another_program(outcome: Outcome) -> bool:
+    """Whether a shell script says that a signal killed a program that it started, which is not of the project: in the
+    sandbox a browser or a window may end so."""
+    return (found := _KILLED.search(telling_line(outcome.stderr_tail))) is not None and "/" not in found[1]
 
 
 def _waits(node: LaunchNode, outcome: Outcome) -> bool:
@@ -149,7 +166,8 @@ RULE = Rule(
     "where the node ended for a parameter of which PRM001, PRM010, PRM014 or PRM017 tells, or asked for one whose "
     "value is an error of its own, does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
     "container), or needs what only the sandbox lacks: a device, a network, a display, a browser's "
-    "own sandbox, a folder to write to, another node's topic.",
+    "own sandbox, a folder to write to, another node's topic, "
+    "a file that git ignores, or where a shell script tells that a signal killed another program.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,
