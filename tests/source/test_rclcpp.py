@@ -143,6 +143,11 @@ def test_a_node_of_a_class_of_its_own(harness: Harness) -> None:
     assert (HEAD + CLASS).splitlines()[(line or 0) - 1].strip().startswith("maps_ =")
 
 
+def test_a_base_class_that_a_macro_names(harness: Harness) -> None:
+    chosen = "#if PLAIN\n#define FATHER rclcpp::Node\n#else\n#define FATHER rclcpp_lifecycle::LifecycleNode\n#endif\n"
+    assert ends(harness.read(chosen + CLASS.replace("public rclcpp::Node", "public FATHER") + MAIN)) == DRIVER
+
+
 def test_what_the_launch_file_sets_decides(harness: Harness) -> None:
     found = harness.read(CLASS + MAIN, '<param name="service" value="false"/><param name="cmd_topic" value="drive"/>')
     names = [e.name for e in found.endpoints]

@@ -116,6 +116,7 @@ def parse(path: str, text: str) -> FileText | None:
 
 
 _parser = Parser(_LANGUAGE)
+_TYPE_NAME = re.compile(r"(?:\w+::)+[A-Z]\w*")
 
 
 def parse_expression(text: str) -> Node | None:
@@ -125,6 +126,14 @@ def parse_expression(text: str) -> Node | None:
     declaration = first_child(tree.root_node)
     declarator = declaration.child_by_field_name("declarator") if declaration is not None else None
     return declarator.child_by_field_name("value") if declarator is not None else None
+
+
+def parse_type(name: str) -> Node | None:
+    """The type that a qualified name stands for."""
+    with _parsing:
+        tree = _parser.parse(f"using T = {name};".encode())
+    declaration = first_child(tree.root_node)
+    return declaration.child_by_field_name("type") if declaration is not None else None
 
 
 def text_of(node: Node | None) -> str:
@@ -243,7 +252,12 @@ def _declaration(node: Node, scope: Path, template: tuple[str, ...], file: FileT
             file.includes.append(text_of(node.child_by_field_name("path")).strip('"<>'))
         case "preproc_def":
             name = text_of(node.child_by_field_name("name"))
-            file.defines.setdefault(name, text_of(node.child_by_field_name("value")).strip())
+            value = text_of(node.child_by_field_name("value")).strip()
+            file.defines.setdefault(name, value)
+            if _TYPE_NAME.fullmatch(value):  # of a base class, for instance; of several the first counts
+                type_ = parse_type(value)
+                if type_ is not None:
+                    file.aliases.setdefault((name,), (type_, ()))
         case "preproc_if" if text_of(node.child_by_field_name("condition")) == "0":
             other = node.child_by_field_name("alternative")
             if other is not None:
