@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.evaluation.ros2.simulated import plugins_in
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.workspace.workspace import Analysis
 from support import package_elsewhere
 
 PLUGIN = """
@@ -29,10 +30,16 @@ PUBLISHER = """
 
 
 def graph_of(folder: Path, plugin: str, launch: str = PUBLISHER + SPAWN, **files: str) -> Graph:
-    """The graph of a launch file that has a robot with this in the plugin's tag; `@` is the launch file's folder."""
+    graph = analysed(folder, plugin, launch, **files).graph
+    assert graph is not None
+    return graph
+
+
+def analysed(folder: Path, plugin: str, launch: str = PUBLISHER + SPAWN, **files: str) -> Analysis:
+    """The analysis of a launch file that has a robot with this in the plugin's tag; `@` is the launch file's folder."""
     place = str(folder / "ws" / "src" / "robot")
     text = "\n".join(f"      {line}" for line in (f"<robot>{PLUGIN.format(plugin)}</robot>").splitlines())
-    analysis = package_elsewhere.analysed(
+    return package_elsewhere.analysed(
         folder,
         f"<launch>{launch}</launch>",
         "a.launch.xml",
@@ -43,8 +50,6 @@ def graph_of(folder: Path, plugin: str, launch: str = PUBLISHER + SPAWN, **files
             **files,
         },
     )
-    assert analysis.graph is not None
-    return analysis.graph
 
 
 def simulated(graph: Graph) -> list[str]:
@@ -85,6 +90,15 @@ def test_namespace_name_several_files_and_remaps(tmp_path: Path) -> None:
 )
 def test_there_is_none(tmp_path: Path, launch: str) -> None:
     assert simulated(graph_of(tmp_path, "<parameters>@/c.yaml</parameters>", launch)) == []
+
+
+def test_a_slip_in_the_parameters_of_a_controller(tmp_path: Path) -> None:
+    controllers = CONTROLLERS.replace("wheel_radius: 0.1", "wheel_raduis: 0.1, wheel_separation: 0.3, own: {a: 1}")
+    analysis = analysed(tmp_path, "<parameters>@/c.yaml</parameters>", **{"c.yaml": controllers})
+    messages = [finding.message for finding in analysis.findings if finding.rule == "PRM013"]
+    assert messages == [
+        "/base declares no parameter 'wheel_raduis': its value is ignored; did you mean 'wheel_radius'?"
+    ]
 
 
 def test_what_a_spawner_brings(tmp_path: Path) -> None:

@@ -1,8 +1,10 @@
 """PRM013: a parameter that its node does not declare (ROS 2)."""
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
@@ -26,8 +28,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    nodes = [(n, _declared(i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
-    wanted = {p.name_location for n, declared, _ in nodes for p in n.params if declared is None or p.name in declared}
+    nodes = [(n, _declared(n, i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
+    takers: dict[Location | None, set[int]] = {}
+    for node, declared, _ in nodes:
+        for param in node.params:
+            if declared is None or _is_controller(node) or param.name in declared:
+                takers.setdefault(param.name_location, set()).add(id(node))
     for node, declared, interface in nodes:
         for param in node.params:
             if is_slip(param.name, _CLOCK) and param.name != _CLOCK and param.name not in (declared or ()):
@@ -40,7 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             if is_slip(param.name, _CLOCK):
                 continue
-            if param.name_location is not None and param.name_location in wanted:
+            if param.name_location is not None and takers.get(param.name_location, set()) - {id(node)}:
                 continue  # what is written once for several nodes, one of which wants it
             if _OF_TRANSPORT.search(param.name):
                 continue
@@ -48,6 +54,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if not interface.known_in_full and numbered in {_NUMBER.sub("#", name) for name in declared}:
                 continue  # one of a row, `odom1` beside `odom0`, of which the node may take as many as it is given
             near = _near(param.name, [name for name in declared if (name, param.place.file) not in given])
+            if near is None and _is_controller(node):
+                continue  # a library's base declares all that is set; names may be made of those of joints
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
             in_full = interface.known_in_full
@@ -75,10 +83,20 @@ def _clock(rule: Rule, context: Context, node: LaunchNode, param: Param) -> Find
     )
 
 
-def _declared(interface: Interface) -> dict[str, ParamUse] | None:
+def _is_controller(node: LaunchNode) -> bool:
+    """Whether a controller manager makes it, of ros2_control."""
+    return node.within is not None and (node.package, node.executable) == MANAGER
+
+
+def _of_node(node: LaunchNode, uses: Iterable[ParamUse]) -> Iterator[ParamUse]:
+    """Without what the library's base of a controller does to all parameters."""
+    return (use for use in uses if not (use.name == "/" and use.catalogued and _is_controller(node)))
+
+
+def _declared(node: LaunchNode, interface: Interface) -> dict[str, ParamUse] | None:
     """The parameters that the node declares, None where it takes any or nothing of it is known."""
     uses = interface.params
-    if (not uses and not reports_params(interface)) or any(use.access == "list" for use in uses):
+    if (not uses and not reports_params(interface)) or any(use.access == "list" for use in _of_node(node, uses)):
         return None
     if interface.source == "none":
         return None

@@ -21,7 +21,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.ros2.param_files import EVERY, read_param_file
 from preflight_analysis.evaluation.ros2.params import Sources, of_file
-from preflight_analysis.evaluation.ros2.spawners import PACKAGE, SPAWN, asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.spawners import MANAGER, SPAWN, asked_of, is_spawner
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource, Remap, Unknown
 
@@ -29,7 +29,6 @@ KIND = "simulated"
 """The `LaunchNode.kind` of a node that the simulator makes, not the launch."""
 _DESCRIPTION = "robot_description"
 _PUBLISHER = "robot_state_publisher"
-_MANAGER = "ros2_control_node"
 _NAME = "controller_manager"
 _PLUGIN = re.compile(r"\b(?:lib)?(?:gz|ign|gazebo)_ros2_control\b")
 _KEPT = 64
@@ -52,7 +51,7 @@ def simulated_managers(state: State) -> tuple[LaunchNode, ...]:
         return ()
     described = [(node, text) for node in state.nodes if (text := _description(node)) is not None]
     published = [each for each in described if each[0].executable == _PUBLISHER]
-    there = {node.name for node in state.nodes if node.executable == _MANAGER}
+    there = {node.name for node in state.nodes if (node.package, node.executable) == MANAGER}
     found: dict[str, LaunchNode] = {}
     for node, text in published or described:
         for plugin in plugins_in(text):
@@ -135,8 +134,7 @@ def _manager(state: State, plugin: _Plugin, spawn: LaunchNode) -> LaunchNode:
     return LaunchNode(
         full,
         plugin.namespace if plugin.namespace.endswith("/") else f"{plugin.namespace}/",
-        PACKAGE,
-        _MANAGER,
+        *MANAGER,
         KIND,
         "",
         tuple(Remap(source, target, spawn.origin, at, at, True) for source, target in plugin.remaps),

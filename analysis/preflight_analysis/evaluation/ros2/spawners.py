@@ -19,6 +19,8 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, ParamSource, Remap
 
 PACKAGE = "controller_manager"
+MANAGER = (PACKAGE, "ros2_control_node")
+"""Package and executable of the node that has a manager, and controllers beside it."""
 SPAWN = frozenset(
     {
         ("ros_gz_sim", "create"),
