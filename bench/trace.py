@@ -5,24 +5,37 @@
 Bare: the node under a real rosmaster, from exec until the master has the last topic that it registers before it spins.
 Cold: `Tracer.trace` without a cache. Warm: `Tracer.lookup` of a cached trace. The kinds take turns in each round, so
 that a busy moment of the machine meets them all.
+
+Containers of ROS 2 and their components likewise, cold and on all cores, against the container that loads none.
 """
 
 from __future__ import annotations
 
 import os
+import shutil
 import statistics
+import sys
 import tempfile
 import threading
 import time
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).parent.parent / "tests"))
+
 from bare_node import PYTHON, bare, rosmaster
 from options import Options
+from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
+from preflight_analysis.tracing.schedule import trace_all
 from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
+from support.rcl_harness import ContainerHarness, rcl_node
 
+CORES = max(2, len(os.sched_getaffinity(0)))
 FIXTURES = Path(__file__).parent.parent / "fixtures" / "ros1"
 NODES = {
     "demo/talker (Rate loop)": (FIXTURES / "demo/scripts/talker.py", "/chatter"),
@@ -61,8 +74,54 @@ def timed(rounds: int) -> None:
             print(f"{title:<30}{b:>8.3f}s{c:>8.3f}s{w:>8.4f}s{c / b:>11.2f}{w / b:>11.4f}")
 
 
+def composed(rounds: int) -> None:
+    """Launches of containers and of lifecycle nodes."""
+
+    def container(*names: str) -> str:
+        inside = "".join(f"<composable_node pkg='cpkg' plugin='cpkg::{name}' name='{name}'/>" for name in names)
+        return f"<node_container pkg='cpkg' exec='node' name='box' namespace=''>{inside}</node_container>"
+
+    plain, managed = [f"Plain{n}" for n in range(10)], [f"Managed{n}" for n in range(11)]
+    launches = {
+        "a container alone": container(),
+        "with ten components": container(*plain),
+        "eleven lifecycle nodes": "".join(
+            f"<node pkg='cpkg' exec='other' args='managed {name}' name='{name}'/>" for name in managed
+        ),
+        "composed": container(*managed),
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        harness = ContainerHarness(Path(folder))
+        for name in (*plain, *managed):
+            harness.component(name, f"pub={name} sub=~/in double=rate@1.5" + (" managed" if name in managed else ""))
+        shutil.copy(rcl_node(source="rcl_node.c"), harness.program.with_name("other"))
+        environment = detect_environment(folder, harness.variables)
+        tracer = Tracer(environment, None)
+        samples: dict[str, list[float]] = {title: [] for title in launches}
+        for number in range(-1, rounds):  # the first time is for what is compiled once
+            for title, inside in launches.items():
+                harness.launch_file.write_text(f"<launch>{inside}</launch>")
+                workspace = Workspace(environment, Sources())
+                requests = [each for each in workspace.requests(workspace.static(str(harness.launch_file))) if each]
+                began = time.perf_counter()
+                trace_all(tracer, requests, workers=CORES, on_done=is_up, cancel=threading.Event())
+                if number >= 0:
+                    samples[title].append(time.perf_counter() - began)
+    print(f"\n{'median of ' + str(rounds):<30}{'cold':>9}{'cold/alone':>12}")
+    alone = statistics.median(samples["a container alone"])
+    for title, seconds in samples.items():
+        print(f"{title:<30}{statistics.median(seconds):>8.3f}s{statistics.median(seconds) / alone:>12.2f}")
+
+
+def is_up(_index: int, found: Interface) -> None:
+    if found.outcome.status != "spinning":
+        raise SystemExit(f"{found.outcome}")
+
+
 def main() -> None:
-    timed(Options(__doc__, n=10, quick=1).read().n)
+    rounds = Options(__doc__, n=10, quick=1).read().n
+    timed(rounds)
+    composed(rounds)
 
 
 if __name__ == "__main__":
