@@ -6,7 +6,8 @@ Bare: the node under a real rosmaster, from exec until the master has the last t
 Cold: `Tracer.trace` without a cache. Warm: `Tracer.lookup` of a cached trace. The kinds take turns in each round, so
 that a busy moment of the machine meets them all.
 
-Containers of ROS 2 and their components likewise, cold and on all cores, against the container that loads none.
+Containers of ROS 2 and their components likewise, cold and as many runs at a time as the command has, against the
+container that loads none.
 """
 
 from __future__ import annotations
@@ -29,13 +30,12 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.schedule import trace_all
+from preflight_analysis.tracing.schedule import most_at_once, trace_all
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.rcl_harness import ContainerHarness, rcl_node
 
-CORES = max(2, len(os.sched_getaffinity(0)))
 FIXTURES = Path(__file__).parent.parent / "fixtures" / "ros1"
 NODES = {
     "demo/talker (Rate loop)": (FIXTURES / "demo/scripts/talker.py", "/chatter"),
@@ -104,7 +104,7 @@ def composed(rounds: int) -> None:
                 workspace = Workspace(environment, Sources())
                 requests = [each for each in workspace.requests(workspace.static(str(harness.launch_file))) if each]
                 began = time.perf_counter()
-                trace_all(tracer, requests, workers=CORES, on_done=is_up, cancel=threading.Event())
+                trace_all(tracer, requests, workers=most_at_once(), on_done=is_up, cancel=threading.Event())
                 if number >= 0:
                     samples[title].append(time.perf_counter() - began)
     print(f"\n{'median of ' + str(rounds):<30}{'cold':>9}{'cold/alone':>12}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING, TypeVar
@@ -20,6 +21,11 @@ def likeness(request: TraceRequest) -> Hashable:
     """The same for nodes that may well turn out to do the same: in other namespaces, with other parameters."""
     plugin = request.component.plugin if request.component is not None else None  # a library may have several
     return request.package, request.executable, plugin, request.args, request.env, request.cwd
+
+
+def most_at_once() -> int:
+    """How many runs keep the processors busy: most of a run's time is waiting, for the middleware or for quiet."""
+    return len(os.sched_getaffinity(0)) + 2
 
 
 def trace_all(

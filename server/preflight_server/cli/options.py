@@ -11,6 +11,7 @@ from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.generation import ROS1
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.tracing.cache_folder import VARIABLE
+from preflight_analysis.tracing.schedule import most_at_once
 from preflight_analysis.workspace.sources import Sources
 
 from preflight_server.cli.completion import argument_names
@@ -46,9 +47,9 @@ def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None
     parser.add_argument(
         "--jobs",
         type=_positive,
-        default=max(2, len(os.sched_getaffinity(0))),
+        default=most_at_once(),
         metavar="N",
-        help="how many nodes are run at a time (default: as many as there are cores, and two at least)",
+        help="how many nodes are run at a time (default: two more than there are cores)",
     )
     parser.add_argument(
         "--package-path",
