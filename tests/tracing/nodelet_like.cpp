@@ -28,6 +28,10 @@ bool Loader::load(const std::string& name, const std::string& type, const ros::M
     ros::param::get("~offset", value);
     ros::param::get("level", value);
   }
+  if (type == "vision/Waits") {
+    ros::service::waitForService("start");
+    kept.push_back(own.advertise<std_msgs::String>("after", 1));
+  }
   return true;
 }
 #endif

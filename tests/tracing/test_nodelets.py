@@ -78,6 +78,18 @@ def test_what_it_asks_of_its_process_is_the_managers(program: Path, manager: str
     assert asked(found) == {"~rate", "/camera/shared", f"{manager}/gain", f"{manager}/offset", f"{space}/level"}
 
 
+@pytest.mark.parametrize(
+    ("manager", "service"), [("manager", "/camera/start"), ("/elsewhere/manager", "/elsewhere/start")]
+)
+def test_what_it_waits_for_is_asked_in_the_managers_namespace(program: Path, manager: str, service: str) -> None:
+    found = traced(loaded(program, "load", "vision/Waits", manager, "--no-bond"))
+    assert found.outcome.status == "spinning"
+    assert found.outcome.answers == (f"it waits for the service {service}, and was told that it is there",)
+    clients = {end.name for end in found.endpoints if end.role == "client"}
+    assert clients == {service, f"{manager}/load_nodelet"}
+    assert [end.speculative for end in found.endpoints if end.name == "~after"] == [True]
+
+
 def test_a_nodelet_without_a_manager_is_its_process(program: Path) -> None:
     found = traced(loaded(program, "standalone", "vision/OfProcess"))
     assert {("publisher", "~of_process", "std_msgs/String"), ("publisher", "~image", "std_msgs/String")} <= own(found)

@@ -74,8 +74,14 @@ def with_manager(interface: Interface, request: TraceRequest) -> Interface:
             return f"{manager}/{name[len(process) :]}"
         return real_space + name[len(space) :] if name.startswith(space) else name
 
+    def said(text: str) -> str:
+        return text.replace(process, f"{manager}/").replace(space, real_space)
+
+    outcome = interface.outcome
+    reason = said(outcome.reason) if outcome.reason is not None else None
     interface = replace(
         interface,
+        outcome=replace(outcome, reason=reason, answers=tuple(map(said, outcome.answers))),
         endpoints=tuple(replace(end, name=of_manager(end.name)) for end in interface.endpoints),
         params=tuple(replace(use, name=of_manager(use.name)) for use in interface.params),
     )

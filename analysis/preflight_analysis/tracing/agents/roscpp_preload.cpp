@@ -258,13 +258,13 @@ HOOK void preflight_publish(const void* self, const Serializer& message, void* s
 #define WAIT_DURATION "_ZN3ros7service14waitForServiceE" STRING "NS_8DurationE"
 HOOK bool preflight_wait_for_service(const std::string& name, int64_t timeout) __asm__(WAIT_DURATION);
 HOOK bool preflight_wait_for_service(const std::string& name, int64_t timeout) {
-  if (depth == 0) return wait_briefly(name);
+  if (depth == 0) return wait_briefly(name, given_to_process(name));
   return REAL(WAIT_DURATION, bool(const std::string&, int64_t))(name, timeout);
 }
 
 HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) __asm__(WAIT_INT);
 HOOK bool preflight_wait_for_service_ms(const std::string& name, int timeout) {
-  if (depth == 0) return wait_briefly(name);
+  if (depth == 0) return wait_briefly(name, given_to_process(name));
   return REAL(WAIT_INT, bool(const std::string&, int))(name, timeout);
 }
 
@@ -273,7 +273,7 @@ HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) __asm__(EXIS
 HOOK bool preflight_wait_for_existence(void* self, int64_t timeout) {
   std::string name;
   quietly([&] { name = name_of_client(self); });
-  if (depth == 0 && !name.empty()) return wait_briefly(name);
+  if (depth == 0 && !name.empty()) return wait_briefly(name, name);
   return REAL(EXISTENCE, bool(void*, int64_t))(self, timeout);
 }
 

@@ -48,12 +48,19 @@ std::string name_of_client(void* client) {
   return service == nullptr ? "" : service(client);
 }
 
+// A name that is asked for without a handle, as it is told.
+std::string given_to_process(const std::string& name) {
+  std::string given = name;
+  quietly([&] { given = names_of(name).given; });
+  return given;
+}
+
 // Waits for a service as long as somebody in the sandbox may need to offer it; then it is said to be there, as for
 // rospy (answers.py).
-bool wait_briefly(const std::string& name) {
-  Wait waiting("service", name);
+bool wait_briefly(const std::string& name, const std::string& told) {
+  Wait waiting("service", told);
   if (REAL(WAIT_INT, bool(const std::string&, int))(name, grace())) return true;
-  quietly([&] { tell_answered("service", name); });
+  quietly([&] { tell_answered("service", told); });
   return true;
 }
 
