@@ -323,3 +323,24 @@ def test_a_name_as_on_the_command_line() -> None:
         //- interfaces
         {"/reads_it": {"params": {"~_odd": 1}}}
     """)
+
+
+def test_a_slip_at_a_node_that_the_catalogue_has() -> None:
+    found = findings_of("""
+        <launch>
+          <node pkg="p" type="move_base" name="move_base">
+            <rosparam>
+              global_costmap: {rigin_z: 0.0, width: 3, other: 1, minimum_vel: 1.0, update_frequenzy: fast}
+              controler_frequency: 3.0
+            </rosparam>
+          </node>
+        </launch>
+        //- interfaces
+        {"/move_base": {"source": "catalogue", "status": "not-run", "params": {
+          "~global_costmap/origin_z": 1.0, "~global_costmap/maximum_vel": 1.0, "~global_costmap/width": 1,
+          "~global_costmap/update_frequency": 2.0, "~controller_frequency": null}}}
+    """)
+    told = [each for each in found if each.rule == "PRM001"]
+    assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")] * 2
+    assert ["'/move_base/global_costmap/origin_z'" in each.message for each in told].count(True) == 1
+    assert ["'/move_base/controller_frequency'" in each.message for each in told].count(True) == 1

@@ -8,11 +8,12 @@ from collections.abc import Collection, Iterator
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.parameters import renamed
+from preflight_analysis.rules.nearest import nearest_typo
+from preflight_analysis.rules.parameters import namespace_of, renamed
 from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import Unread, unread_params
+from preflight_analysis.rules.unread_params import Unread, fits, unread_params
 
 _ARGUMENT = re.compile(r"_[A-Za-z]\w*")
 
@@ -28,6 +29,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if each.meant is not None:
             yield _finding(rule, context, context.graph, each, each.meant)
     explained = {each.param.name for each in unread}
+    for each in _of_catalogue(context, context.graph, explained):
+        explained.add(each.param.name)
+        if each.meant is not None:
+            yield _finding(rule, context, context.graph, each, each.meant, sure="possible")
     yield from _as_on_the_command_line(rule, context, context.graph, explained)
 
 
@@ -65,12 +70,45 @@ def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
     )
 
 
-def _finding(rule: Rule, context: Context, graph: Graph, unread: Unread, read: ParamRead) -> Finding:
+def _of_catalogue(context: Context, graph: Graph, explained: Collection[str]) -> Iterator[Unread]:
+    """Parameters of nodes that only the catalogue knows, maybe not in full, which are a slip of one in the same
+    namespace that nothing sets."""
+    read = {each.name for each in graph.param_reads}
+    by_namespace = context.kept.grouped(namespace_of, "catalogued", context.tree.all_params)
+    for node, interface, reads in zip(graph.tree.nodes, graph.interfaces, graph.reads_of_nodes, strict=True):
+        if interface.source != "catalogue" or any(use.access == "list" for use in interface.params):
+            continue
+        unset: dict[str, dict[str, ParamRead]] = {}
+        for each in reads:
+            if each.name.startswith(f"{node.name}/") and each.name not in graph.tree.params:
+                unset.setdefault(each.name.rpartition("/")[0], {})[each.name] = each
+        for namespace, wanted in unset.items():
+            for param in by_namespace.get(namespace, ()):
+                if param.name in read or param.name in explained:
+                    continue
+                near = nearest_typo(param.name, wanted)
+                if near is not None and fits(param.value, wanted[near]) and not _are_opposite(param.name, near):
+                    yield Unread(param, node, wanted[near])
+
+
+def _are_opposite(name: str, other: str) -> bool:
+    """Whether one has `min` where the other has `max`."""
+    return name.lower().replace("min", "max") == other.lower().replace("min", "max")
+
+
+def _finding(
+    rule: Rule,
+    context: Context,
+    graph: Graph,
+    unread: Unread,
+    read: ParamRead,
+    sure: Confidence | None = None,
+) -> Finding:
     param, holder = unread.param, unread.holder
     namespace, name = param.name.rpartition("/")[0], read.name
     if read.use.access == "search":
         name = f"{namespace}/{read.name.rpartition('/')[2]}"
-    sure: Confidence = "likely" if holder is not None or (graph.complete and unread.alone) else "possible"
+    sure = sure or ("likely" if holder is not None or (graph.complete and unread.alone) else "possible")
     if holder is not None:
         message = (
             f"{holder.name} does not read parameter '{param.name}'; did you mean '{read.name}', which it reads and "
@@ -106,7 +144,8 @@ RULE = Rule(
     what="Reports a parameter that no node reads. Where a node reads one of a like name that nothing sets, or the "
     "same name in another namespace (a level too many or too few, global instead of private), it is a warning that "
     "names both; otherwise a hint, and only for parameters of a node that is known to its event loop. Reading a "
-    "namespace as a whole reads all parameters in it. A parameter of a node that begins with `_`, and that nobody is "
+    "namespace as a whole reads all parameters in it. Of a node that only the catalogue has, "
+    "slips alone are told. A parameter of a node that begins with `_`, and that nobody is "
     "known to read, is a warning, too: so they are written on the command line alone.",
     why="The node goes on with its default, and nothing says that the value of the launch file is not used.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
