@@ -21,6 +21,7 @@ from support.rcl_interface import (
 )
 from support.ros2_harness import ROOT, ros2_prefix
 
+pytestmark = pytest.mark.ros
 PARTS = preload_compile.RCL.source.parent / "rcl_preload"
 NOT_RECORDED = {("lyrical", "message_type_support_callbacks_t")}
 """Of packages whose sources were not at hand."""
@@ -40,7 +41,6 @@ def passed(types: Types) -> Types:
     return tuple("pointer" if each.endswith("*") else BY_VALUE.get(each, each) for each in plain)
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("distribution", ["kilted", "jazzy"])
 def test_the_headers_of_the_wheels_say_what_is_recorded(distribution: str) -> None:
     found, known = of_headers(ros2_prefix(distribution) / "include"), recorded()[distribution]
@@ -193,13 +193,11 @@ def compiled(distribution: str, body: str, folder: Path) -> Path:
     return program
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 def test_what_is_read_of_structures_lies_where_it_is_read(distribution: str, tmp_path: Path) -> None:
     compiled(distribution, f"{SAME}\nint main() {{}}", tmp_path)
 
 
-@pytest.mark.ros
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
 def test_an_answer_says_yes_wherever_it_can(distribution: str, tmp_path: Path) -> None:
     subprocess.run([compiled(distribution, AGREE, tmp_path)], check=True)
