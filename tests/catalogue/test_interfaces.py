@@ -34,3 +34,27 @@ def test_a_name_made_of_that_of_the_node_is_private(tmp_path: Path) -> None:
     assert [end["name"] for end in facts["service_servers"]] == ["~/is_active", "~/reset"]
     assert [end["name"] for end in facts["publishers"]] == ["chatter"]
     assert list(facts["parameters"]) == ["~rate"]
+
+
+ROSCPP = """#include <ros/ros.h>
+int main(int argc, char ** argv)
+{
+  ros::init(argc, argv, "n");
+  ros::NodeHandle nh;
+  ros::Publisher out = nh.advertise<std_msgs::String>(nh.resolveName("out"), 1);
+  ros::Publisher left = nh.advertise<std_msgs::String>(ros::names::resolve("left") + "/image", 1);
+  ros::Publisher map = nh.advertise<std_msgs::String>("/map", 1);
+  ros::Publisher own = nh.advertise<std_msgs::String>(ros::this_node::getName() + "/state", 1);
+  ros::Publisher beside = nh.advertise<std_msgs::String>(ros::this_node::getName() + "_debayer/state", 1);
+  ros::spin();
+}
+"""
+
+
+def test_a_name_that_the_node_resolves_is_relative(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text(MANIFEST.replace("ament_cmake", "catkin"))
+    (tmp_path / "CMakeLists.txt").write_text("project(p)\nadd_executable(t t.cpp)\n")
+    (tmp_path / "t.cpp").write_text(ROSCPP)
+    environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
+    facts = facts_of_package(environment, Disk(), environment.packages["p"])["executables"]["t"]
+    assert [end["name"] for end in facts["publishers"]] == ["out", "left/image", "/map", "~/state"]

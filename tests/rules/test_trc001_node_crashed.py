@@ -236,6 +236,7 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
             ("variable", "ROS_DISTRO"),
         ),
         ("KeyError: 'ROS_DISTRO'", None),
+        ("    sys.modules['simple_pid.PID'].x = 1\nKeyError: 'simple_pid.PID'", ("module", "simple_pid")),
         ("Environment configuration is invalid: cannot locate rospack ([Errno 2])", ("program", "rospack")),
         ("    f'at {\n    ^\nSyntaxError: unterminated string literal", ("program", "python3.12")),
         ('    f"{Duration.of(\n    ^\nSyntaxError: unterminated string literal', ("program", "python3.12")),

@@ -40,6 +40,7 @@ _NO_LIBRARY = re.compile(r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]
 """How pluginlib says it of a package that has not been built, where a plugin has its package's name, and where not."""
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
 _NO_KEY = re.compile(r"KeyError: '(\w+)'")
+_NO_LOADED = re.compile(r"KeyError: '([\w.]+)'")
 _NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
 _OPEN_F_STRING = re.compile(r"\b[rR]?[fF][rR]?['\"][^'\"\n]*\{[^}'\"\n]*$", re.MULTILINE)
 """An expression within a string that goes on in the next line, as Python allows it since 3.12 (PEP 701)."""
@@ -193,6 +194,8 @@ def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lac
     whole = "\n".join(traceback)
     if (found := _NO_KEY.fullmatch(last)) and "environ" in whole:
         return lack_of_variable(context, found[1])
+    if (found := _NO_LOADED.fullmatch(last)) and "sys.modules[" in whole:
+        return lack_of_module(context, found[1])
     if (found := _NOT_STARTED.fullmatch(last)) and "subprocess" in whole:
         return lack_of_program(context, found[1])
     if last.startswith("ImportError") and (found := _NO_MODULE.search(whole)):

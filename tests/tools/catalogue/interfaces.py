@@ -163,7 +163,9 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         path = found.path or next(iter(found.not_executable), None)
         if _NO_NODES.search(name) or (path is not None and _IN_TESTS.search(path.removeprefix(package.share))):
             continue
-        key = SourceKey(path, found.entry_point, package.name, name, None, f"/{_NAME}", "", ())
+        # ROS 1's nodes resolve names themselves: what is resolved within the namespace was given as a relative name.
+        called_as = f"/{_NAME}" if package.is_ament else f"{_SPACE}{_NAME}"
+        key = SourceKey(path, found.entry_point, package.name, name, None, called_as, "", ())
         said = _read(analysis, [key, *(key._replace(args=" ".join(_ARGUMENTS[:count])) for count in (1, 2))])
         arguments = RUN.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is None and arguments is not None:
@@ -180,7 +182,7 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
             _add_named_by_parameters(analysis, key, said, typed=True)
             components[cls] = said
     for plugin in _nodelets(package) if not package.is_ament else ():
-        key = SourceKey(None, None, "nodelet", "nodelet", None, f"/{_NAME}", f"standalone {plugin}", ())
+        key = SourceKey(None, None, "nodelet", "nodelet", None, f"{_SPACE}{_NAME}", f"standalone {plugin}", ())
         said = _read(analysis, [key])
         if said is not None:
             _add_named_by_parameters(analysis, key, said, typed=False)
@@ -332,6 +334,8 @@ def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
 def _params(uses: Iterable[ParamUse]) -> dict[str, Any]:
     params: dict[str, Any] = {}
     for use in uses:
+        if isinstance(use.default, str):
+            use = replace(use, default=use.default.replace(_SPACE, "/"))
         about = {
             **({"access": use.access} if use.access != "get" else {}),
             **({"type": use.type} if use.type else {}),
@@ -347,8 +351,9 @@ def _params(uses: Iterable[ParamUse]) -> dict[str, Any]:
 
 
 def _below_its_own(name: str) -> str:
-    """`name` as a private one, where the source made it of the node's own name."""
-    return re.sub(rf"^/?{_NAME}/", "~/", name)
+    """`name` as a private one, where the source made it of the node's own name, and as a relative one where it is of
+    its namespace."""
+    return re.sub(rf"^(?:{_SPACE}|/)?{_NAME}/", "~/", name).removeprefix(_SPACE).replace(_SPACE, "/")
 
 
 def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:
