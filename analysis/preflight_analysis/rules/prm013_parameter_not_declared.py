@@ -129,8 +129,8 @@ RULE = Rule(
     severity="warning",
     what="Reports a parameter, in the launch file or in a parameter file, that the node it is for does not declare, "
     "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters, but for "
-    "a slip of `use_sim_time`, nor of what is written once for several nodes of which one declares it, be it in "
-    "another launch.",
+    "a slip of `use_sim_time`, and of what a controller of ros2_control reads, nor of what is written once for several "
+    "nodes of which one declares it, be it in another launch.",
     why="The client libraries drop it without a word, and the node keeps its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',
