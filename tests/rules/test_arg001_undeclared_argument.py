@@ -168,6 +168,20 @@ def test_the_command_line_chooses_what_is_declared() -> None:
         </launch>
     """
     check(mode.format("info"))
+    # Who has chosen a kind of which nothing is known is not asked to choose.
+    check(
+        """
+        <launch>
+          <arg name="hand" default="true"/>
+          <arg name="kind" default="e"/>
+          <arg name="mass" value="1" if="$(eval hand and kind == 'e')"/>
+          <param name="version" value="2" if="$(eval kind == 'c')"/>
+          <param name="a" value="$(arg mass)"/>
+                                 ^^^^^^^^^^^ error[ARG001] under a condition (if kind:=c)
+        </launch>
+        """,
+        branches=True,
+    )
     # Who includes it chooses, and nobody has.
     check(
         """

@@ -55,8 +55,8 @@ def _may_be_chosen(context: Context, tags: tuple[Action, ...]) -> bool:
     """Whether the command line decides over a condition of one of the declarations, and does not yet."""
     conditions = (value.text for tag in tags for kind in ("if", "unless") if (value := tag.value(kind)) is not None)
     names = {name for condition in conditions for name in _WORD.findall(condition)}
-    args = context.tree.args
-    return any(args[name].default is not None and args[name].value_origin is not None for name in names & args.keys())
+    args = [context.tree.args[name] for name in names & context.tree.args.keys()]
+    return any(arg.default is not None for arg in args) and all(arg.value_origin is not None for arg in args)
 
 
 def _is_documented(context: Context, file: str, name: str) -> bool:
