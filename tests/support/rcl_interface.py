@@ -23,6 +23,7 @@ STRUCTS = (
     "rcl_client_t",
     "rcl_lifecycle_state_machine_t",
     "rcl_lifecycle_state_t",
+    "rcl_node_options_t",
     "rcl_node_t",
     "rcl_publisher_t",
     "rcl_service_options_t",

@@ -308,15 +308,38 @@ class Node {
 
 std::list<Node> nodes;
 
+// One-shot timers, each with what is done then.
+rcl_clock_t clock_of_timers;
+std::list<std::pair<rcl_timer_t, std::function<void()>>> timers;
+
+void after(double seconds, std::function<void()> work) {
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  if (timers.empty()) check(rcl_clock_init(RCL_STEADY_TIME, &clock_of_timers, &allocator));
+  timers.emplace_back(rcl_get_zero_initialized_timer(), std::move(work));
+  auto nanoseconds = static_cast<int64_t>(seconds * 1e9);
+  check(rcl_timer_init2(&timers.back().first, &clock_of_timers, &context, nanoseconds, nullptr, allocator, true));
+}
+
+void turn_timers() {
+  for (auto& each : timers) {
+    bool ready = false;
+    if (rcl_timer_is_ready(&each.first, &ready) != RCL_RET_OK || !ready) continue;
+    check(rcl_timer_cancel(&each.first));
+    each.second();
+  }
+}
+
 void spin() {
   for (;;) {
     size_t services = 0;
     for (auto& node : nodes) services += node.services();
     rcl_wait_set_t set = rcl_get_zero_initialized_wait_set();
-    check(rcl_wait_set_init(&set, 0, 0, 0, 0, services, 0, &context, rcl_get_default_allocator()));
+    check(rcl_wait_set_init(&set, 0, 0, timers.size(), 0, services, 0, &context, rcl_get_default_allocator()));
     for (auto& node : nodes) node.add_to(&set);
+    for (auto& each : timers) check(rcl_wait_set_add_timer(&set, &each.first, nullptr));
     check(rcl_wait(&set, -1));
     check(rcl_wait_set_fini(&set));
+    turn_timers();
     for (auto& node : nodes) node.answer();
   }
 }
@@ -345,6 +368,10 @@ void perform(const std::string& step) {
   if (what == "managed") nodes.back().manage();
   if (what == "sleep") sleep(std::stoi(name));
   if (what == "abort") abort();
+  if (what == "after") {  // `after=0.2@pub:late`: another step, later
+    more[more.find(':')] = '=';
+    after(std::stod(name), [more] { perform(more); });
+  }
   if (what == "double") {
     value.type = 3;
     value.double_value = std::stod(more);

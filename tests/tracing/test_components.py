@@ -173,6 +173,28 @@ def test_a_constructor_that_takes_its_time(kilted: ContainerHarness) -> None:
     assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "late")})
 
 
+@pytest.mark.parametrize("timers", ["after=0.15@pub:late", "after=0.05@double:rate@1 after=0.2@pub:late"])
+def test_what_a_first_turn_of_a_timer_makes(kilted: ContainerHarness, timers: str) -> None:
+    """As a constructor sets one for what it cannot do itself."""
+    kilted.component("Later", f"pub=early {timers}")
+    found = kilted.loaded("Later")
+    assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "early"), ("publisher", "late")})
+
+
+def test_a_timer_that_is_far_off_is_not_waited_for(kilted: ContainerHarness) -> None:
+    kilted.component("Later", "pub=early after=60@pub:late")
+    found = kilted.loaded("Later")
+    assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "early")})
+
+
+def test_a_node_that_comes_later(kilted: ContainerHarness) -> None:
+    kilted.component("Later", "pub=early after=0.1@child:costmap@/n/costmap after=0.2@pub:map")
+    graph = contained(kilted, "<composable_node pkg='cpkg' plugin='cpkg::Later' name='n'/>", "").graph
+    assert graph is not None
+    assert [node.name for node in graph.tree.nodes] == ["/box", "/n", "/n/costmap/costmap"]
+    assert "/n/costmap/map" in graph.topics
+
+
 def test_a_constructor_that_does_not_return(kilted: ContainerHarness) -> None:
     kilted.component("Stuck", "pub=early sleep=60")
     found = kilted.loaded("Stuck")

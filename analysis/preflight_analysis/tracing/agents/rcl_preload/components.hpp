@@ -68,8 +68,8 @@ void tell_loaded(bool success, std::string why) {
   Event("loaded").add("success", success).raw("error", quoted(why)).send();
 }
 
-// Whether the container answered.
-bool load(const Loader& asked) {
+// Whether the container answered. `before` becomes what `turns` was then.
+bool load(const Loader& asked, int& before) {
   auto* make = REAL_IF_ANY("rcl_client_init", int(Handle*, const Handle*, const Support*, const char*, const Options*));
   auto* options = REAL_IF_ANY("rcl_client_get_default_options", Options());
   auto* available = REAL_IF_ANY("rcl_service_server_is_available", int(const Handle*, const Handle*, bool*));
@@ -109,6 +109,7 @@ bool load(const Loader& asked) {
         loading = true;
         send(&client, request.get(), &sequence);
       }
+      before = turns;
       if (there) result = take(&client, header, response.get());
       reset_error();
     });
@@ -141,12 +142,15 @@ void ask_to_load() {
   if (asked.node == nullptr) return;
   in_background([asked] {
     bool answered = false;
+    int before = 0;
     try {
-      answered = load(asked);
+      answered = load(asked, before);
     } catch (...) {  // what it answers is no message that we know
     }
     if (answered) {
       ask_for_parameters();  // before its container waits again, or whoever spins it does
+      // Which timers there are shows when it does.
+      for (double until = now() + kSoon; turns == before && now() < until;) pause(0.001);
       tell_load("resume");
     }
     no_longer_busy();
