@@ -97,6 +97,18 @@ def test_a_file_of_another_machine_is_no_mistake_of_the_launch_file(tmp_path: Pa
     assert finding.severity == severity
 
 
+def test_a_file_of_somebodys_home_that_a_package_has(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    (tmp_path / "maps").mkdir()
+    (tmp_path / "maps" / "levine.yaml").touch()
+    said = "[Errno 2] No such file or directory: '/home/somebody/ws/src/robot/maps/{}.yaml'"
+    for name, severity in (("levine", "error"), ("other", "hint")):
+        analysis = _launched(tmp_path, _error(tmp_path, "FileNotFoundError", said.format(name)))
+        (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+        assert finding.severity == severity
+        assert finding.message.endswith("maps/levine.yaml'?") == (severity == "error")
+
+
 def test_an_assert_without_a_message_is_shown(tmp_path: Path) -> None:
     text = "import os\nassert os.path.isdir(\n    '/no/such/folder')\nraise StopIteration\n"
     path = str(tmp_path / "a.launch.py")

@@ -10,7 +10,7 @@ from pathlib import Path
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.git_ignored import is_ignored
-from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
@@ -103,10 +103,23 @@ def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:
     return check
 
 
+def in_named_package(disk: Disk, path: str, environment: Environment) -> tuple[Package, str] | None:
+    """The package whose name is that of a folder of `path`, and what follows it, where that exists in the package:
+    `/home/me/ws/src/robot/maps/a.yaml` is `maps/a.yaml` of `robot`."""
+    parts = path.split("/")
+    for at in range(len(parts) - 1, 0, -1):
+        package = environment.packages.get(parts[at])
+        below = "/".join(parts[at + 1 :])
+        if package is not None and below and disk.exists(os.path.join(package.share, below)):
+            return package, below
+    return None
+
+
 def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     """The path of an existing file that `path` is probably meant to be, None if nothing is near.
 
-    First a file of a like name in the same folder; then the same name, or one like it, elsewhere in the package.
+    First a file of a like name in the same folder; then the same name, or one like it, elsewhere in the package; then
+    the same place in a package that it names.
     """
     wanted = Path(path)
     siblings = {entry.name: entry for entry in map(Path, files_in(disk, str(wanted.parent), deep=False))}
@@ -119,7 +132,8 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
         return str(siblings[near])
     share = package_folder(path, environment)
     if share is None:
-        return None
+        named = in_named_package(disk, path, environment)
+        return os.path.join(named[0].share, named[1]) if named is not None else None
     elsewhere: dict[str, list[Path]] = {}
     for entry in map(Path, files_in(disk, str(share), deep=True)):
         if entry.suffix == wanted.suffix:

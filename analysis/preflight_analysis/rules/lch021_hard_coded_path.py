@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 
@@ -10,6 +9,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
+from preflight_analysis.rules.files import in_named_package
 from preflight_analysis.rules.rule import Context, Rule
 
 _HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
@@ -102,13 +102,8 @@ def _in_package(text: str, context: Context) -> str | None:
         share = package.share.rstrip("/")
         if text.startswith(share + "/"):
             return f"$({find} {package.name}){text[len(share) :]}"
-    parts = text.split("/")
-    for at in range(len(parts) - 1, 0, -1):
-        known = packages.get(parts[at])
-        below = "/".join(parts[at + 1 :])
-        if known is not None and below and context.disk.exists(os.path.join(known.share, below)):
-            return f"$({find} {known.name})/{below}"
-    return None
+    named = in_named_package(context.disk, text, context.environment)
+    return f"$({find} {named[0].name})/{named[1]}" if named is not None else None
 
 
 RULE = Rule(
