@@ -246,6 +246,18 @@ def test_of_a_program_without_rcl_the_source_is_read(tmp_path: Path, body: str, 
     assert set(ends(found)) == {("publisher", "chatter"), ("publisher", "other")}
 
 
+def test_a_program_that_could_not_be_loaded_is_run_again(tmp_path: Path) -> None:
+    harness = RclHarness(tmp_path)
+    harness.cache = TraceCache(tmp_path / "cache")
+    library = tmp_path / "install/lib/library"
+    compiled = ["cc", "-x", "c", "-", "-o", str(harness.program)]
+    body = f'#include <unistd.h>\nint main(void) {{ return access("{library}", F_OK) ? 127 : 0; }}'
+    subprocess.run(compiled, input=body, text=True, check=True)
+    assert (harness.trace("").outcome.reason or "").startswith("it cannot be loaded here")
+    library.touch()
+    assert harness.trace("").outcome.reason == "it does not use rcl, or not within the time that it was given"
+
+
 def test_without_a_compiler_the_source_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     harness = RclHarness(tmp_path)
     with_source(harness)

@@ -64,8 +64,10 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         return Observation(Interface("none", outcome), Dependencies(), lasting=False)
     if not request.ros.has_master and recipe.preload is not None and not found.woven and (why := _not_seen(outcome)):
         # Nothing was seen of it, which does not say that there is nothing: it is as if it had not been run.
+        # What it lacked to be loaded may be installed at any time.
+        lasting = not raw.killed and outcome.exit_code != NOT_LOADED
         outcome = Outcome("not-run", stderr_tail=tail, reason=why)
-        return Observation(Interface("none", outcome), Dependencies(tuple(found.files)), lasting=not raw.killed)
+        return Observation(Interface("none", outcome), Dependencies(tuple(found.files)), lasting)
     remaps = names.resolve_remaps(request.remaps, request.node) if recipe.remapped else {}
     if request.ros.has_handles and not recipe.python:
         _correct_names(found, request.node, remaps)
