@@ -97,6 +97,20 @@ def test_a_file_of_another_machine_is_no_mistake_of_the_launch_file(tmp_path: Pa
     assert finding.severity == severity
 
 
+@pytest.mark.parametrize(
+    ("absent", "severity"),
+    [("/home/robot/recordings/**/cloud-*.ply", "info"), ("mapproxy-util", "info"), ("{}/maps/hall.yaml", "error")],
+)
+def test_a_launch_file_that_refuses_for_what_the_machine_lacks(tmp_path: Path, absent: str, severity: str) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    path = absent.format(tmp_path)
+    analysis = _launched(tmp_path, _error(tmp_path, "RuntimeError", "record first", absent=path))
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert (finding.severity, finding.stops_launch) == (severity, True)
+    said = f"RuntimeError: record first; this machine has no '{path}'"
+    assert finding.message == (said if severity == "info" else "RuntimeError: record first")
+
+
 def test_a_file_of_somebodys_home_that_a_package_has(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
     (tmp_path / "maps").mkdir()
@@ -189,6 +203,7 @@ def test_a_run_that_goes_well_is_not_spoken_of(tmp_path: Path) -> None:
         {"actions": [{"k": "arg", "p": [10**9, 10**9], "n": "X", "a": {"name": ["a"]}, "c": []}]},
         {"error": {"frames": [[1, 2, 3], ["/x", -5, ""], ["/nowhere.py", 10**12, ""]]}},
         {"error": {"frames": "x", "type": ["KeyError"]}},
+        {"error": {"type": "KeyError", "absent": [7]}},
         {"actions": [], "files": {"/tmp/x": 5, "y": "z"}},
     ],
 )

@@ -119,6 +119,25 @@ def test_an_exception_in_a_helper_leads_to_the_call(harness: PythonHarness) -> N
     assert "KeyError" in analysis.findings[0].message
 
 
+@pytest.mark.parametrize(
+    ("looks", "severity"),
+    [
+        ("os.path.exists('/srv/robot/calibration.yaml')", "info"),
+        ("pathlib.Path('/srv/robot/calibration.yaml').is_file()", "info"),
+        ("glob.glob('/srv/robot/recordings/**/cloud-*.ply', recursive=True)", "info"),
+        ("shutil.which('no-such-program')", "info"),
+        ("os.path.exists(os.path.join(os.path.dirname(__file__), 'calibration.yaml'))", "error"),
+        ("os.environ.get('HOME') is None", "error"),
+    ],
+)
+def test_a_launch_file_refuses_for_what_it_does_not_find(harness: PythonHarness, looks: str, severity: str) -> None:
+    refuses = "import glob, os, pathlib, shutil\ndef check():\n"
+    refuses += f"    if not ({looks}):\n        raise RuntimeError('calibrate first')\n"
+    analysis = harness.launch(_described(harness, "check()", before=refuses))
+    assert [(f.rule, f.severity) for f in analysis.findings] == [("LCH032", severity)]
+    assert ("this machine has no '" in analysis.findings[0].message) == (severity == "info")
+
+
 def test_what_is_not_there_is_told(harness: PythonHarness) -> None:
     path = _described(harness, before="SHARE = get_package_share_directory('missing_package')\n")
     analysis = harness.launch(path)

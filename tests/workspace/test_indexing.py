@@ -161,6 +161,8 @@ def test_python_files_that_make_a_launch_description_are_launch_files(harness: H
         "p/launch/helper.py": "def generate(): pass\n",
         "p/bringup/installed.py": PYTHON,
         "p/p/module.py": PYTHON,
+        "p/p/gen_launch.py": "from launch import LaunchDescription\n\ndef gen_launch(): return LaunchDescription([])\n",
+        "p/bringup/wrong_launch.py": PYTHON.replace("launch_desc", "lauch_desc"),
         "p/package.xml": "<package><name>p</name><export><build_type>ament_python</build_type></export></package>",
         "p/setup.py": "from setuptools import setup\n"
         "setup(name='p', packages=['p'], data_files=[('share/p', ['package.xml', 'bringup/installed.py'])])\n",
@@ -168,12 +170,14 @@ def test_python_files_that_make_a_launch_description_are_launch_files(harness: H
         (harness.folder / name).parent.mkdir(parents=True, exist_ok=True)
         harness.write(name, text)
     harness.workspace = Workspace(detect(str(harness.folder), package_path=(str(harness.folder),)), Sources())
-    assert paths(tuple(harness.build().entries)) == ["bringup_all.py", "hello-launch.py", "installed.py"]
+    assert paths(tuple(harness.build().entries)) == [
+        *("bringup_all.py", "hello-launch.py", "installed.py", "wrong_launch.py")
+    ]
     whole = harness.write(
         "whole.launch.xml", f'<launch><include file="{harness.folder}/p/launch/hello-launch.py"/></launch>'
     )
     index = harness.build(changed=[whole])
-    assert paths(tuple(index.entries)) == ["bringup_all.py", "installed.py", "whole.launch.xml"]
+    assert paths(tuple(index.entries)) == [*("bringup_all.py", "installed.py", "whole.launch.xml", "wrong_launch.py")]
 
 
 INCLUDING = """\

@@ -123,13 +123,15 @@ class NoLaunchElement(ProblemKind):
 @dataclass(frozen=True, slots=True)
 class PythonException(ProblemKind):
     """A Python launch file raised `error` (the name of the class), or its run failed where that is empty. `frames` go
-    from the outermost inwards."""
+    from the outermost inwards. `absent` is what the function that raises looked for before, and did not find: a path,
+    a pattern or a program; empty where that is not so."""
 
     leaves_out = True
 
     error: str
     message: str
     frames: tuple[Location, ...] = ()
+    absent: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,6 +35,7 @@ LAUNCH_FOLDER = "launch"
 """Where packages have their launch files, whatever they are called."""
 LAUNCH_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
 """What launch calls in a Python launch file."""
+_MAY_HAVE_FUNCTION = re.compile(r"\bgen\w*_desc|^\s*from\s.*\bimport\s+\*", re.MULTILINE)
 
 # Each begins with what is quickly found: all of a long file is looked through on each keystroke.
 _TAGS_OF_ROS2 = re.compile(
@@ -58,6 +59,13 @@ _ROS1_MARKS = re.compile(
 )
 _AMENT = re.compile(r"<build_type[^<>]*>\s*ament_|<buildtool_depend[^<>]*>\s*ament_")
 _CATKIN = re.compile(r"<buildtool_depend[^<>]*>\s*catkin\s*<")
+
+
+def is_module(path: str, text: str) -> bool:
+    """Whether a Python file that ends in `_launch.py` is a module that helps to make launch files: it lies in no launch
+    folder, and nothing in it may be the function that launch calls."""
+    is_named = path.endswith("_launch" + PYTHON_SUFFIX) and LAUNCH_FOLDER not in path.split("/")
+    return is_named and bool(text.strip()) and _MAY_HAVE_FUNCTION.search(text) is None
 
 
 OfPackage = Callable[[str], "int | None"]

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.reach import within
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
@@ -30,20 +31,28 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 lack = _lack(context, failed)
                 severity, confidence = ("warning", "likely") if there else ("info", "possible")
                 message = _import(context, failed, problem.location.file, has_ros=there)
-            case PythonException(error, said, frames):
+            case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
                 near = _near_file(context, error, said)
                 if near is not None:
                     message += f"; did you mean '{shown(near, context)}'?"
                 elif (path := _missing_file(error, said)) is not None:
                     lack = lack_of_made(context, path) or lack_of_file(context, path)
-                    if lack is None and (absent := absent_top(context.disk, path)) is not None:
-                        severity, message = "info", f"{message}; this machine has no '{absent}'"
+                    if lack is None and (top := absent_top(context.disk, path)) is not None:
+                        severity, message = "info", f"{message}; this machine has no '{top}'"
+                elif absent and not _is_of_workspace(context, absent):
+                    severity, message = "info", f"{message}; this machine has no '{absent}'"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
             rule, problem, message, severity=severity, confidence=confidence, related=related, lack=lack
         )
+
+
+def _is_of_workspace(context: Context, path: str) -> bool:
+    """Whether a path is that of something which a package or the workspace has, and not the machine or the robot."""
+    folders = context.environment.workspace_folders
+    return any(within(path, folder) for folder in folders) or package_around(context.environment, path) is not None
 
 
 def _near_file(context: Context, error: str, said: str) -> str | None:
@@ -92,7 +101,9 @@ RULE = Rule(
     severity="error",
     what="Reports the line of a Python launch file (ROS 2) that raises an exception: while it is loaded, in "
     "`generate_launch_description`, in an `OpaqueFunction`, or by an action that is given what it does not take. Such "
-    "files are run in the sandbox, if the workspace is trusted, and nothing of what they describe is started.",
+    "files are run in the sandbox, if the workspace is trusted, and nothing of what they describe is started. It is "
+    "information where the file itself refuses (`raise`) as it does not find a program, or a file outside of the "
+    "workspace.",
     why="`ros2 launch` stops there. What earlier actions started may be running by then.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',

@@ -16,7 +16,7 @@ from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
-from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
+from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_module
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.observations import Notes
@@ -286,7 +286,7 @@ def launch_files(folder: str, workspace: Workspace) -> list[str]:
             path = os.path.join(place, name)
             if name.endswith(LAUNCH_SUFFIXES):
                 is_one = not (ignored and _is_of_ament(path, workspace.sources))
-                is_one = is_one and (in_launch_folder or not _is_of_eclipse(path, workspace.sources))
+                is_one = is_one and (in_launch_folder or not _is_of_other(path, workspace.sources))
             else:
                 placed = name.endswith(PYTHON_SUFFIX) and (in_launch_folder or _is_shared(workspace, path))
                 is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
@@ -306,10 +306,13 @@ def _makes_launch_description(path: str, sources: Sources) -> bool:
     return not isinstance(found, Unreadable) and LAUNCH_FUNCTION.search(found.text) is not None
 
 
-def _is_of_eclipse(path: str, sources: Sources) -> bool:
-    """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program."""
-    found = sources.text(path) if path.endswith(".launch") else None
-    return found is not None and not isinstance(found, Unreadable) and _ECLIPSE in found.text[:_HEAD]
+def _is_of_other(path: str, sources: Sources) -> bool:
+    """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program, or a Python
+    file a module that helps to make launch files."""
+    found = sources.text(path) if path.endswith((".launch", PYTHON_SUFFIX)) else None
+    if found is None or isinstance(found, Unreadable):
+        return False
+    return is_module(path, found.text) if path.endswith(PYTHON_SUFFIX) else _ECLIPSE in found.text[:_HEAD]
 
 
 def _is_of_ament(path: str, sources: Sources) -> bool:

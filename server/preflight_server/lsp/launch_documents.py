@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 
-from preflight_analysis.launch.read import LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_yaml
+from preflight_analysis.launch.read import LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_module, is_yaml
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -51,7 +51,8 @@ def is_python_launch_file(document: OpenDocument) -> bool:
     what is ours to say."""
     if document.path is None or not document.path.endswith(PYTHON_SUFFIX):
         return False
-    return document.path.endswith(LAUNCH_SUFFIXES) or LAUNCH_FUNCTION.search(document.text) is not None
+    is_named = document.path.endswith(LAUNCH_SUFFIXES) and not is_module(document.path, document.text)
+    return is_named or LAUNCH_FUNCTION.search(document.text) is not None
 
 
 def may_be_parameter_file(document: OpenDocument) -> bool:

@@ -475,7 +475,7 @@ def _raised(state: Collector, place: Place, run: PythonRun, error: Mapping[str, 
         places = tuple(_frame(state, place, run, file, line) for file, line in behind)
         if name == "AssertionError" and not message and behind:
             message = _asserted(state, run, *behind[-1])
-        state.problem(PythonException(name, message, places), origin)
+        state.problem(PythonException(name, message, places, str(error.get("absent") or "")), origin)
 
 
 def _variable(run: PythonRun, line: int, message: str) -> str | None:

@@ -42,6 +42,8 @@ class Recorder:
         """Where the file asks whether something holds that is not known, by what that is and the line."""
         self.unmatched: list[list[Any]] = []
         """What `RewrittenYaml` and the like are to replace and did not find, each with its line."""
+        self.absent: dict[Any, str] = {}
+        """What a function of the file looked for last and did not find, a path, a pattern or a program, by its code."""
         self.answers = Answers()
         self.own_xacro = ""
         """The folder of the module that is used where ROS has none."""
@@ -57,6 +59,7 @@ class Recorder:
         self.assumed_in.clear()
         self.guessed.clear()
         self.unmatched.clear()
+        self.absent.clear()
         self.answers.begin_part()
 
     def miss(self, what: str, name: str) -> None:
@@ -68,6 +71,11 @@ class Recorder:
         """Note that a program asks for a variable of the environment, where its value is but assumed."""
         if variable in self.assumed and is_own(frame):
             self.assumed_in.setdefault(variable, self.place_of(frame))
+
+    def looks_for(self, path: Any, found: Any, frame: Any) -> None:
+        """Note what a program looked for, where it did not find it."""
+        if not found and is_own(frame) and isinstance(path, (str, os.PathLike)):
+            self.absent[frame.f_code] = str(path)
 
     def guess(self, name: str, frame: Any, answer: bool) -> bool:
         """Note that a program goes on in one way of several, as it asks for something that is not known; the answer

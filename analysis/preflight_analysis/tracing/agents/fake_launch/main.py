@@ -266,11 +266,26 @@ def _error_record(error: BaseException) -> dict[str, Any]:
         record["path"] = error.filename
     if isinstance(error, OSError):
         record["errno"] = error.errno
+    absent = _looked_for(error)
+    if absent is not None:
+        record["absent"] = absent[:2000]
     if RECORDER.unknown and not _of_ours(error, message):
         record["unsure"] = True
     if isinstance(error, NotHereError):
         record["refused"] = True
     return record
+
+
+def _looked_for(error: BaseException) -> Optional[str]:
+    """What a function of the file looked for last, without finding it, that raises by a `raise` of its own."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    if trace is None:
+        return None
+    code = trace.tb_frame.f_code
+    raises = linecache.getline(code.co_filename, trace.tb_lineno).lstrip().startswith("raise")
+    return RECORDER.absent.get(code) if raises else None
 
 
 def _is_set_somewhere(message: str) -> bool:

@@ -14,6 +14,7 @@ import importlib.util
 import io
 import os
 import pathlib
+import shutil
 import sys
 import xml.dom.minidom
 from typing import Any, Callable, Iterator
@@ -70,6 +71,7 @@ def install() -> None:
     setattr(pathlib.Path, "stat", _unasked(pathlib.Path.stat, _about))  # noqa: B010, mypy holds methods to be fixed
     os.chdir = _unasked(os.chdir, lambda _: None)
     builtins.input = _asked
+    shutil.which = _which(shutil.which)
     os.getlogin = _answered(os.getlogin)
     environment: Any = type(os.environ)
     environment.__getitem__ = _variable(environment.__getitem__)
@@ -215,9 +217,24 @@ def _instead(function: Any, there: Callable[[Any], Any], not_there: Callable[[],
     @functools.wraps(function)
     def called(*args: Any, **kwargs: Any) -> Any:
         if not args or not _is_of_unknown(args[0]):
-            return function(*args, **kwargs)
+            found = function(*args, **kwargs)
+            if args:
+                RECORDER.looks_for(args[0], found, sys._getframe(1))
+            return found
         is_there = asked(f"{function.__name__}({args[0]})", sys._getframe(1))
         return there(args[0]) if is_there else not_there()
+
+    return called
+
+
+def _which(which: Any) -> Any:
+    """What looks for programs."""
+
+    @functools.wraps(which)
+    def called(cmd: Any, *args: Any, **kwargs: Any) -> Any:
+        found = which(cmd, *args, **kwargs)
+        RECORDER.looks_for(cmd, found, sys._getframe(1))
+        return found
 
     return called
 
