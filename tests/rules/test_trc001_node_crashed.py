@@ -210,12 +210,12 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
         //- /p/launch/model.launch
         <launch/>
         //- interfaces
-        {{"/n": {{"status": "crashed", "exit_code": 1, "params": {{"/robot_description": {{"access": "has"}}}},
-                  "stderr": ["RuntimeError: robot_description is required and not set"]}}}}
+        {{"/n": {{"status": "crashed", "exit_code": 1, "params": {{"/board_description": {{"access": "has"}}}},
+                  "stderr": ["RuntimeError: board_description is required and not set"]}}}}
     """
     (found,) = [f for f in findings_of(text.format(package="panda_moveit_config")) if f.rule == "TRC001"]
     assert (found.severity, found.confidence) == ("info", "possible")
-    assert "'/robot_description', which a part of the launch that is not known here may set" in found.message
+    assert "'/board_description', which a part of the launch that is not known here may set" in found.message
     (found,) = [f for f in findings_of(text.format(package="p")) if f.rule == "TRC001"]
     assert "may set" not in found.message
 
@@ -372,3 +372,32 @@ def test_a_file_of_the_home_folder_that_is_not_here() -> None:
         environment = replace(context.environment, variables={"HOME": "/home/me"})
         (finding,) = [each for each in run_rules(replace(context, environment=environment)) if each.rule == "TRC001"]
         assert (finding.lack is not None) is lacks
+
+
+@pytest.mark.parametrize("known", ["~", "/"])
+def test_the_description_of_the_robot_may_be_set_by_another_launch(known: str) -> None:
+    text = """
+        <launch>
+          SETTING
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {PRIVATE"/robot_description": {"access": "has"}},
+                "stderr": ["RuntimeError: robot_description is required and not set"]}}
+    """.replace("PRIVATE", '"~robot_description": {"access": "has"}, ' if known == "~" else "")
+    (found,) = [f for f in findings_of(text.replace("SETTING", "")) if f.severity not in ("hint",)]
+    assert (found.rule, found.severity, found.confidence) == ("TRC001", "info", "possible")
+    assert "'/robot_description', which another launch may set" in found.message
+    elsewhere = findings_of(text.replace("SETTING", '<param name="arm/robot_description" value="x"/>'))
+    assert [f.severity for f in elsewhere if f.rule == "TRC001"] == ["warning"]
+
+
+def test_a_test_that_fails_alone() -> None:
+    check("""
+        <launch>
+          <test test-name="n" pkg="p" type="t"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] exit code 1
+        </launch>
+        //- interfaces
+        {"/n": {"status": "exited", "exit_code": 1}}
+    """)

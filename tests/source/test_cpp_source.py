@@ -462,6 +462,28 @@ def test_conditions_loops_and_exits(harness: Harness) -> None:
     ) == ["one", "two", "same", "case1", "case2", "tried", "defined", "not_defined", "loop"]
 
 
+def test_only_one_side_of_a_conditional_expression_is_computed(harness: Harness) -> None:
+    found = harness.read(
+        """
+        void main(int argc, char** argv) {
+          ros::init(argc, argv, "t");
+          ros::NodeHandle nh;
+          ros::Publisher p = ros::isShuttingDown() ? nh.advertise<std_msgs::String>("a", 1)
+                                                   : nh.advertise<std_msgs::Bool>("a", 1);
+          nh.advertise<std_msgs::String>(ros::isShuttingDown() ? "b" : "b", 1);
+          true ? nh.advertise<std_msgs::String>("c", 1) : nh.advertise<std_msgs::String>("d", 1);
+        }
+        """
+    )
+    assert found is not None
+    assert [(end.name, end.conditional) for end in found.endpoints] == [
+        ("a", True),
+        ("a", True),
+        ("b", False),
+        ("c", False),
+    ]
+
+
 def test_images(harness: Harness) -> None:
     body = """
         ros::NodeHandle nh, pnh("~");

@@ -146,6 +146,24 @@ def test_conditions(harness: Harness) -> None:
     ) == ["yes", "one", "two", "after"], "what differs by a condition that is not known is not told"
 
 
+def test_only_one_side_of_a_conditional_expression_is_computed(harness: Harness) -> None:
+    found = harness.read(
+        """
+        from std_msgs.msg import Bool
+        rospy.Publisher("a", String) if rospy.is_shutdown() else rospy.Publisher("a", Bool)
+        rospy.Publisher("b" if rospy.is_shutdown() else "b", String)
+        rospy.Publisher("c", String) if True else rospy.Publisher("d", String)
+        """
+    )
+    assert found is not None
+    assert [(end.name, end.conditional) for end in found.endpoints] == [
+        ("a", True),
+        ("a", True),
+        ("b", False),
+        ("c", False),
+    ]
+
+
 def test_parameters_of_the_launch_and_defaults_give_names(harness: Harness) -> None:
     text = """
         rospy.Publisher(rospy.get_param("~topic", "fallback"), String)

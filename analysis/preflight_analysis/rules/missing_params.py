@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import namespaces_around
 from preflight_analysis.rules.rule import Context
@@ -45,7 +46,7 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     if not unset:
         return {}
     known = context.once(namespaces_around) | {command.param for command in graph.tree.commands}
-    known |= {name for names in kept.each(_found_elsewhere, graph.reads_of_nodes) for name in names}
+    known |= {name for found in kept.each(_found_elsewhere, graph.reads_of_nodes) for name in found}
     with_default = {key for keys in kept.each(_defaulted, graph.reads_of_nodes) for key in keys}
     first: dict[tuple[int, str], ParamRead] = {}
     for read in unset:
@@ -71,8 +72,14 @@ def _is_mandatory(read: ParamRead) -> bool:
 
 
 def _found_elsewhere(reads: tuple[ParamRead, ...]) -> tuple[str, ...]:
-    """The names that the node makes or looks for in other namespaces too."""
-    return tuple(read.name for read in reads if read.use.access in ("set", "search"))
+    """The names that the node makes or looks for in other namespaces too, or as a private one beside one that another
+    launch may set."""
+    of_others = {names.leaf(read.name) for read in reads if is_for_tools(read.name)}
+    return tuple(
+        read.name
+        for read in reads
+        if read.use.access in ("set", "search") or (read.use.name.startswith("~") and read.use.name[1:] in of_others)
+    )
 
 
 def _defaulted(reads: tuple[ParamRead, ...]) -> tuple[tuple[int, str], ...]:

@@ -15,6 +15,7 @@ from preflight_analysis.rules.installed import lack_of_made, lack_of_own_file, l
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 from preflight_analysis.tracing.request import split_args
 
@@ -44,6 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
             or any(e.speculative for e in interface.endpoints)
+            or node.kind == "test"
         )
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
         absent = absent_top_said(context.disk, told)
@@ -102,6 +104,7 @@ class _LostParams:
         self._commands = {p.name for p in tree.params.values() if isinstance(p.value, CommandValue)}
         self._commands |= {c.param for c in tree.commands if c.result is None}
         self._set = tree.params.keys() - self._commands
+        self._leaves = {names.leaf(name) for name in tree.params}
         self._complete = tree.complete
 
     def why(self, read: ParamRead) -> str | None:
@@ -121,13 +124,18 @@ class _LostParams:
         return None
 
     def possible_cause(self, read: ParamRead, outcome: Outcome) -> str | None:
-        """The same of one that nobody sets and of which the node complained at its end, where not all of the launch is
-        known: an include of a package that is not here may set it."""
-        if self._complete or read.name in self._set or read.use.has_default:
+        """The same of one that nobody sets and of which the node complained at its end, where something else may set
+        it: an include of a package that is not here, or a launch that is started beside this one, which has the
+        description of the robot."""
+        if read.name in self._set or read.use.has_default:
+            return None
+        beside = is_for_tools(read.name) and names.leaf(read.name) not in self._leaves
+        if self._complete and not beside:
             return None
         leaf = re.compile(rf"(?<!\w){re.escape(names.leaf(read.name))}(?!\w)")
         said = any(leaf.search(line) for line in (outcome.reason or "", *outcome.stderr_tail))
-        return f"'{read.name}', which a part of the launch that is not known here may set" if said else None
+        setter = "another launch" if self._complete else "a part of the launch that is not known here"
+        return f"'{read.name}', which {setter} may set" if said else None
 
 
 def _is_reported(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
@@ -164,10 +172,10 @@ RULE = Rule(
     "what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
     "where the node ended for a parameter of which PRM001, PRM010, PRM014 or PRM017 tells, or asked for one whose "
-    "value is an error of its own, does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
+    "value is an error of its own or `robot_description`, which no parameter of the launch is called, does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
     "container), or needs what only the sandbox lacks: a device, a network, a display, a browser's "
     "own sandbox, a folder to write to, another node's topic, "
-    "a file that git ignores, or where a shell script tells that a signal killed another program.",
+    "a file that git ignores, where it is a `<test>`, for which the nodes that it tests are not there, or where a shell script tells that a signal killed another program.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,

@@ -94,6 +94,17 @@ class Branches:
                 self.store(change.names, change.name, value)
         return False
 
+    def either_value(self, first: Callable[[], Any], second: Callable[[], Any]) -> Any:
+        """Go through two expressions, one of which is computed: the value that they agree on."""
+        values: list[Any] = []
+
+        def branch(expression: Callable[[], Any]) -> bool:
+            values.append(expression())
+            return False
+
+        self.either(lambda: branch(first), lambda: branch(second))
+        return same(*values) if len(values) == 2 else UNKNOWN
+
 
 def same(value: Any, other: Any) -> Any:
     """What two branches agree on."""

@@ -7,7 +7,6 @@ from typing import Any
 
 from tree_sitter import Node
 
-from preflight_analysis.source.branches import same
 from preflight_analysis.source.cpp_call_expressions import MAX_WAITING, CallExpressions
 from preflight_analysis.source.cpp_operators import MAX_ITEMS, binary, item, next_word, number, truth, unary
 from preflight_analysis.source.cpp_program import CppProgram
@@ -134,7 +133,9 @@ class Expressions(CallExpressions):
         branches = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         if known is not None:
             return self._value(branches[0] if known else branches[1], scope)
-        return same(self._value(branches[0], scope), self._value(branches[1], scope))
+        return self._branches.either_value(
+            lambda: self._value(branches[0], scope), lambda: self._value(branches[1], scope)
+        )
 
     def _assign(self, node: Node, scope: Scope) -> Any:
         target = node.child_by_field_name("left")

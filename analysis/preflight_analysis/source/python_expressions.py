@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from preflight_analysis.source.branches import Branches, same
+from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.python_modules import Calls
 from preflight_analysis.source.python_operators import (
     BUILTINS,
@@ -100,7 +100,9 @@ class Expressions(ABC):
                 truth = truth_of(self._value(node.test, scope))
                 if truth is not None:
                     return self._held(node.body if truth else node.orelse, scope)
-                return same(self._held(node.body, scope), self._held(node.orelse, scope))
+                return self._branches.either_value(
+                    lambda: self._held(node.body, scope), lambda: self._held(node.orelse, scope)
+                )
             case ast.BoolOp():
                 return self._bool_op(node, scope)
             case ast.UnaryOp():
