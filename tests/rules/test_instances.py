@@ -24,6 +24,12 @@ def test_the_same_of_several_nodes_is_said_once_with_their_number() -> None:
     assert [end.node for end in found.endpoints] == ["/robot1/base", "/robot2/base", "/robot3/base"]
 
 
+def test_the_number_stands_behind_the_name_of_the_node_alone() -> None:
+    said_of = [said(f"'/{n}/base/speed' is a text, but /{n}/base reads a number", node=f"/{n}/base") for n in "ab"]
+    (found,) = unique(said_of)
+    assert found.message == "'/a/base/speed' is a text, but /a/base and 1 more reads a number"
+
+
 def test_something_else_of_another_node_stays_a_finding() -> None:
     given = [said("/robot1/base ignores 'speed'"), said("/robot2/base ignores 'sped'")]
     assert unique(given) == given

@@ -55,6 +55,19 @@ def test_substitutions_in_yaml_stay_text_unless_they_are_asked_for() -> None:
     assert [apply(fixture, f.fixes[0].edits)["/main.launch"].count('subst_value="true"') for f in findings] == [1, 1]
 
 
+def test_an_argument_that_the_launch_file_does_not_have_is_of_another() -> None:
+    (finding,) = check("""
+        <launch>
+          <rosparam command="load" file="$(find p)/controllers.yaml"/>
+        </launch>
+        //- /p/controllers.yaml
+        one_arm: {type: p/OneArm, joint: $(arg arm_id)_joint1}
+                                         ^^^^^^^^^^^^^ info[LCH029] only; the launch file has no such argument
+        two_arms: {type: p/TwoArms, joint: left_joint1}
+    """)
+    assert finding.fixes == ()
+
+
 def test_substitutions_in_a_parameter_file_of_ros2() -> None:
     check("""
         //- /robot.launch.xml

@@ -36,7 +36,8 @@ def with_others(finding: Finding, others: Iterable[str]) -> Finding:
     more = {node_named(message) for message in others if regardless_of_node(message) == same} - {node}
     if node is None or not more:
         return finding
-    return replace(finding, message=finding.message.replace(node, f"{node} and {len(more)} more", 1))
+    told = _NODE.sub(lambda found: f"{found[0]} and {len(more)} more", finding.message, count=1)
+    return replace(finding, message=told)
 
 
 def together(findings: Iterable[Finding]) -> list[Finding]:

@@ -14,12 +14,14 @@ from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.problems import SubstitutionAsText
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
+from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
 _COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
 _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
+_ARG = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
 _LONGEST = 4096
 _FAR = 2000
 """How far behind its key a value is looked for."""
@@ -70,15 +72,21 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
         return  # a value in the launch file, or no substitutions on purpose
     document = context.documents.get(where.file)
     fixes: tuple[Fix, ...] = ()
-    if tag is not None and not python and document is not None:
+    # Without the argument the launcher would refuse what it is told to replace: the file is for other launch files too.
+    unknown = (
+        not ament and (arg := _ARG.fullmatch(text)) and arg[1] not in declarations(context.launch_files[where.file])
+    )
+    if tag is not None and not python and not unknown and document is not None:
         edit = insert_attribute(tag.action, document, attribute, "true")
         fixes = (Fix(f'Write {attribute}="true" in the tag', (edit,), True),)
     needed = f"ParameterFile(..., {attribute}=True)" if python else f'<{tag_name} {attribute}="true">'
     place = _place(context, param, text)
     related = (Related("the file is given here", where),) if place.file != where.file else ()
     yield rule.finding(
-        f"'{text}' stays text: substitutions in YAML are made with {needed} only",
+        f"'{text}' stays text: substitutions in YAML are made with {needed} only"
+        + ("; the launch file has no such argument" if unknown else ""),
         place,
+        severity="info" if unknown else None,
         confidence="likely",
         related=(*related, *include_chain((*param.origin[:-1], place))),
         fixes=fixes,
@@ -99,7 +107,8 @@ RULE = Rule(
     severity="warning",
     what="Reports what looks like a substitution and is none: without an end, or with other brackets. Likewise a "
     "substitution in the YAML of a `<rosparam>` without `subst_value` (ROS 1), or in a parameter file that is given to "
-    "a node without `allow_substs` (ROS 2).",
+    "a node without `allow_substs` (ROS 2). Of an argument that the launch file does not have it is information in "
+    "ROS 1: the YAML is for other launch files too.",
     why="""`roslaunch` replaces `$(arg name)` and its like only in that form, and leaves everything else as it stands. A
 topic or file is then really called `$(arg name`, and nothing says so. In YAML both launchers replace them only if they
 are told to.""",

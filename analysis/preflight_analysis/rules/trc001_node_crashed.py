@@ -172,10 +172,12 @@ RULE = Rule(
     "what it did until then is known of it. "
     "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
     "where the node ended for a parameter of which PRM001, PRM010, PRM014 or PRM017 tells, or asked for one whose "
-    "value is an error of its own or `robot_description`, which no parameter of the launch is called, does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
+    "value is an error of its own or `robot_description`, which no parameter of the launch is called, "
+    "does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
     "container), or needs what only the sandbox lacks: a device, a network, a display, a browser's "
     "own sandbox, a folder to write to, another node's topic, "
-    "a file that git ignores, where it is a `<test>`, for which the nodes that it tests are not there, or where a shell script tells that a signal killed another program.",
+    "a file that git ignores, where it is a `<test>`, for which the nodes that it tests are not there, "
+    "or where a shell script tells that a signal killed another program.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     check=_check,
