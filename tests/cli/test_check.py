@@ -93,7 +93,7 @@ def test_fail_on(harness: Harness, preflight: Run, fail_on: str | None, code: in
 
 
 def test_an_error_is_exit_code_1(harness: Harness, preflight: Run) -> None:
-    harness.launch_file.write_text("<launch><param name='x' value='$(args y)'/></launch>")
+    harness.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
     assert preflight("check", harness.launch_file, "--no-run").code == 1
     assert preflight("check", harness.launch_file, "--no-run", "--fail-on", "never").code == 0
 

@@ -36,7 +36,7 @@ def test_the_hook_checks_what_the_commit_matters_to(harness: Harness, preflight:
             ["git", *arguments], cwd=harness.workspace, env=harness.environment, check=True, capture_output=True
         )
     assert "0 of 0 launch files" in preflight(*command).out
-    harness.launch_file.write_text("<launch><param name='x' value='$(args y)'/></launch>")
+    harness.launch_file.write_text("<launch><param name='x' value='$(arg y)'/></launch>")
     done = preflight(*command)
     assert (done.code, "1 of 1 launch file evaluated" in done.out) == (1, True)
     assert harness.sandbox_starts() == 0

@@ -47,7 +47,7 @@ def test_an_argument_is_declared_by_a_fix() -> None:
     text = """
         <launch>
           <param name="a" value="$(arg rate)"/>
-                                 ^^^^^^^^^^^ warning[ARG001] argument 'rate' is not declared: roslaunch
+                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared: roslaunch
         </launch>
     """
     (finding,) = check(text)
@@ -131,7 +131,7 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
         <launch>
           <arg name="map_file" default="1"/>
           <param name="b" value="$(arg file)"/>
-                                 ^^^^^^^^^^^ warning[ARG001] argument 'file' is not declared: roslaunch takes it
+                                 ^^^^^^^^^^^ error[ARG001] argument 'file' is not declared: roslaunch takes it
           <param name="c" value="$(arg mapfile)"/>
                                  ^^^^^^^^^^^^^^ error[ARG001] 'mapfile' is not declared; did you mean 'map_file'?
           <include file="/part.launch" pass_all_args="true"/>
@@ -139,15 +139,15 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
         </launch>
         //- /part.launch
         <launch><param name="d" value="$(arg size)"/></launch>
-                                       ^^^^^^^^^^^ warning[ARG001] from the command line alone (size:=...)
+                                       ^^^^^^^^^^^ error[ARG001] from the command line alone (size:=...)
         //- /other.launch
         <launch><param name="e" value="$(arg size)"/></launch>
                                        ^^^^^^^^^^^ error[ARG001] argument 'size' is not declared
     """)
 
 
-@pytest.mark.parametrize(("place", "severity"), [("README.md", "info"), ("../README", "info"), ("notes.md", "warning")])
-def test_a_readme_says_how_to_give_what_is_not_declared(tmp_path: Path, place: str, severity: str) -> None:
+@pytest.mark.parametrize(("place", "severity"), [("README.md", "info"), ("../README", "info"), ("play.sh", "info"), ("play.cpp", "error")])
+def test_a_text_says_how_to_give_what_is_not_declared(tmp_path: Path, place: str, severity: str) -> None:
     package = tmp_path / "robot"
     package.mkdir()
     (package / "package.xml").write_text("<package><name>robot</name></package>")

@@ -16,7 +16,7 @@ from preflight_analysis.rules.problems import problem_finding, problems_of, rena
 from preflight_analysis.rules.rule import Context, Rule
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
-_README = re.compile(r"readme\b", re.IGNORECASE)
+_TEXTS = re.compile(r"readme\b|.*\.(?:md|rst|txt|sh)\Z", re.IGNORECASE)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -46,7 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         severity: Severity = "error"
         if asked and not (near is not None and is_slip(name, near)):
-            severity = "info" if _is_documented(context, place.file, name) else "warning"
+            severity = "info" if _is_documented(context, place.file, name) else "error"
             message += f": roslaunch takes it from the command line alone ({name}:=...)"
         yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
 
@@ -67,7 +67,7 @@ def _is_documented(context: Context, file: str, name: str) -> bool:
         context.disk.content(os.path.join(folder, each))
         for folder in dict.fromkeys(filter(None, folders))
         for each in context.disk.names(folder)
-        if _README.match(each)
+        if _TEXTS.match(each)
     )
     return any(re.search(rf"(?<!\w){re.escape(name)}:=", text) for text in texts if text is not None)
 
@@ -96,8 +96,8 @@ RULE = Rule(
     "it has declared. In ROS 2 an included file sets arguments of its includer too: after an include that cannot be "
     "read it is a warning where there is a name that near, and a hint else. It knows those of its includer as well: in "
     "a file that is made to be included it is information. In ROS 1 the command line gives arguments "
-    "that nothing declares, too: of the launch file itself it is a warning, unless the name is a slip, and an "
-    "information where a README says `name:=`, or where the command line chooses what is declared.",
+    "that nothing declares, too: of the launch file itself it is information where a README, another text or a shell "
+    "script beside it says `name:=`, or where the command line chooses what is declared.",
     why="`roslaunch` stops. An argument is known only in the file that declares it, from its `<arg>` on; files that "
     "are included get it only if it is passed.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',
