@@ -146,7 +146,9 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
     """)
 
 
-@pytest.mark.parametrize(("place", "severity"), [("README.md", "info"), ("../README", "info"), ("play.sh", "info"), ("play.cpp", "error")])
+@pytest.mark.parametrize(
+    ("place", "severity"), [("README.md", "info"), ("../README", "info"), ("play.sh", "info"), ("play.cpp", "error")]
+)
 def test_a_text_says_how_to_give_what_is_not_declared(tmp_path: Path, place: str, severity: str) -> None:
     package = tmp_path / "robot"
     package.mkdir()
