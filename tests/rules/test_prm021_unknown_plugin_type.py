@@ -103,3 +103,34 @@ def test_plugins_that_are_known_or_unlike_all_that_are(type_: str) -> None:
 def test_a_manager_whose_name_only_its_own_code_knows() -> None:
     text = FIXTURE.replace(' name="controller_manager"', "").replace("ros2_control_node", "own_control_node")
     check(text.format("diff_drive_controller/DiffDriveControler") + f"                {'^' * 40} warning[PRM021]\n")
+
+
+OWN = """    //- /src/own_controllers/package.xml
+    <package><name>own_controllers</name><depend>pluginlib</depend></package>
+    //- /src/own_controllers/CMakeLists.txt
+    project(own_controllers)
+    add_library(own SHARED src/own.cpp)
+    pluginlib_export_plugin_description_file(controller_interface plugins.xml)
+    //- /src/own_controllers/plugins.xml
+    <library path="own">
+      <class name="own_controllers/StateBroadcaster" type="own_controllers::StateBroadcaster"
+             base_class_type="controller_interface::ControllerInterface"/>
+      <class name="own_controllers/Left" type="own_controllers::Left" base_class_type="anything::Base"/>
+    </library>
+"""
+
+
+def test_a_slip_of_what_a_package_of_the_workspace_has() -> None:
+    type_ = "own_controllers/StateBroadCaster"
+    said = f"{'^' * len(type_)} warning[PRM021] has no controller '{type_}', as far as its plugin descriptions list"
+    (finding,) = check(FIXTURE.format(type_) + f"                {said}\n" + OWN)
+    assert finding.confidence == "likely"
+    assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["own_controllers/StateBroadcaster"]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "type_", ["own_controllers/StateBroadcaster", "own_controllers::Left", "own_controllers/Right", "other/Lefft"]
+)
+def test_what_a_package_of_the_workspace_has_or_may_have(type_: str) -> None:
+    check(FIXTURE.format(type_) + OWN)

@@ -44,6 +44,13 @@ class PluginIndex:
         known = interfaces_of(package, self._distro) if here is None or not self._is_ours(here) else {}
         return (*known.get("controllers", ()), *known.get("plugins", ()))
 
+    def exported(self, package: str) -> tuple[str, ...]:
+        """The plugins, of any kind, that the descriptions of a package in the workspace list."""
+        here = self._environment.packages.get(package)
+        if here is None or not self._is_ours(here):
+            return ()
+        return SourceAnalysis(self._environment, self._disk).exported(package)
+
     def _is_ours(self, package: Package) -> bool:
         """Whether it is of the workspace, whose version may be any."""
         environment = self._environment

@@ -48,15 +48,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, getter in getters.items():
         document = context.documents.get(path)
         for named in document.once(_types_in) if document is not None else ():
-            meant = _meant(named, context.plugins.names(named.package))
+            known, own = context.plugins.names(named.package), context.plugins.exported(named.package)
+            meant = _meant(named, known or own, is_own=bool(own))
             if meant is None:
                 continue
             place = context.location(path, named.span)
+            by = "its plugin descriptions list" if own else f"the catalogue of {distro} knows"
             yield rule.finding(
-                f"package '{named.package}' has no {named.kind} '{named.type}', as far as the catalogue of {distro} "
-                f"knows; did you mean '{meant}'?",
+                f"package '{named.package}' has no {named.kind} '{named.type}', as far as {by}; "
+                f"did you mean '{meant}'?",
                 place,
-                confidence="likely" if environment.distro == distro else "possible",
+                confidence="likely" if own or environment.distro == distro else "possible",
                 related=(getter,),
                 fixes=rename(context, place, named.type, meant),
             )
@@ -72,15 +74,16 @@ def _types_in(document: Document) -> tuple[_Named, ...]:
     return tuple(found)
 
 
-def _meant(named: _Named, known: Iterable[str]) -> str | None:
+def _meant(named: _Named, known: Iterable[str], *, is_own: bool) -> str | None:
     """The only one that is a slip away, or of controllers has most of the words: what a package has had in other
-    versions is called otherwise altogether."""
+    versions is called otherwise altogether. `is_own`: descriptions that a build writes are not among those of the
+    workspace, so that only a slip counts."""
     mark = "/" if "/" in named.type else "::"
     others = [each.replace("/", mark).replace("::", mark) for each in known]
     if named.type in others:
         return None
     near = [each for each in others if is_slip(named.type, each)]
-    if not near and named.kind == "controller":
+    if not near and named.kind == "controller" and not is_own:
         near = [each for each in others if _share_most(named.type, each)]
     return near[0] if len(near) == 1 else None
 
@@ -95,8 +98,8 @@ RULE = Rule(
     name="unknown-plugin-type",
     severity="warning",
     what="Reports a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that the package which it names does "
-    "not have, while that one has another of nearly the same name (ROS 2). What packages have, the catalogue says; "
-    "those of the workspace itself are left alone.",
+    "not have, while that one has another of nearly the same name (ROS 2). What packages have, the catalogue says, of "
+    "those of the workspace their plugin descriptions, where only a slip counts.",
     why="Nobody finds a plugin of that name: the spawner of the controller ends, the node does not come up.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",

@@ -75,6 +75,9 @@ class Plugins(Protocol):
     def names(self, package: str) -> tuple[str, ...]:
         """The plugins of a package that is not in the workspace; none where nothing is known of it."""
 
+    def exported(self, package: str) -> tuple[str, ...]:
+        """The plugins that a package of the workspace has, by its own descriptions; none of any other package."""
+
 
 @dataclass(frozen=True, slots=True)
 class Context(Once):

@@ -102,6 +102,10 @@ class SourceAnalysis:
         """The plugins that a package exports and `plugin` can read."""
         return _cpp(self._environment, self._disk).plugins(package)
 
+    def exported(self, package: str) -> tuple[str, ...]:
+        """All plugins that a package exports, of whatever base class."""
+        return _cpp(self._environment, self._disk).exported(package)
+
     def plugin(self, name: str, given: str, params: LaunchParams, package: str | None = None) -> SourceInterface | None:
         """What a plugin (`package::Name`) makes in the node that loads it, and declares there, as `given` mostly
         (`~given.speed`). `package`: the one that has it, where that is known; `params` are those of `/node`."""

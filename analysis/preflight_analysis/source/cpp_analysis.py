@@ -109,6 +109,10 @@ class CppAnalysis:
         """The plugins that a package exports of which is known how they get their parameters."""
         return CppFiles(self._packages, self._disk).plugins(package, PLUGINS)
 
+    def exported(self, package: str) -> tuple[str, ...]:
+        """All plugins that a package exports."""
+        return CppFiles(self._packages, self._disk).plugins(package)
+
     def controllers(self, package: str) -> tuple[str, ...]:
         """The controllers of ros2_control that a package exports."""
         return CppFiles(self._packages, self._disk).plugins(package, CONTROLLERS)

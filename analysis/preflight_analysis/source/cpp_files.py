@@ -108,8 +108,8 @@ class CppFiles:
                     return Plugin(self._program(package, target), type_, package, base) if target is not None else None
         return None
 
-    def plugins(self, package: str, bases: Collection[str]) -> tuple[str, ...]:
-        """The names of the plugins of these base classes that a package exports."""
+    def plugins(self, package: str, bases: Collection[str] | None = None) -> tuple[str, ...]:
+        """The names of the plugins of these base classes, or of any, that a package exports."""
         return tuple(dict.fromkeys(name for _, _, name, _ in self._plugins(package, bases)))
 
     def _having_plugins(self, likely: str) -> Iterator[str]:
@@ -122,7 +122,7 @@ class CppFiles:
             if needs and self._disk.is_file(os.path.join(package.share, LISTS)):
                 yield name
 
-    def _plugins(self, package: str, bases: Collection[str]) -> Iterator[tuple[str, str, str, str]]:
+    def _plugins(self, package: str, bases: Collection[str] | None) -> Iterator[tuple[str, str, str, str]]:
         """Library, class, name and base class of each plugin that a package exports."""
         found = self._packages.get(package)
         if found is None:
@@ -141,7 +141,7 @@ class CppFiles:
             for library in described.iter("library") if described is not None else ():
                 for cls in library.iter("class"):
                     base = cls.get("base_class_type")
-                    if base is not None and base in bases and (type_ := cls.get("type")):
+                    if base is not None and (bases is None or base in bases) and (type_ := cls.get("type")):
                         yield library.get("path") or "", type_, cls.get("name") or type_.replace("::", "/"), base
 
     def _program(self, package: str, target: Target) -> CppProgram:
