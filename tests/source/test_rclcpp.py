@@ -599,6 +599,17 @@ def test_parameters_of_a_generated_library(harness: Harness) -> None:
     assert lines == {"~rate": "rate", "~topics.state": "state", "~gains": "gains", "~device": "device"}
 
 
+def test_a_generated_library_reads_what_was_declared_from_overrides_as_its_own_type(harness: Harness) -> None:
+    """What it generates reads each parameter as the type of its file at once, which throws at any other."""
+    harness.write("CMakeLists.txt", CMAKE + "generate_parameter_library(battery_parameters src/battery.yaml)\n")
+    harness.write("src/battery.yaml", LIBRARY_YAML)
+    options = "rclcpp::NodeOptions().automatically_declare_parameters_from_overrides(true)"
+    more = 'if (!has_parameter("more")) { declare_parameter("more", 1.0); }'
+    own = LISTENING.replace('Node("battery") {', f'Node("battery", {options}) {{ {more}')
+    dynamic = {use.name: use.dynamic for use in harness.read(own).params if use.access == "get"}
+    assert dynamic == {"~rate": False, "~topics.state": False, "~gains": False, "~device": False, "~more": True}
+
+
 @pytest.mark.parametrize(
     "text", ["battery:\n  __map_joints:\n    k: {type: double}\n", "- a\n", "{{", "other: {a: 1}\n"]
 )

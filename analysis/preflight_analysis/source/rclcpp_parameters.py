@@ -95,7 +95,7 @@ class Parameters:
             default = _of_type(param.default, param.type)
             type_ = _LIBRARY_TYPES.get(re.sub(r"_fixed_\d+\Z", "", param.type))
             about = ParamUse("", "get", type=type_, read_only=param.read_only, range=param.range)
-            value = self._declare(node, prefix + param.name, default, param.has_default, place, about=about)
+            value = self._declare(node, prefix + param.name, default, param.has_default, place, about=about, read=True)
             *groups, leaf = param.name.split(".")
             inner = struct
             for group in groups:
@@ -148,8 +148,10 @@ class Parameters:
         *,
         typed: bool = True,
         about: ParamUse | None = None,
+        read: bool = False,
     ) -> Any:
-        """Note a declaration; the value that the parameter has then. `about` has what its descriptor says."""
+        """Note a declaration; the value that the parameter has then. `about` has what its descriptor says. `read`: it
+        is read as its type at once, which throws where a node that declares what it is given lets any type in."""
         full = node.param(name)
         if full is UNKNOWN:
             self._any_parameter(place)  # it may be the node that the launch file starts
@@ -163,7 +165,7 @@ class Parameters:
             source_file=place.file,
             source_line=place.line,
         )
-        if node.from_overrides:
+        if node.from_overrides and not read:
             use = replace(use, dynamic=True)
         if self._in_dead_code:
             self._not_reached.append(use)
