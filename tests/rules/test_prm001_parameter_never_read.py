@@ -344,3 +344,35 @@ def test_a_slip_at_a_node_that_the_catalogue_has() -> None:
     assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")] * 2
     assert ["'/move_base/global_costmap/origin_z'" in each.message for each in told].count(True) == 1
     assert ["'/move_base/controller_frequency'" in each.message for each in told].count(True) == 1
+
+
+_PARTLY = """
+    <launch>
+      <node pkg="p" type="bagger" name="bagger">
+        <param name="stream_time" value="10"/>
+        <param name="same_as_default" value="3"/>
+        <param name="of_another_kind" value="text"/>
+        <param name="given_twice" value="1"/>
+        <param name="read" value="1"/>
+        <param name="unknown" value="1"/>
+        <param name="tpics" value="a"/>
+      </node>
+      <param name="given_twice" value="2"/>
+    </launch>
+    //- interfaces
+    {"/bagger": {"source": "%s", "status": "crashed", "params": {"stream_time": 30, "same_as_default": 3,
+      "of_another_kind": 1, "given_twice": 0, "read": 0, "~read": 0, "~topics": "b"%s}}}
+"""
+
+
+def test_a_node_whose_source_tells_that_it_reads_the_name_elsewhere() -> None:
+    told = [each for each in findings_of(_PARTLY % ("source", "")) if each.rule == "PRM001"]
+    assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")] * 2
+    assert "'/bagger/stream_time'; did you mean '/stream_time'" in told[0].message
+    assert "'/bagger/tpics'; did you mean '/bagger/topics'" in told[1].message
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(("source", "more"), [("trace", ""), ("source", ', "~": {"access": "list"}')])
+def test_a_node_that_ended_early_or_reads_more_than_its_source_tells(source: str, more: str) -> None:
+    assert "PRM001" not in {each.rule for each in findings_of(_PARTLY % (source, more))}

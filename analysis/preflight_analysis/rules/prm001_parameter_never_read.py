@@ -13,9 +13,12 @@ from preflight_analysis.rules.parameters import namespace_of, renamed
 from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import Unread, fits, unread_params
+from preflight_analysis.rules.unread_params import Unread, fits, unread_params, would_change
+from preflight_analysis.rules.well_known import is_for_tools
 
 _ARGUMENT = re.compile(r"_[A-Za-z]\w*")
+_PARTLY = ("catalogue", "source")
+"""What may tell a node's parameters without telling all: a run that ended early tells too few."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -29,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if each.meant is not None:
             yield _finding(rule, context, context.graph, each, each.meant)
     explained = {each.param.name for each in unread}
-    for each in _of_catalogue(context, context.graph, explained):
+    for each in _of_partly_known(context, context.graph, explained):
         explained.add(each.param.name)
         if each.meant is not None:
             yield _finding(rule, context, context.graph, each, each.meant, sure="possible")
@@ -70,25 +73,39 @@ def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
     )
 
 
-def _of_catalogue(context: Context, graph: Graph, explained: Collection[str]) -> Iterator[Unread]:
-    """Parameters of nodes that only the catalogue knows, maybe not in full, which are a slip of one in the same
-    namespace that nothing sets."""
+def _of_partly_known(context: Context, graph: Graph, explained: Collection[str]) -> Iterator[Unread]:
+    """Parameters of nodes that only the catalogue or the source knows, and that maybe not in full, which are a slip of
+    one in the same namespace that nothing sets. So are, where the source says so, those that the node reads by this
+    very name elsewhere alone, where nothing sets it: `mode` instead of `~mode`."""
     read = {each.name for each in graph.param_reads}
-    by_namespace = context.kept.grouped(namespace_of, "catalogued", context.tree.all_params)
+    by_namespace = context.kept.grouped(namespace_of, "partly known", context.tree.all_params)
     for node, interface, reads in zip(graph.tree.nodes, graph.interfaces, graph.reads_of_nodes, strict=True):
-        if interface.source != "catalogue" or any(use.access == "list" for use in interface.params):
+        if interface.source not in _PARTLY or interface.known_in_full:
+            continue
+        if any(use.access == "list" for use in interface.params):
             continue
         unset: dict[str, dict[str, ParamRead]] = {}
+        astray: dict[str, list[ParamRead]] = {}
         for each in reads:
-            if each.name.startswith(f"{node.name}/") and each.name not in graph.tree.params:
-                unset.setdefault(each.name.rpartition("/")[0], {})[each.name] = each
-        for namespace, wanted in unset.items():
+            if each.name in graph.tree.params:
+                continue
+            namespace, _, leaf = each.name.rpartition("/")
+            if each.name.startswith(f"{node.name}/"):
+                unset.setdefault(namespace, {})[each.name] = each
+            elif interface.source == "source" and each.use.access == "get":
+                astray.setdefault(leaf, []).append(each)
+        for namespace in {*unset, node.name} if astray else unset:
+            wanted = unset.get(namespace, {})
             for param in by_namespace.get(namespace, ()):
-                if param.name in read or param.name in explained:
+                if param.name in read or param.name in explained or is_for_tools(param.name):
                     continue
                 near = nearest_typo(param.name, wanted)
                 if near is not None and fits(param.value, wanted[near]) and not _are_opposite(param.name, near):
                     yield Unread(param, node, wanted[near])
+                elif near is None and namespace == node.name:
+                    found = [each for each in astray.get(names.leaf(param.name), ()) if would_change(param, each)]
+                    if len(found) == 1:
+                        yield Unread(param, node, found[0])
 
 
 def _are_opposite(name: str, other: str) -> bool:
@@ -144,8 +161,9 @@ RULE = Rule(
     what="Reports a parameter that no node reads. Where a node reads one of a like name that nothing sets, or the "
     "same name in another namespace (a level too many or too few, global instead of private), it is a warning that "
     "names both; otherwise a hint, and only for parameters of a node that is known to its event loop. Reading a "
-    "namespace as a whole reads all parameters in it. Of a node that only the catalogue has, "
-    "slips alone are told. A parameter of a node that begins with `_`, and that nobody is "
+    "namespace as a whole reads all parameters in it. Of a node that the catalogue or its source "
+    "alone tell, and not in full, slips are told, and by its source what it reads by the same name elsewhere. "
+    "A parameter of a node that begins with `_`, and that nobody is "
     "known to read, is a warning, too: so they are written on the command line alone.",
     why="The node goes on with its default, and nothing says that the value of the launch file is not used.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',

@@ -119,7 +119,7 @@ def _meant_of_holder(param: Param, holder: LaunchNode, unset: tuple[ParamRead, .
     # The node asks for it under this very name, but not as its own: `mode` or `/driver/mode` instead of `~mode`.
     leaf, relative = names.leaf(param.name), param.name[len(holder.name) :]
     elsewhere = [read for read in unset if names.leaf(read.name) == leaf and read.name.endswith(relative)]
-    found = [read for read in elsewhere if _would_change(param, read)]
+    found = [read for read in elsewhere if would_change(param, read)]
     return found[0] if len(found) == 1 else None
 
 
@@ -150,7 +150,7 @@ def _others(params: Iterable[Param], found: Iterable[Unread]) -> list[Param]:
     return [param for param in params if param.name not in names_found]
 
 
-def _would_change(param: Param, read: ParamRead) -> bool:
+def would_change(param: Param, read: ParamRead) -> bool:
     """Whether the read would get another value, of a kind that it expects."""
     return fits(param.value, read) and not (read.use.has_default and read.use.default == param.value)
 
@@ -178,7 +178,7 @@ def _shifted_reads(param: Param, by_leaf: dict[str, list[ParamRead]]) -> list[Pa
         tail = len(short) - same
         if tail < 1 or len(short) == len(long) or short[same:] != long[-tail:]:
             continue
-        if (tail >= 2 or short is parts) and _would_change(param, read):
+        if (tail >= 2 or short is parts) and would_change(param, read):
             found.append(read)
     return found
 
@@ -222,7 +222,7 @@ def _misplaced(params: Iterable[Param], unset: Iterable[ParamRead]) -> Iterator[
             # A file has sections for nodes that are started elsewhere: they share names with others, but not most.
             same = len(common) >= 2 and 2 * len(common) >= len(leaves)
             if (same or (common and _alike_namespaces(namespace, other))) and any(
-                _would_change(leaves[leaf], there[leaf]) for leaf in common
+                would_change(leaves[leaf], there[leaf]) for leaf in common
             ):
                 rank = (-len(common), other)
                 best = rank if best is None or rank < best else best
