@@ -139,6 +139,16 @@ def test_modules_in_a_folder_of_their_own_find_each_other(tmp_path: Path) -> Non
     assert found.params
 
 
+def test_who_is_given_the_node_may_make_more_with_it(tmp_path: Path) -> None:
+    made = {"known": "Part()", "unknown": "object.__subclasses__()[0]()"}
+    whole = {}
+    for name, part in made.items():
+        gives = f"        self.declare_parameter('service', True)\n        part = {part}\n        part.node = self\n"
+        base = BASE.replace("        self.declare_parameter('service', True)\n", gives)
+        whole[name] = interface(tmp_path / name, base=base + "\n\nclass Part:\n    pass\n").whole
+    assert whole == {"known": True, "unknown": False}
+
+
 def test_what_the_launch_file_sets_decides(tmp_path: Path) -> None:
     found = interface(tmp_path, LAUNCH.replace('name="cmd_topic" value="drive"', 'name="service" value="false"'))
     assert not any(e.role == "service" for e in found.endpoints)

@@ -278,6 +278,8 @@ def test_actions_of_ros2_have_their_type(tmp_path: Path) -> None:
         "assert Fibonacci.Goal(order=3).order == 3",
         "from example_interfaces.action import Fibonacci",
         "from rclpy.action import ActionClient, ActionServer",
+        "from rclpy.action.client import ClientGoalHandle, GoalStatus",
+        "from rclpy.action.server import GoalInfo",
     )
     harness = Ros2Harness(tmp_path, act=body)
     _, stood_in = both_of_ros2(harness, "act")

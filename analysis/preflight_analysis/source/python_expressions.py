@@ -263,6 +263,8 @@ class Expressions(ABC):
                 owner = self._value(target.value, scope)
                 if isinstance(owner, (Instance, Class, Module)):
                     self._store(owner.names, target.attr, value)
+                elif owner is UNKNOWN:
+                    self._calls.given(value)
             case ast.Tuple() | ast.List():
                 items = items_of(known(value))
                 starred = any(isinstance(t, ast.Starred) for t in target.elts)

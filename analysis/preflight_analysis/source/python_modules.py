@@ -18,6 +18,9 @@ class Calls(Protocol):
     def cut_short(self) -> None:
         """What follows is not gone through: there may be more than was told."""
 
+    def given(self, value: Any) -> None:
+        """An object that is not known gets a value, and may use it."""
+
     def begin(self, branches: Branches) -> None:
         """The program begins; `branches` tells what may well not be done."""
 

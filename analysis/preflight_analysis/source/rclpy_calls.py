@@ -91,6 +91,11 @@ class RclpyCalls:
         """There may be more."""
         self.collected.miss()
 
+    def given(self, value: Any) -> None:
+        """Who has the node may make something with it."""
+        if _has_node(value):
+            self.collected.miss()
+
     def value(self, path: str) -> Any:
         """`sys.argv` and the profiles of QoS are known; everything else is what its name says."""
         if path == "sys.argv":

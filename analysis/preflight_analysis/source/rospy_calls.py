@@ -89,6 +89,9 @@ class RospyCalls:
         """There may be more."""
         self.collected.miss()
 
+    def given(self, value: Any) -> None:
+        """Nodes are no objects in rospy."""
+
     def value(self, path: str) -> Any:
         """`sys.argv` is known; everything else is what its name says."""
         return list(self._argv) if path == "sys.argv" else Imported(path)
