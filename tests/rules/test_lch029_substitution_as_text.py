@@ -55,17 +55,33 @@ def test_substitutions_in_yaml_stay_text_unless_they_are_asked_for() -> None:
     assert [apply(fixture, f.fixes[0].edits)["/main.launch"].count('subst_value="true"') for f in findings] == [1, 1]
 
 
-def test_an_argument_that_the_launch_file_does_not_have_is_of_another() -> None:
+def test_an_argument_that_the_launch_file_does_not_have_is_not_to_be_replaced() -> None:
     (finding,) = check("""
-        <launch>
-          <rosparam command="load" file="$(find p)/controllers.yaml"/>
-        </launch>
-        //- /p/controllers.yaml
-        one_arm: {type: p/OneArm, joint: $(arg arm_id)_joint1}
-                                         ^^^^^^^^^^^^^ info[LCH029] only; the launch file has no such argument
-        two_arms: {type: p/TwoArms, joint: left_joint1}
+        <launch><rosparam command="load" file="$(find p)/planning.yaml"/></launch>
+        //- /p/planning.yaml
+        projection: joints($(arg prefix)joint_1)
+                           ^^^^^^^^^^^^^ warning[LCH029] only; the launch file has no such argument
     """)
     assert finding.fixes == ()
+
+
+def test_the_section_of_a_controller_that_is_not_started_here() -> None:
+    check("""
+        <launch>
+          <arg name="arm_id" default="panda"/>
+          <group ns="arms">
+            <rosparam command="load" file="$(find p)/controllers.yaml"/>
+            <node name="spawner" pkg="p" type="spawner" args="two_arms">
+              <param name="arm" value="$(arg arm_id)"/>
+            </node>
+          </group>
+        </launch>
+        //- /p/controllers.yaml
+        arms: {type: p/OneArm, joint: $(arg arm_id)_joint1}
+                                      ^^^^^^^^^^^^^ info[LCH029] made with <rosparam subst_value="true"> only
+        two_arms: {type: p/TwoArms, left: {joint: $(arg arm_id)_joint1}}
+                                                  ^^^^^^^^^^^^^ warning[LCH029] made with <rosparam subst_value="true">
+    """)
 
 
 def test_substitutions_in_a_parameter_file_of_ros2() -> None:

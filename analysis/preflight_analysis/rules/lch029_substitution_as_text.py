@@ -22,6 +22,7 @@ from preflight_analysis.rules.syntax import Tags
 _COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
 _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
 _ARG = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
+_ARGUMENT = re.compile(r"[\s\"',]+")
 _LONGEST = 4096
 _FAR = 2000
 """How far behind its key a value is looked for."""
@@ -72,7 +73,7 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
         return  # a value in the launch file, or no substitutions on purpose
     document = context.documents.get(where.file)
     fixes: tuple[Fix, ...] = ()
-    # Without the argument the launcher would refuse what it is told to replace: the file is for other launch files too.
+    # Without the argument the launcher would refuse what it is told to replace.
     unknown = (
         not ament and (arg := _ARG.fullmatch(text)) and arg[1] not in declarations(context.launch_files[where.file])
     )
@@ -86,11 +87,25 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
         f"'{text}' stays text: substitutions in YAML are made with {needed} only"
         + ("; the launch file has no such argument" if unknown else ""),
         place,
-        severity="info" if unknown else None,
+        severity="info" if _is_of_idle_controller(context, param) else None,
         confidence="likely",
         related=(*related, *include_chain((*param.origin[:-1], place))),
         fixes=fixes,
     )
+
+
+def _is_of_idle_controller(context: Context, param: Param) -> bool:
+    """Whether it configures a controller, or another plugin, that no node of the launch is told to start: a file of
+    controllers is given to launch files that start one of them each."""
+    section = param.name.rpartition("/")[0]
+    while section:
+        kind = context.tree.params.get(f"{section}/type")
+        if kind is not None and isinstance(kind.value, str) and "/" in kind.value:
+            name = names.leaf(section)
+            words = {word for node in context.tree.nodes for word in _ARGUMENT.split(node.args)}
+            return not any(word == name or "$" in word for word in words)
+        section = section.rpartition("/")[0]
+    return False
 
 
 def _place(context: Context, param: Param, text: str) -> Location:
@@ -107,8 +122,8 @@ RULE = Rule(
     severity="warning",
     what="Reports what looks like a substitution and is none: without an end, or with other brackets. Likewise a "
     "substitution in the YAML of a `<rosparam>` without `subst_value` (ROS 1), or in a parameter file that is given to "
-    "a node without `allow_substs` (ROS 2). Of an argument that the launch file does not have it is information in "
-    "ROS 1: the YAML is for other launch files too.",
+    "a node without `allow_substs` (ROS 2). It is information in the section of a controller that no node "
+    "of the launch is told to start.",
     why="""`roslaunch` replaces `$(arg name)` and its like only in that form, and leaves everything else as it stands. A
 topic or file is then really called `$(arg name`, and nothing says so. In YAML both launchers replace them only if they
 are told to.""",
