@@ -12,7 +12,7 @@
 
 namespace preflight {
 
-std::atomic<int> busy{0};  // lifecycle nodes that are on their way, and calls that are going to be answered
+std::atomic<int> busy{0};   // lifecycle nodes that are on their way, and calls that are going to be answered
 std::atomic<int> turns{0};  // how often an event loop has come to its wait
 std::mutex turns_mutex;
 std::string held;  // the state that is to be told once they are through
