@@ -163,3 +163,44 @@ def test_parameters_that_are_declared_from_overrides_have_their_type(tmp_path: P
         found = interface(tmp_path, base=BASE.replace("__init__(name)", f"__init__(name, {option}=True)"))
         assert {use.dynamic for use in found.params if use.name in ("~service", "~gain", "~cmd_topic")} == {dynamic}
         assert "list" in {use.access for use in found.params}
+
+
+BRIDGE = """
+import rclpy
+from rclpy.node import Node
+{imports}
+from bridge import Protocol
+
+class Bridge(Node):
+    def __init__(self):
+        super().__init__("bridge")
+        Protocol.timeout = self.declare_parameter("timeout", Protocol.timeout).value
+
+if __name__ == "__main__":
+    rclpy.init()
+    rclpy.spin(Bridge())
+"""
+
+
+def test_modules_that_cmake_installs_are_followed_each_once(tmp_path: Path) -> None:
+    """However often they are imported: what is bounded is how many there are."""
+    files = {
+        "package.xml": "<package><name>bridge</name><export><build_type>ament_cmake</build_type></export></package>",
+        "CMakeLists.txt": "project(bridge)\nament_python_install_package(${PROJECT_NAME} PACKAGE_DIR src/bridge)\n"
+        "install(PROGRAMS scripts/run.py DESTINATION lib/${PROJECT_NAME})\n",
+        "src/bridge/__init__.py": "from .protocol import Protocol\n",
+        "src/bridge/protocol.py": "class Protocol(Unknown):\n    timeout = 10.0\n",
+        "src/bridge/other.py": "",
+        "scripts/run.py": BRIDGE.format(imports="from bridge.other import a\n" * 40),
+        "launch/a.launch.xml": '<launch><node pkg="bridge" exec="run.py"/></launch>',
+    }
+    for name, text in files.items():
+        path = tmp_path / "src" / "bridge" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
+    workspace = Workspace(environment, Sources())
+    analysis = workspace.static(str(tmp_path / "src/bridge/launch/a.launch.xml"))
+    done = workspace.with_interfaces(analysis, [NOT_RUN], "not run here")
+    assert done.graph is not None
+    assert {use.name: use.default for use in done.graph.interfaces[0].params} == {"~timeout": 10.0}

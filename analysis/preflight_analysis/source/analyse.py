@@ -220,7 +220,7 @@ class _Program:
         self._environment = environment
         self._path = path or ""
         self._package = package
-        self._loaded = 0
+        self._loaded: set[str] = set()
 
     def main(self) -> tuple[str, ast.Module] | None:
         """The main file with its tree, None if it is not in Python."""
@@ -244,9 +244,9 @@ class _Program:
             base = os.path.join(folder, *name.split(".")) if name else folder
             for path in (f"{base}.py", os.path.join(base, "__init__.py")):
                 if self._disk.is_file(path):
-                    if self._loaded >= MAX_MODULES:
+                    if path not in self._loaded and len(self._loaded) >= MAX_MODULES:
                         return None
-                    self._loaded += 1
+                    self._loaded.add(path)
                     tree = _python_tree(self._disk.db, path)
                     return (path, tree) if tree is not None else None
         return None
@@ -259,8 +259,7 @@ class _Program:
             return [folder]
         folders = [os.path.dirname(self._path), *self._root()]
         for package in dict.fromkeys((self._package, name.partition(".")[0])):
-            if (source := self._source_of(package)) is not None:
-                folders.append(source)
+            folders += self._sources_of(package)
         return folders
 
     def _root(self) -> list[str]:
@@ -271,9 +270,12 @@ class _Program:
             folder, depth = os.path.dirname(folder), depth + 1
         return [folder] if depth else []
 
-    def _source_of(self, name: str) -> str | None:
-        """The folder with the Python modules of a package by convention."""
+    def _sources_of(self, name: str) -> list[str]:
+        """The folders with the Python modules of a package, by convention and by what its build installs."""
         package = self._environment.packages.get(name)
         if package is None:
-            return None
-        return package.share if package.is_ament else os.path.join(package.share, "src")
+            return []
+        if not package.is_ament:
+            return [os.path.join(package.share, "src")]
+        installed = cmake_build(self._disk, package).python_packages if package.build_type != "ament_python" else {}
+        return [package.share, *(os.path.dirname(at) for name, at in installed.items() if os.path.basename(at) == name)]
