@@ -116,7 +116,9 @@ def test_a_parameter_that_the_source_does_not_read(harness: SourceHarness) -> No
         "hint", "/n does not read parameter '/n/other' in its source, nor does any other node",
     )  # fmt: skip
     _script(harness, "t", "import helpers\nhelpers.set_up()")
-    assert "PRM001" not in _findings(harness, node.format("raet"))
+    found = _findings(harness, node.format("raet"))["PRM001"]
+    assert (found.severity, found.confidence) == ("warning", "possible")
+    assert "PRM001" not in _findings(harness, node.format("other"))
 
 
 def test_a_remap_of_a_name_that_the_source_does_not_use(harness: SourceHarness) -> None:
