@@ -93,6 +93,16 @@ def test_actions_are_evaluated_like_those_of_xml(harness: PythonHarness) -> None
     assert text[count.span.start : count.span.end] == "count"
 
 
+@pytest.mark.parametrize(
+    ("text", "near"),
+    [("", ""), ("def generate_launch_descripton(): pass", "; did you mean 'generate_launch_descripton'?")],
+)
+def test_a_launch_file_without_its_function(harness: PythonHarness, text: str, near: str) -> None:
+    (finding,) = harness.launch(harness.write("a.launch.py", text)).findings
+    assert finding.rule == "LCH032"
+    assert finding.message.endswith(f": the launch file has no function 'generate_launch_description'{near}")
+
+
 def test_the_text_of_an_action_is_the_same_in_each_run(harness: PythonHarness) -> None:
     """Else the nodes that get it by mistake would never be found in the cache, nor their findings in a baseline."""
     path = _described(harness, "Node(package='p', executable='x', arguments=[str(DeclareLaunchArgument('port'))])")

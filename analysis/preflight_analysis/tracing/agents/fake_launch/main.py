@@ -23,9 +23,11 @@ from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_conditio
 from ..process import own_seconds
 from . import installed, programs, reads, rewrites, rewritten, unknown_files, written
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
+from .library import InvalidPythonLaunchFileError
 from .modules import install
 from .serialize import Serializer
 
+_FUNCTION = "generate_launch_description"
 MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
@@ -198,8 +200,15 @@ def _described(job: dict[str, Any]) -> list[dict[str, Any]]:
 def _description(module: types.ModuleType) -> Any:
     """What the file describes; one for `launch_test` has another function, which gives values for the tests besides."""
     of_tests = getattr(module, "generate_test_description", None)
-    if of_tests is None or hasattr(module, "generate_launch_description"):
-        return module.generate_launch_description()
+    function = getattr(module, _FUNCTION, None)
+    if function is not None:
+        return function()
+    if of_tests is None:
+        import difflib  # noqa: PLC0415 - which other launch files do without
+
+        near = difflib.get_close_matches(_FUNCTION, [name for name, thing in vars(module).items() if callable(thing)])
+        instead = f"; did you mean '{near[0]}'?" if near else ""
+        raise InvalidPythonLaunchFileError(f"the launch file has no function '{_FUNCTION}'{instead}")
     takes_ready = "ready_fn" in inspect.signature(of_tests).parameters
     found = of_tests(ready_fn=lambda: None) if takes_ready else of_tests()
     return found[0] if isinstance(found, tuple) and found else found
