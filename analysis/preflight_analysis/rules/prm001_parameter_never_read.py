@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.nearest import nearest_typo
@@ -15,6 +17,7 @@ from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import Unread, fits, unread_params, would_change
 from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.tracing.interface import Interface
 
 _ARGUMENT = re.compile(r"_[A-Za-z]\w*")
 _PARTLY = ("catalogue", "source")
@@ -43,7 +46,7 @@ def _as_on_the_command_line(
     rule: Rule, context: Context, graph: Graph, explained: Collection[str]
 ) -> Iterator[Finding]:
     """Parameters of a node whose names begin as private ones do among its arguments, be the node known or not."""
-    odd = [p for p in graph.tree.all_params if names.leaf(p.name).startswith("_") and p.name not in explained]
+    odd = [p for p in graph.tree.all_params if "/_" in p.name and p.name not in explained]
     if not odd:
         return
     nodes, read = {node.name for node in graph.tree.nodes}, {each.name for each in graph.param_reads}
@@ -77,35 +80,54 @@ def _of_partly_known(context: Context, graph: Graph, explained: Collection[str])
     """Parameters of nodes that only the catalogue or the source knows, and that maybe not in full, which are a slip of
     one in the same namespace that nothing sets. So are, where the source says so, those that the node reads by this
     very name elsewhere alone, where nothing sets it: `mode` instead of `~mode`."""
-    read = {each.name for each in graph.param_reads}
+    rows = context.kept.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
+    if not any(rows):
+        return
+    read, given = {each.name for each in graph.param_reads}, graph.tree.params
     by_namespace = context.kept.grouped(namespace_of, "partly known", context.tree.all_params)
-    for node, interface, reads in zip(graph.tree.nodes, graph.interfaces, graph.reads_of_nodes, strict=True):
-        if interface.source not in _PARTLY or interface.known_in_full:
+    for node, asked in zip(graph.tree.nodes, rows, strict=True):
+        if asked is None:
             continue
-        if any(use.access == "list" for use in interface.params):
-            continue
-        unset: dict[str, dict[str, ParamRead]] = {}
-        astray: dict[str, list[ParamRead]] = {}
-        for each in reads:
-            if each.name in graph.tree.params:
-                continue
-            namespace, _, leaf = each.name.rpartition("/")
-            if each.name.startswith(f"{node.name}/"):
-                unset.setdefault(namespace, {})[each.name] = each
-            elif interface.source == "source" and each.use.access == "get":
-                astray.setdefault(leaf, []).append(each)
-        for namespace in {*unset, node.name} if astray else unset:
-            wanted = unset.get(namespace, {})
+        for namespace in {*asked.own, node.name} if asked.astray else asked.own:
             for param in by_namespace.get(namespace, ()):
                 if param.name in read or param.name in explained or is_for_tools(param.name):
                     continue
+                wanted = {name: each for name, each in asked.own.get(namespace, {}).items() if name not in given}
                 near = nearest_typo(param.name, wanted)
                 if near is not None and fits(param.value, wanted[near]) and not _are_opposite(param.name, near):
                     yield Unread(param, node, wanted[near])
                 elif near is None and namespace == node.name:
-                    found = [each for each in astray.get(names.leaf(param.name), ()) if would_change(param, each)]
+                    alike = asked.astray.get(names.leaf(param.name), ())
+                    found = [each for each in alike if each.name not in given and would_change(param, each)]
                     if len(found) == 1:
                         yield Unread(param, node, found[0])
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What a node asks for that is known in part."""
+
+    own: Mapping[str, Mapping[str, ParamRead]]
+    """Below its own name, by namespace and name."""
+    astray: Mapping[str, Sequence[ParamRead]]
+    """Elsewhere, as its source says, by the last part of the name."""
+
+
+def _asked_in_part(node: LaunchNode, interface: Interface, reads: Iterable[ParamRead]) -> _Asked | None:
+    """None of a node of which all is known, or nothing, or that may ask for any."""
+    if interface.source not in _PARTLY or interface.known_in_full:
+        return None
+    if any(use.access == "list" for use in interface.params):
+        return None
+    own: dict[str, dict[str, ParamRead]] = {}
+    astray: dict[str, list[ParamRead]] = {}
+    for each in reads:
+        namespace, _, leaf = each.name.rpartition("/")
+        if each.name.startswith(f"{node.name}/"):
+            own.setdefault(namespace, {})[each.name] = each
+        elif interface.source == "source" and each.use.access == "get":
+            astray.setdefault(leaf, []).append(each)
+    return _Asked(own, astray)
 
 
 def _are_opposite(name: str, other: str) -> bool:
