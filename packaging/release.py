@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import importlib.util
 import os
 import re
 import shutil
@@ -28,7 +27,9 @@ import venv
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+
+import apply  # beside this file
+from apply import Project
 
 ROOT = Path(__file__).resolve().parents[1]
 DIST = ROOT / "dist"
@@ -55,18 +56,12 @@ def run(*command: str | Path, **variables: str) -> str:
     return done.stdout
 
 
-def project() -> Any:
-    """Version and address, by `apply.py`, which is beside this file and no package."""
-    spec = importlib.util.spec_from_file_location("packaging_apply", ROOT / "packaging/apply.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    stale = [path for path, was, now in module.written(module.project()) if was != now]
+def project() -> Project:
+    """Version and address. Raises `NotReady` where files state others."""
+    stale = [path for path, was, now in apply.written(apply.project()) if was != now]
     if stale:
         raise NotReady(f"run `make docs` first: {', '.join(str(path.relative_to(ROOT)) for path in stale)}")
-    return module.project()
+    return apply.project()
 
 
 def changes(version: str, text: str) -> tuple[str, str]:
@@ -77,7 +72,7 @@ def changes(version: str, text: str) -> tuple[str, str]:
     return found[1], found[2].strip() + "\n"
 
 
-def check_ready(known: Any, date: str) -> None:
+def check_ready(known: Project, date: str) -> None:
     """Raise `NotReady` for what a release may not have."""
     tags = run("git", "tag", "--points-at", "HEAD").split()
     reasons = [
@@ -90,7 +85,7 @@ def check_ready(known: Any, date: str) -> None:
         raise NotReady("no release: " + "; ".join(reasons))
 
 
-def build(known: Any) -> None:
+def build(known: Project) -> None:
     """Write sdist, wheels, extension and SBOM into `dist/`."""
     shutil.rmtree(DIST, ignore_errors=True)
     DIST.mkdir()
@@ -109,7 +104,7 @@ def build(known: Any) -> None:
     run(tool, "requirements", "--pyproject", ROOT / "pyproject.toml", *options, pinned)
 
 
-def inspect(known: Any) -> None:
+def inspect(known: Project) -> None:
     """Look into what was built, and use it: the pure wheel in an environment of its own. Raises `NotReady`."""
     (sdist,) = DIST.glob("*.tar.gz")
     with tarfile.open(sdist) as archive:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
+from support.packaging_scripts import script
 from trove_classifiers import classifiers
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,19 +16,7 @@ FROM_AN_INDEX = re.compile(
     r"(?:pipx install|pip install(?: -\S+)*|uv tool install|uvx|npx|code --install-extension) ros-preflight\b"
 )
 
-
-def load() -> Any:
-    """`packaging/apply.py`, which is no package."""
-    spec = importlib.util.spec_from_file_location("packaging_apply", ROOT / "packaging/apply.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-apply = load()
+apply = script("apply")
 KNOWN = apply.project()
 NOW = {path.relative_to(ROOT).as_posix(): (was, now) for path, was, now in apply.written(KNOWN)}
 

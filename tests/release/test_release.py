@@ -2,35 +2,20 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 import re
 import subprocess
-import sys
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
+from support.packaging_scripts import PACKAGING, script
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGING = ROOT / "packaging"
 READY = SimpleNamespace(version="1.2.3", repository="https://github.com/someone/ros-preflight")
 
-
-def load() -> Any:
-    """`packaging/release.py`, which is no package."""
-    spec = importlib.util.spec_from_file_location("packaging_release", PACKAGING / "release.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-release = load()
+release = script("release")
 
 
 def test_the_section_of_the_changelog() -> None:

@@ -8,6 +8,9 @@ from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 
+_MOST = 3
+"""Names in a message."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables = context.executables
@@ -35,10 +38,6 @@ def _named(registered: Sequence[str]) -> str:
     shown = [f"'{each}'" for each in sorted(registered)[:_MOST]]
     more = len(registered) - len(shown)
     return " and ".join(filter(None, (", ".join(shown), f"{more} more" if more else "")))
-
-
-_MOST = 3
-"""Names in a message."""
 
 
 RULE = Rule(

@@ -23,9 +23,14 @@ def likeness(request: TraceRequest) -> Hashable:
     return request.package, request.executable, plugin, request.args, request.env, request.cwd
 
 
+def processors() -> int:
+    """How many processors this process may use; where the system cannot say that (macOS), how many there are."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def most_at_once() -> int:
     """How many runs keep the processors busy: most of a run's time is waiting, for the middleware or for quiet."""
-    return len(os.sched_getaffinity(0)) + 2
+    return processors() + 2
 
 
 def trace_all(

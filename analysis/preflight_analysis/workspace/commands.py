@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -90,7 +89,7 @@ def run_commands(runner: CommandRunner, lines: Sequence[str], cancel: threading.
     were cancelled none."""
     # Who has no command to run starts faster without.
     from preflight_analysis.tracing.commands import alike  # noqa: PLC0415
-    from preflight_analysis.tracing.schedule import run_all  # noqa: PLC0415
+    from preflight_analysis.tracing.schedule import processors, run_all  # noqa: PLC0415
 
     results: dict[str, CommandResult] = {}
     groups = alike(lines, MOST_TOGETHER)
@@ -100,6 +99,6 @@ def run_commands(runner: CommandRunner, lines: Sequence[str], cancel: threading.
             if result.status != "not-run" or not cancel.is_set():
                 results[line] = result
 
-    workers = max(2, len(os.sched_getaffinity(0)))
+    workers = max(2, processors())
     run_all(runner.run_together, groups, workers=workers, on_done=done, cancel=cancel)
     return results

@@ -28,6 +28,7 @@ import preflight_analysis
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands
+from preflight_analysis.tracing.schedule import processors
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.index_data import data_of_index, index_of_data
 from preflight_analysis.workspace.indexing import parts_of_index
@@ -72,7 +73,7 @@ def parts_by_processes(
     cancelled: Callable[[], bool],
 ) -> Iterator[WorkspaceIndex]:
     """Parts of the index of these launch files, as they come; nothing is ever raised, and nothing left running."""
-    count = max(1, min(MOST, len(os.sched_getaffinity(0)), len(paths) // _FEWEST))
+    count = max(1, min(MOST, processors(), len(paths) // _FEWEST))
     size = -(-len(paths) // count)
     shares = [paths[start : start + size] for start in range(0, len(paths), size)]
     try:

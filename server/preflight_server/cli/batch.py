@@ -17,6 +17,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
+from preflight_analysis.tracing.schedule import processors
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.resolve_commands import resolve_commands
 from preflight_analysis.workspace.sources import Sources
@@ -82,7 +83,7 @@ def answer_all(jobs: Path, *, no_run: bool = False) -> int:
         around = surroundings(job.package_path, tuple(sorted(job.env.items())))
         return _answer(job, around, cancel, no_run=no_run)
 
-    with ThreadPoolExecutor(1 if no_run else _cores()) as pool:
+    with ThreadPoolExecutor(1 if no_run else processors()) as pool:
         try:
             for text in pool.map(answer, given):
                 print_text(text)
@@ -141,11 +142,6 @@ def _answer(job: Job, around: _Surroundings, cancel: threading.Event, *, no_run:
     else:
         analysis = resolve_commands(workspace, job.file, args, results, runner, cancel, only_launch_files=True)
     return dumps_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
-
-
-def _cores() -> int:
-    """How many processors this process may use."""
-    return len(os.sched_getaffinity(0))
 
 
 def _read(jobs: Path) -> Iterator[Job]:
