@@ -8,7 +8,7 @@ from support.terms import avoided
     ("text", "found"),
     [
         ("/n gets nothing of '/scan'", ["gets nothing of"]),
-        ("What holds inside", ["What holds"]),
+        ("What holds inside", ["holds", "What holds"]),
         ("is no substitution: roslaunch takes it as text", ["no substitution", "is no "]),
         ("Run the node anew in ROS2", ["anew", "ROS2"]),
         ("in VSCode", ["VSCode"]),
