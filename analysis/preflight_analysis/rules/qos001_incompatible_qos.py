@@ -5,16 +5,10 @@ from itertools import chain
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.graph.qos import incompatible
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-
-_ORDERS = {
-    "reliability": ("best_effort", "reliable"),
-    "durability": ("volatile", "transient_local"),
-    "liveliness": ("automatic", "manual_by_topic"),
-}
-"""Weaker first: what is offered has to be as strong as what is asked for."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -58,22 +52,15 @@ def _settings(connection: Connection) -> str:
 
 
 def _problem(provider: Connection, consumer: Connection) -> str | None:
-    # Of a publisher whose settings are known, those that are not among them are the weakest.
-    known = {"reliability", "durability"} <= provider.endpoint.qos.keys()
-    for policy, order in _ORDERS.items():
-        offered, asked = (
-            provider.endpoint.qos.get(policy, order[0] if known else None),
-            consumer.endpoint.qos.get(policy),
-        )
-        if offered in order and asked in order and order.index(offered) < order.index(asked):
-            return f"its {policy} is {_said(offered)}, and the subscription asks for {_said(asked)}"
-    for policy in ("deadline", "lease_duration"):
-        offered, asked = provider.endpoint.qos.get(policy), consumer.endpoint.qos.get(policy)
-        if offered is None and known and isinstance(asked, (int, float)):
-            return f"it promises no {policy.replace('_', ' ')}, and the subscription asks for {asked} s"
-        if isinstance(offered, (int, float)) and isinstance(asked, (int, float)) and offered > asked:
-            return f"its {policy.replace('_', ' ')} is {offered} s, and the subscription asks for {asked} s"
-    return None
+    policy = incompatible(provider.endpoint, consumer.endpoint)
+    if policy is None:
+        return None
+    name = policy.name.replace("_", " ")
+    if isinstance(policy.requested, str):
+        return f"its {name} is {_said(str(policy.offered))}, and the subscription asks for {_said(policy.requested)}"
+    if policy.offered is None:
+        return f"it promises no {name}, and the subscription asks for {policy.requested} s"
+    return f"its {name} is {policy.offered} s, and the subscription asks for {policy.requested} s"
 
 
 def _said(value: str) -> str:
