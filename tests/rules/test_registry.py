@@ -14,6 +14,7 @@ import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules import reference
+from preflight_analysis.rules.fix_availability import fix_availability
 from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
 from preflight_analysis.rules.rule import Context, Rule
 from support.check import analyse, check, read_fixture
@@ -74,6 +75,29 @@ def test_rules_are_sorted_and_named_as_their_files() -> None:
         assert all((rule.what, rule.why, rule.example, rule.instead))
     assert rule_by_id("TOP001") in rules
     assert rule_by_id("TOP999") is None
+
+
+@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
+def test_every_page_has_each_section(rule: Rule) -> None:
+    headings = re.findall(r"^## (.*)$", reference.page(rule), re.MULTILINE)
+    assert headings == list(reference.SECTIONS)
+    assert rule.what.startswith("Checks "), "write 'Checks for ...'"
+    assert rule.references
+    for link in rule.references:
+        found = re.fullmatch(r"\[[^\]]+\]\((https://[^\s()]+|\.\./(?P<page>\w+\.md))\)", link)
+        assert found, link
+        assert found["page"] is None or (ROOT / "docs" / found["page"]).is_file(), link
+
+
+def test_whether_there_is_a_fix_is_read_from_the_code() -> None:
+    found = {rule.id: fix_availability(rule) for rule in all_rules()}
+    # Of its own finding, of a function that a rule imports, of one that makes the check, and of none.
+    assert (found["PKG007"], found["SRV001"], found["PRM002"], found["PRM003"]) == (
+        "always",
+        "sometimes",
+        "sometimes",
+        "never",
+    )
 
 
 @pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)

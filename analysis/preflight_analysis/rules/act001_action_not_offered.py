@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.dangling import dangling_consumers
+from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
@@ -51,14 +52,20 @@ RULE = Rule(
     id="ACT001",
     name="action-not-offered",
     severity="warning",
-    what="Reports a node with a client of an action that no node of the launch offers. Where one offers an action of a "
-    "like name and the same type, it is a warning that names both; otherwise a hint, as the action may be offered by "
-    "something that is started elsewhere. In ROS 1 an action is recognised by its five topics (`goal`, `cancel`, "
-    "`status`, `feedback`, `result`), in any client library. A remap of its name moves all that it is made of, but not "
-    "before Kilted in ROS 2, where it moves nothing.",
-    why="A client that waits for the server waits for ever; the goals of one that does not are lost without a word.",
+    what="Checks for an action client whose action has no server in the launch. If a node serves an action of a "
+    "similar name and the same type, the finding is a warning and names both. Otherwise it is a hint, because "
+    "another launch may start the server. In ROS 1 the five topics `goal`, `cancel`, `status`, `feedback` and "
+    "`result` make an action, in any client library. In ROS 1, and in ROS 2 since Kilted, a remap of the action's "
+    "name moves all its parts. Before Kilted such a remap has no effect.",
+    why="A client that waits for the server waits forever. The goals of a client that does not wait are lost "
+    "without an error.",
     example='<!-- the base offers move_base -->\n<remap from="navigate" to="mov_base"/>',
     instead='<remap from="navigate" to="move_base"/>',
+    references=(
+        ACTIONLIB,
+        ACTIONS,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

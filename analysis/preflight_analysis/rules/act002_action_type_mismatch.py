@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.type_mismatch import mismatches
@@ -16,12 +17,17 @@ RULE = Rule(
     id="ACT002",
     name="action-type-mismatch",
     severity="error",
-    what="Reports an action that one node offers with another type than a client of it has, or with another definition "
-    "(MD5 sum) of the same type.",
-    why="Goals, feedback and results are refused, with one line in a log; the client never sees its goal done.",
+    what="Checks for an action whose server and client have different types, or different definitions (MD5 sums) of "
+    "one type.",
+    why="Goals, feedback and results are rejected, with one line in a log. The client never gets a result.",
     example="<!-- /dock: my_robot/DockAction offered, the client has move_base_msgs/MoveBaseAction -->\n"
     '<remap from="move_base" to="/dock"/>',
     instead='<remap from="move_base" to="/navigation/move_base"/>',
+    references=(
+        ACTIONLIB,
+        ACTIONS,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -33,13 +34,18 @@ RULE = Rule(
     id="ACT003",
     name="action-offered-twice",
     severity="warning",
-    what="Reports an action that two nodes of the launch offer under one name.",
-    why="Goals are messages on a topic, in ROS 2 requests that each server of the name gets: both get each goal and "
-    "carry it out; the client takes the first result for that of its goal.",
+    what="Checks for an action that two nodes of the launch serve under one name.",
+    why="A goal is a message on a topic (ROS 1) or a request that each server of the name receives (ROS 2). Both "
+    "servers execute each goal, and the client takes the first result.",
     example='<node pkg="base" type="dock" name="left"/> <!-- both offer /dock -->\n'
     '<node pkg="base" type="dock" name="right"/>',
     instead='<node pkg="base" type="dock" name="left" ns="left"/>\n'
     '<node pkg="base" type="dock" name="right" ns="right"/>',
+    references=(
+        ACTIONLIB,
+        ACTIONS,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.problems import Problem, UndeclaredArgument
 from preflight_analysis.findings.finding import Finding, Related, Severity
 from preflight_analysis.launch.model import Action
 from preflight_analysis.rules.arguments import declarations, declare, passes_all
+from preflight_analysis.rules.further_reading import LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ARG
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parts_of_launches import is_configured_elsewhere, is_part
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -92,16 +93,21 @@ RULE = Rule(
     id="ARG001",
     name="undeclared-argument",
     severity="error",
-    what="Reports `$(arg name)` where the file has not declared that argument before, and names the nearest one that "
-    "it has declared. In ROS 2 an included file sets arguments of its includer too: after an include that cannot be "
-    "read it is a warning where there is a name that near, and a hint else. It knows those of its includer as well: in "
-    "a file that is made to be included it is information. In ROS 1 the command line gives arguments "
-    "that nothing declares, too: of the launch file itself it is information where a README, another text or a shell "
-    "script beside it says `name:=`, or where the command line chooses what is declared.",
-    why="`roslaunch` stops. An argument is known only in the file that declares it, from its `<arg>` on; files that "
-    "are included get it only if it is passed.",
+    what="Checks for `$(arg name)` where the file has not declared that argument before. The finding names the "
+    "nearest declared argument. In ROS 2 an included file sets arguments for its includer, and sees those of its "
+    "includer. After an unresolved include the finding is therefore a warning if an argument of a similar name "
+    "exists, otherwise a hint. In a file that is made to be included it is information. In ROS 1 the command line "
+    "can give arguments that no file declares. The finding is information if a README, text or shell script beside "
+    "the file contains `name:=`. It is information too where an argument of the command line chooses what is "
+    "declared.",
+    why="`roslaunch` stops. An argument is visible only in the file that declares it, after its `<arg>`. An "
+    "included file gets it only if the include passes it.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',
     instead='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camera)"/>',
+    references=(
+        ROSLAUNCH_ARG,
+        LAUNCH_SUBSTITUTIONS,
+    ),
     check=_check,
     problems=(UndeclaredArgument,),
     in_branches=True,

@@ -6,6 +6,7 @@ from preflight_analysis.evaluation.problems import MissingArgument
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.arguments import pass_on, passes_all
 from preflight_analysis.rules.catalogued import as_sure, by_catalogue
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -29,11 +30,17 @@ RULE = Rule(
     id="ARG002",
     name="missing-argument",
     severity="error",
-    what="Reports an `<include>` that gives no value to an argument that the included file declares without default. "
-    "Where `pass_all_args` leads there from the launch file on, the command line can give it: that is an information.",
+    what="Checks for an `<include>` that does not pass an argument which the included file declares without "
+    "default. If `pass_all_args` leads there from the root, the command line can give the argument, and the finding "
+    "is information.",
     why="`roslaunch` stops with `requires the 'name' arg to be set`.",
     example='<include file="$(find camera)/launch/camera.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch">\n  <arg name="serial" value="7cd1"/>\n</include>',
+    references=(
+        ROSLAUNCH_ARG,
+        ROSLAUNCH_INCLUDE,
+        LARGE_PROJECTS,
+    ),
     check=_check,
     problems=(MissingArgument,),
     in_branches=True,

@@ -1,6 +1,7 @@
 """ARG003: the file cannot be launched without an argument on the command line."""
 
 from preflight_analysis.evaluation.problems import ArgumentNeeded
+from preflight_analysis.rules.further_reading import LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ARG
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -8,11 +9,16 @@ RULE = Rule(
     id="ARG003",
     name="argument-needed",
     severity="info",
-    what="Says that a launch file has to be given an argument on the command line.",
-    why="That is how some files are meant to be used, so it is no error of the file; but what depends on the value is "
-    "unknown until it is given.",
+    what="Checks for a launch file that requires an argument on the command line.",
+    why="Some files are meant to be used in this way, so this is no error. What depends on the value is unresolved "
+    "until the argument is given.",
     example='<arg name="robot"/>',
     instead='<arg name="robot" default="turtle"/>',
+    references=(
+        ROSLAUNCH_ARG,
+        LAUNCH_SUBSTITUTIONS,
+    ),
+    settings=("roots",),
     check=check_problems(
         lambda needed: f"argument '{needed.name}' has no default; launch with {needed.name}:=...", ArgumentNeeded
     ),

@@ -7,6 +7,7 @@ from preflight_analysis.evaluation.problems import UnknownIncludeArgument
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.catalogued import as_sure, by_catalogue
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -38,13 +39,18 @@ RULE = Rule(
     id="ARG004",
     name="unknown-include-argument",
     severity="error",
-    what="Reports an `<arg>` in an `<include>` that the included file does not declare, and names the nearest one that "
-    "it does.",
-    why="`roslaunch` stops with `unused args`. `ros2 launch` takes it without a word, and the file has its default; "
-    "there nothing is said where an include that is not taken might use it. Of a package that is not here the "
-    "catalogue knows one version: what is no slip of an argument of that may be one of another, and is an information.",
+    what="Checks for an `<arg>` in an `<include>` that the included file does not declare. The finding names the "
+    "nearest declared argument. In ROS 2 there is no finding if an include that is not taken may use the argument. "
+    "For a package that is not installed the catalogue knows the launch files of one version. An argument that is "
+    "no typo of those is information, because another version may declare it.",
+    why="`roslaunch` stops with `unused args`. `ros2 launch` reports nothing, and the included file uses its default.",
     example='<include file="camera.launch">\n  <arg name="frame" value="front"/>\n</include>',
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',
+    references=(
+        ROSLAUNCH_INCLUDE,
+        ROSLAUNCH_ARG,
+        LARGE_PROJECTS,
+    ),
     check=_check,
     problems=(UnknownIncludeArgument,),
     in_branches=True,

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.problems import RedeclaredArgument
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import remove_at
+from preflight_analysis.rules.further_reading import ROSLAUNCH_ARG
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -21,10 +22,11 @@ RULE = Rule(
     id="ARG005",
     name="argument-redeclared",
     severity="error",
-    what="Reports a second `<arg>` of the same name in one file, or in one `<include>`.",
-    why="`roslaunch` stops. Two declarations under conditions of which only one is true are fine.",
+    what="Checks for a second `<arg>` of the same name in one file or in one `<include>`.",
+    why="`roslaunch` stops. Two declarations under conditions of which only one is true are valid.",
     example='<arg name="rate" default="10"/>\n<arg name="rate" default="20"/>',
     instead='<arg name="rate" default="20"/>',
+    references=(ROSLAUNCH_ARG,),
     check=_check,
     problems=(RedeclaredArgument,),
     in_branches=True,

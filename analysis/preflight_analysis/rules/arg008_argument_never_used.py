@@ -16,6 +16,7 @@ from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.rules.arguments import declarations, pass_on
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG
 from preflight_analysis.rules.problems import problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.written_elsewhere import in_package
@@ -308,17 +309,22 @@ RULE = Rule(
     id="ARG008",
     name="argument-never-used",
     severity="hint",
-    what="Points out an `<arg>` that its own file does not use: in no `$(arg ...)`, no `$(eval ...)`, no text or file "
-    'with `subst_value="true"`, under whatever conditions, and by no include with `pass_all_args`. One that an '
-    "include passes is left alone: without the declaration that include would fail. In ROS 2, where all that is "
-    "included knows it, only in a launch of one file. An include that passes an argument which the included file "
-    "declares and never uses is a warning, which stands at the declaration where that include is of another launch of "
-    "the package. It is an information where a comment of that file speaks of the argument.",
-    why="Whoever sets it on the command line believes that it has an effect. An argument is known only in the file "
-    "that declares it; what that file includes gets it only if it is passed.",
+    what="Checks for an `<arg>` that its own file does not use. A use is `$(arg ...)`, `$(eval ...)`, a text or "
+    'file with `subst_value="true"`, or an include with `pass_all_args`. Conditions make no difference. An '
+    "argument that an include passes is not reported, because the include fails without the declaration. In ROS 2 "
+    "included files see the argument, so only a launch of a single file is checked. An include that passes an "
+    "argument which the included file declares and never uses is a warning. If that include is in another launch of "
+    "the package, the finding is at the declaration. It is information if a comment of the file mentions the "
+    "argument.",
+    why="The argument has no effect when it is set on the command line. An argument is visible only in the file "
+    "that declares it. An included file gets it only if the include passes it.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',
     instead='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch">\n'
     '  <arg name="rate" value="$(arg rate)"/>\n</include>',
+    references=(
+        ROSLAUNCH_ARG,
+        LARGE_PROJECTS,
+    ),
     check=_check,
     every_root=True,
 )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.problems import ArgumentNotAChoice
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.catalogued import as_sure, by_catalogue
+from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -29,11 +30,15 @@ RULE = Rule(
     id="ARG009",
     name="argument-not-a-choice",
     severity="error",
-    what="Reports a value, given by an include or as the default, that is not among the choices with which the "
-    "argument is declared (ROS 2).",
-    why="`ros2 launch` stops when it gets to the declaration; what came before has been started by then.",
+    what="Checks for a value, from an include or a default, that is not among the declared choices of the argument.",
+    why="`ros2 launch` stops when it executes the declaration. Earlier actions are already running then.",
     example='<arg name="model" default="s1">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
     instead='<arg name="model" default="s2">\n  <choice value="a1"/>\n  <choice value="s2"/>\n</arg>',
+    generations=(2,),
+    references=(
+        LAUNCH_DESIGN,
+        LAUNCH_SUBSTITUTIONS,
+    ),
     check=_check,
     problems=(ArgumentNotAChoice,),
     in_branches=True,

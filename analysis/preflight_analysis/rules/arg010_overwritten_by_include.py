@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchTree, Use
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, LAUNCH_DESIGN
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -61,16 +62,20 @@ RULE = Rule(
     id="ARG010",
     name="overwritten-by-include",
     severity="warning",
-    what="Reports `$(var name)` of an argument that has another value there than its file gave it, because an include "
-    "before that place was passed a value for an argument of the same name, or set it itself (ROS 2).",
-    why="Includes of ROS 2 share the launch configurations of what includes them: what is passed to one, or set in it, "
-    "stays set afterwards. Only a `<group>` around the include brings the old values back.",
+    what="Checks for `$(var name)` where an earlier include has changed the value that this file gave the argument. "
+    "The include was passed a value for an argument of that name, or the included file sets it.",
+    why="In ROS 2 an included file shares the launch configurations of its includer. A value that is passed or set "
+    "there stays set after the include. Only a `<group>` around the include restores the old values.",
     example='<arg name="name" default="robot"/>\n'
     '<include file="$(find-pkg-share camera)/launch/camera.launch.xml">\n  <arg name="name" value="front"/>\n'
     '</include>\n<node pkg="drive" exec="base" name="$(var name)_base"/>',
     instead='<arg name="name" default="robot"/>\n<group>\n'
     '  <include file="$(find-pkg-share camera)/launch/camera.launch.xml">\n    <arg name="name" value="front"/>\n'
     '  </include>\n</group>\n<node pkg="drive" exec="base" name="$(var name)_base"/>',
+    references=(
+        LARGE_PROJECTS,
+        LAUNCH_DESIGN,
+    ),
     generations=(2,),
     check=_check,
 )

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import UnknownLaunchArgument
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ARG
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -22,11 +23,16 @@ RULE = Rule(
     id="ARG011",
     name="unknown-launch-argument",
     severity="warning",
-    what="Reports a `name:=value` of the command line, or an argument of a root in `.ros-preflight.yaml`, that no file "
-    "of the launch declares or uses, and names the nearest one that is.",
-    why="`roslaunch` and `ros2 launch` take it without a word, and the argument that was meant has its default.",
+    what="Checks for `name:=value` on the command line, or an argument of a root in `.ros-preflight.yaml`, that no "
+    "file of the launch declares or uses. The finding names the nearest declared argument.",
+    why="`roslaunch` and `ros2 launch` report nothing, and the intended argument keeps its default.",
     example='<!-- roslaunch robot.launch cammera:=false -->\n<arg name="camera" default="true"/>',
     instead='<!-- roslaunch robot.launch camera:=false -->\n<arg name="camera" default="true"/>',
+    references=(
+        ROSLAUNCH_ARG,
+        LAUNCH_SUBSTITUTIONS,
+    ),
+    settings=("roots",),
     check=_check,
     problems=(UnknownLaunchArgument,),
 )

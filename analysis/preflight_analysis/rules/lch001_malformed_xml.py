@@ -1,6 +1,7 @@
 """LCH001: the file is not well-formed XML or YAML, or no Python."""
 
 from preflight_analysis.evaluation.problems import MalformedPython, MalformedXml, MalformedYaml
+from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH, XML_STANDARD
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -8,12 +9,17 @@ RULE = Rule(
     id="LCH001",
     name="malformed-xml",
     severity="error",
-    what="Reports a launch file that is not well-formed XML (or YAML or Python, ROS 2), at the place that "
+    what="Checks for a launch file that is not well-formed XML, YAML or Python. The finding is at the place that "
     "has to be changed.",
-    why="`roslaunch` stops with `Invalid roslaunch XML syntax` and starts nothing, neither from this file nor from "
-    "those that include it. What can still be read of the file is checked nevertheless.",
+    why="`roslaunch` stops with `Invalid roslaunch XML syntax` and starts nothing. Files that include this one do "
+    "not start either. The readable part of the file is still checked.",
     example='<launch>\n  <node pkg="camera" type="driver" name="camera">\n</launch>',
     instead='<launch>\n  <node pkg="camera" type="driver" name="camera"/>\n</launch>',
+    references=(
+        XML_STANDARD,
+        ROSLAUNCH,
+        FORMATS,
+    ),
     check=check_problems(lambda malformed: malformed.message, MalformedXml, MalformedYaml, MalformedPython),
     problems=(
         MalformedXml,

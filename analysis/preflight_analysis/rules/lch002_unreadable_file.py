@@ -1,6 +1,7 @@
 """LCH002: the launch file cannot be read."""
 
 from preflight_analysis.evaluation.problems import NotTextFile, UnreadableFile
+from preflight_analysis.rules.further_reading import ROSLAUNCH, XML_STANDARD
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -8,11 +9,15 @@ RULE = Rule(
     id="LCH002",
     name="unreadable-file",
     severity="error",
-    what="Reports a launch file that is missing, may not be read, is a folder, is binary or not UTF-8, or is larger "
-    "than what is analysed.",
-    why="Nothing can be said of its content, and in most of these cases `roslaunch` cannot read it either.",
+    what="Checks for a launch file that cannot be read: missing, without permission, a folder, binary, not UTF-8, "
+    "or too large.",
+    why="The content cannot be checked. In most of these cases `roslaunch` cannot read the file either.",
     example="An editor saved the file as UTF-16.",
     instead="Save it as UTF-8.",
+    references=(
+        XML_STANDARD,
+        ROSLAUNCH,
+    ),
     check=check_problems(lambda file: f"cannot read '{file.path}': {file.reason}", UnreadableFile, NotTextFile),
     problems=(
         UnreadableFile,

@@ -1,6 +1,7 @@
 """LCH003: the document element is not <launch>."""
 
 from preflight_analysis.evaluation.problems import NoLaunchElement
+from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
 
@@ -16,10 +17,14 @@ RULE = Rule(
     id="LCH003",
     name="no-launch-element",
     severity="error",
-    what="Reports a launch file without a `<launch>` element around its content, or with several.",
+    what="Checks for a launch file without a `<launch>` element around its content, or with several.",
     why="`roslaunch` stops with `No root <launch> tag`.",
     example='<node pkg="camera" type="driver" name="camera"/>',
     instead='<launch>\n  <node pkg="camera" type="driver" name="camera"/>\n</launch>',
+    references=(
+        ROSLAUNCH,
+        LAUNCH_XML_DESIGN,
+    ),
     check=check_problems(_message, NoLaunchElement),
     problems=(NoLaunchElement,),
 )

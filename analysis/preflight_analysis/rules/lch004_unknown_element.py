@@ -10,6 +10,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Severity
 from preflight_analysis.launch.problems import UnknownElement
+from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -56,13 +57,17 @@ RULE = Rule(
     id="LCH004",
     name="unknown-element",
     severity="warning",
-    what="Reports an element that `roslaunch` does not know at that place, and names the nearest one that it knows.",
-    why="`roslaunch` prints one line among many others and skips the element with all that is in it: the parameter "
-    "is not set, the node is not started. `ros2 launch` stops, and starts nothing of the file, unless a package with "
-    "the entry point `launch.frontend.launch_extension` defines the tag: those of the workspace and of the sourced ROS "
-    "are known.",
+    what="Checks for an element that is not valid in its parent. The finding names the nearest valid element.",
+    why="`roslaunch` prints one line among many others and skips the element with its content. The parameter is not "
+    "set, or the node is not started. `ros2 launch` stops and starts nothing of the file. A package with the entry "
+    "point `launch.frontend.launch_extension` can define further tags. The tags of the workspace and of the sourced "
+    "ROS are known.",
     example='<node pkg="camera" type="driver" name="camera">\n  <parm name="rate" value="30"/>\n</node>',
     instead='<node pkg="camera" type="driver" name="camera">\n  <param name="rate" value="30"/>\n</node>',
+    references=(
+        ROSLAUNCH,
+        LAUNCH_XML_DESIGN,
+    ),
     check=_check,
     problems=(UnknownElement,),
 )

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import UnknownAttribute
+from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.misspelt_attributes import explained
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -34,11 +35,14 @@ RULE = Rule(
     id="LCH005",
     name="unknown-attribute",
     severity="warning",
-    what="Reports an attribute that the element does not have, and names the nearest one that it has.",
-    why="`roslaunch` mentions it and goes on without it: what the attribute was to do does not happen. "
-    "`ros2 launch` stops, and starts nothing of the file.",
+    what="Checks for an attribute that the element does not have. The finding names the nearest valid attribute.",
+    why="`roslaunch` prints a warning and ignores the attribute. `ros2 launch` stops and starts nothing of the file.",
     example='<node pkg="camera" type="driver" name="camera" respwan="true"/>',
     instead='<node pkg="camera" type="driver" name="camera" respawn="true"/>',
+    references=(
+        ROSLAUNCH,
+        LAUNCH_XML_DESIGN,
+    ),
     check=_check,
     problems=(UnknownAttribute,),
     in_branches=True,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.problems import MissingAttribute
+from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.misspelt_attributes import misspelt
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -45,10 +46,14 @@ RULE = Rule(
     id="LCH006",
     name="missing-attribute",
     severity="error",
-    what="Reports an element without an attribute that it cannot do without.",
-    why="`roslaunch` stops and starts nothing.",
+    what="Checks for an element without a required attribute.",
+    why="The launcher stops and starts nothing.",
     example='<node pkg="camera" name="camera"/>',
     instead='<node pkg="camera" type="driver" name="camera"/>',
+    references=(
+        ROSLAUNCH,
+        LAUNCH_XML_DESIGN,
+    ),
     check=_check,
     problems=(MissingAttribute,),
     in_branches=True,

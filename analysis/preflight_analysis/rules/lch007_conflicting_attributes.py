@@ -8,6 +8,7 @@ from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_attribute
 from preflight_analysis.launch.problems import ConflictingAttributes
+from preflight_analysis.rules.further_reading import ROSLAUNCH, ROSLAUNCH_PARAM
 from preflight_analysis.rules.problems import problem_finding, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -35,10 +36,14 @@ RULE = Rule(
     id="LCH007",
     name="conflicting-attributes",
     severity="error",
-    what="Reports attributes of one element of which only one may be given.",
-    why="`roslaunch` does not choose between them: it stops.",
+    what="Checks for attributes of one element that exclude each other.",
+    why="`roslaunch` does not choose between them. It stops.",
     example='<param name="rate" value="30" textfile="rate.txt"/>',
     instead='<param name="rate" value="30"/>',
+    references=(
+        ROSLAUNCH,
+        ROSLAUNCH_PARAM,
+    ),
     check=_check,
     problems=(ConflictingAttributes,),
     in_branches=True,

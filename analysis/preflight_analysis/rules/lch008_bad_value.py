@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import BadValue
+from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -43,11 +44,15 @@ RULE = Rule(
     id="LCH008",
     name="bad-value",
     severity="error",
-    what="Reports a value that its attribute cannot have: a word where a number is needed, a condition that is "
-    "neither true nor false, an unknown choice.",
-    why="`roslaunch` stops and starts nothing. The value is checked after its substitutions were made.",
+    what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is neither true "
+    "nor false, or an unknown choice.",
+    why="The launcher stops and starts nothing. The value is checked after its substitutions are resolved.",
     example='<node pkg="camera" type="driver" name="camera" output="scren"/>',
     instead='<node pkg="camera" type="driver" name="camera" output="screen"/>',
+    references=(
+        ROSLAUNCH,
+        LAUNCH_XML_DESIGN,
+    ),
     check=_check,
     problems=(BadValue,),
     in_branches=True,

@@ -9,6 +9,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import InvalidName, Problem
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import insert_attribute
+from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.problems import as_written, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -56,12 +57,16 @@ RULE = Rule(
     id="LCH009",
     name="invalid-name",
     severity="error",
-    what="Reports the name of a node, argument, remap or parameter that ROS does not allow.",
-    why="`roslaunch` stops; for a node's name with other characters it only warns, and other tools stumble. Names "
-    "start with a letter (or `/`, `~` where a graph resource is meant) and go on with "
-    "letters, digits, `_` and `/`; a node's name has no `/` at all, its namespace is given with `ns`.",
+    what="Checks for the name of a node, argument, remap or parameter that ROS does not allow.",
+    why="`roslaunch` stops. For other characters in a node's name it only warns, but other tools fail. Names start "
+    "with a letter, or with `/` or `~` for a graph resource. They continue with letters, digits, `_` and `/`. The "
+    "name of a node has no `/`: its namespace is the attribute `ns`.",
     example='<node pkg="camera" type="driver" name="front/camera"/>',
     instead='<node pkg="camera" type="driver" name="camera" ns="front"/>',
+    references=(
+        NAMES,
+        TOPIC_NAMES,
+    ),
     check=_check,
     problems=(InvalidName,),
     in_branches=True,

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.evaluation.problems import EvalFailed, Problem, UnsetParameter
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.problems import BadSubstitution
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.parts_of_launches import is_part
 from preflight_analysis.rules.problems import problem_finding, problems_of
@@ -65,12 +66,16 @@ RULE = Rule(
     id="LCH011",
     name="bad-substitution",
     severity="error",
-    what="Reports a `$(...)` that is not complete, of an unknown kind, an `$(eval ...)` that fails, and in ROS 2 "
-    "`$(param name)` where nothing before sets that parameter. In a file that is made to be included this is "
-    "information, after an include that cannot be read a hint.",
-    why="`roslaunch` stops. An `$(eval ...)` must be the whole attribute.",
+    what="Checks for a `$(...)` that is incomplete or of an unknown kind, and for an `$(eval ...)` that fails. In "
+    "ROS 2 it checks for `$(param name)` where no earlier action sets that parameter. In a file that is made to be "
+    "included this is information, after an unresolved include a hint.",
+    why="The launcher stops. An `$(eval ...)` must be the whole attribute.",
     example='<param name="rate" value="$(args rate)"/>',
     instead='<param name="rate" value="$(arg rate)"/>',
+    references=(
+        ANONYMOUS_NAMES,
+        LAUNCH_SUBSTITUTIONS,
+    ),
     check=_check,
     problems=(
         BadSubstitution,

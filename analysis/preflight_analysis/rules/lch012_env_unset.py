@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import AssumedVariable, UnsetVariable
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.installed import lack_of_variable, near_variable, unset_variable
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
@@ -31,13 +32,17 @@ RULE = Rule(
     id="LCH012",
     name="environment-variable-unset",
     severity="warning",
-    what="Reports `$(env NAME)`, and `os.environ['NAME']` in a Python launch file, of a variable that is not set in "
-    "the environment in which the analysis looks, and whose name is a slip of the name of one that is. Any other may "
-    "be set on the robot: that is a hint only, and told with what else is missing on this machine. So is what a Python "
-    "launch file gets for `ROS_DISTRO` where no distribution is sourced or installed.",
-    why="`roslaunch` stops where the variable is not set.",
+    what="Checks for `$(env NAME)`, or `os.environ['NAME']` in a Python launch file, of a variable that is not set "
+    "and whose name is a typo of a variable that is set. Any other variable may be set on the robot: this is a "
+    "hint, listed with what is missing on this machine. The value of `ROS_DISTRO` that a Python launch file gets "
+    "without a sourced or installed distribution is such a hint too.",
+    why="The launcher stops if the variable is not set.",
     example='<param name="map" value="$(env HOEM)/maps/office.yaml"/>',
     instead='<param name="map" value="$(env HOME)/maps/office.yaml"/>',
+    references=(
+        ANONYMOUS_NAMES,
+        LAUNCH_SUBSTITUTIONS,
+    ),
     check=_check,
     problems=(UnsetVariable, AssumedVariable),
     in_branches=True,

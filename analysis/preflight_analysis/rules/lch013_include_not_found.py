@@ -8,6 +8,7 @@ from preflight_analysis.evaluation.problems import IncludeNotCatalogued, Include
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
 from preflight_analysis.rules.catalogued import is_of_distribution
 from preflight_analysis.rules.files import check_missing_files
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -48,16 +49,20 @@ RULE = Rule(
     id="LCH013",
     name="include-not-found",
     severity="error",
-    what="Reports an `<include>` of a file that does not exist, and names the nearest file of that folder or package. "
-    "Where a process launches it (`ros2 launch PACKAGE FILE`) this is a warning, as the rest goes on without it. "
-    "Of a common package that is not installed here, the catalogue knows the files: one that is a slip of those is a "
-    "warning where the catalogue has the distribution that is used, else a hint. A file in a top folder that this "
-    "machine lacks (`/ws/src/...` of a container), or in the folder where the launch is started (`$(env PWD)`), is "
-    "information.",
-    why="`roslaunch` stops and starts nothing, however deep the include stands. A relative path is looked up from the "
-    "folder in which `roslaunch` is started, not from that of the file.",
+    what="Checks for an `<include>` of a file that does not exist. The finding names the nearest file of the folder "
+    "or package. If a process launches the file (`ros2 launch PACKAGE FILE`), the finding is a warning, because the "
+    "rest of the launch goes on. For a common package that is not installed, the catalogue knows its launch files. "
+    "A typo of those is a warning if the catalogue has the distribution in use, otherwise a hint. A file in a top "
+    "folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder where "
+    "the launch is started (`$(env PWD)`).",
+    why="`roslaunch` stops and starts nothing, at any depth of includes. A relative path starts at the folder in "
+    "which `roslaunch` runs, not at the folder of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',
+    references=(
+        ROSLAUNCH_INCLUDE,
+        LARGE_PROJECTS,
+    ),
     check=_check,
     problems=(IncludeNotFound, LaunchedFileNotFound, IncludeNotCatalogued),
     in_branches=True,

@@ -2,17 +2,22 @@
 
 from preflight_analysis.evaluation.problems import UnreadableInclude
 from preflight_analysis.rules.files import check_unreadable_files
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(
     id="LCH014",
     name="include-unreadable",
     severity="error",
-    what="Reports an `<include>` of a file that exists but is a folder, binary, too large, not permitted to be read, "
-    "or no launch file.",
-    why="`roslaunch` stops and starts nothing.",
+    what="Checks for an `<include>` of a file that exists but cannot be used: a folder, binary, too large, without "
+    "permission, or no launch file.",
+    why="The launcher stops and starts nothing.",
     example='<include file="$(find camera)/launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',
+    references=(
+        ROSLAUNCH_INCLUDE,
+        LARGE_PROJECTS,
+    ),
     check=check_unreadable_files(UnreadableInclude, "included file"),
     problems=(UnreadableInclude,),
     in_branches=True,

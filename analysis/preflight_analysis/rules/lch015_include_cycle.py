@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import IncludeCycle
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -19,10 +20,14 @@ RULE = Rule(
     id="LCH015",
     name="include-cycle",
     severity="error",
-    what="Reports an `<include>` that leads back to a file that is being included.",
-    why="`roslaunch` goes round until Python's recursion limit ends it, and starts nothing.",
+    what="Checks for an `<include>` of a file that is already being included.",
+    why="`roslaunch` recurses until Python's recursion limit stops it, and starts nothing.",
     example='<!-- in robot.launch -->\n<include file="$(find robot)/launch/robot.launch"/>',
     instead='<!-- in robot.launch -->\n<include file="$(find robot)/launch/base.launch"/>',
+    references=(
+        ROSLAUNCH_INCLUDE,
+        LARGE_PROJECTS,
+    ),
     check=_check,
     problems=(IncludeCycle,),
 )

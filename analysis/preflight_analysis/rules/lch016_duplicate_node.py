@@ -8,6 +8,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode, Problem
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, NAMES, NODES
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shortened
 from preflight_analysis.rules.python_branches import made_twice
 from preflight_analysis.rules.rule import Context, Rule
@@ -92,13 +93,18 @@ RULE = Rule(
     id="LCH016",
     name="duplicate-node",
     severity="error",
-    what="Reports a second node with the same full name, in this file or in one that is included. In a Python launch "
-    "file also one that is only made in a branch of an `if`, whichever way this launch goes, for information.",
-    why="`roslaunch` stops: names are unique in the graph, a second node would shut the first one down. "
-    "`ros2 launch` only warns: both run, and what asks for one of them by its name may get the other. Of nodes without "
-    "a `name` it does not even know.",
+    what="Checks for a second node with the same full name, in this file or an included file. In a Python launch "
+    "file it also checks nodes that are made in one branch of an `if`. Those findings are information.",
+    why="`roslaunch` stops, because names are unique in the graph: a second node shuts the first one down. `ros2 "
+    "launch` only warns. Both nodes run, and a request to one of them by its name may reach the other. `ros2 "
+    "launch` does not notice duplicate names of nodes without a `name`.",
     example='<node pkg="laser" type="driver" name="laser"/>\n<node pkg="laser" type="driver" name="laser"/>',
     instead='<node pkg="laser" type="driver" name="laser_front"/>\n<node pkg="laser" type="driver" name="laser_rear"/>',
+    references=(
+        NODES,
+        NAMES,
+        LAUNCH_DESIGN,
+    ),
     check=_check,
     problems=(DuplicateNode,),
 )

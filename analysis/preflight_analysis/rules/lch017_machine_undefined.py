@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import UndefinedMachine
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ROSLAUNCH_MACHINE
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -21,10 +22,12 @@ RULE = Rule(
     id="LCH017",
     name="machine-undefined",
     severity="error",
-    what="Reports a `machine` attribute that names no `<machine>` declared before, and names the nearest one.",
+    what="Checks for a `machine` attribute that names no earlier `<machine>`. The finding names the nearest "
+    "declared machine.",
     why="`roslaunch` stops and starts nothing.",
     example='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="bse"/>',
     instead='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="base"/>',
+    references=(ROSLAUNCH_MACHINE,),
     check=_check,
     problems=(UndefinedMachine,),
     in_branches=True,

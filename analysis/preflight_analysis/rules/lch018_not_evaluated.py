@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.problems import (
     ValueTooLong,
 )
 from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, RUNS, SECURITY
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -43,14 +44,19 @@ RULE = Rule(
     id="LCH018",
     name="not-evaluated",
     severity="info",
-    what="Says that something that `roslaunch` accepts is not evaluated here: the `command` of a parameter that was "
-    "not run (a hint only; commands are run in the sandbox, if the workspace is trusted), an `$(eval ...)` that needs "
-    "Python itself and was not run, a Python launch file that was not run, an entity that a DOCTYPE defines, includes "
-    "and groups without end.",
-    why="Values that depend on it are unknown, nodes that need them are not run, and findings that would need them "
-    "are left out. It is no error of the file.",
+    what="Checks for parts of a launch file that are valid but not evaluated here. These are: the `command` of a "
+    "parameter that was not run, an `$(eval ...)` that needs Python itself, a Python launch file that was not run, "
+    "an entity of a DOCTYPE, and endless includes and groups. A command that was not run is a hint. Commands run in "
+    "the sandbox if the workspace is trusted.",
+    why="Values that depend on it are unresolved, and nodes that need them are not run. Findings that need the "
+    "values are missing. It is no error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',
     instead='<param name="letters" value="$(eval list(name))"/>',
+    references=(
+        ANONYMOUS_NAMES,
+        SECURITY,
+        RUNS,
+    ),
     check=_check,
     problems=_KINDS,
 )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.suppression import Suppression, read_suppressions
 from preflight_analysis.rules import registry
+from preflight_analysis.rules.further_reading import ANNOTATIONS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -33,11 +34,13 @@ RULE = Rule(
     id="LCH019",
     name="unused-suppression",
     severity="warning",
-    what="Reports a `preflight: ignore[...]` comment that silences no finding, or names no rule. It is judged only "
-    "when the rule that it names was able to run: one that needs the nodes' interfaces is not while they are unknown.",
-    why="A comment that is left over would silence the next, real finding on that line.",
+    what="Checks for a `preflight: ignore[...]` comment that suppresses no finding or names no rule. It is checked "
+    "only if the named rule could run. A rule that needs the interfaces of the nodes cannot run while these are "
+    "unknown.",
+    why="A comment that is left over suppresses the next finding on that line, which may be real.",
     example='<!-- preflight: ignore[LCH004] -->\n<param name="rate" value="30"/>',
     instead='<param name="rate" value="30"/>',
+    references=(ANNOTATIONS,),
     check=_check,
     every_root=True,
     unused_suppression=_unused,

@@ -6,6 +6,7 @@ from itertools import compress
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.rules.further_reading import ANNOTATIONS
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -26,10 +27,10 @@ RULE = Rule(
     id="LCH020",
     name="malformed-annotation",
     severity="warning",
-    what="Reports what cannot be understood in the `<topics>`, `<services>`, `<params>` and `<actions>` that annotate "
-    "a node.",
-    why="The item is left out, so that findings that rest on the annotation are missing or wrong.",
+    what="Checks for invalid `<topics>`, `<services>`, `<params>` and `<actions>` in the annotations of a node.",
+    why="The invalid item is ignored. Findings that depend on the annotation are missing or wrong.",
     example='<!-- <topics><topic name="chatter" type="String" class="publish"/></topics> -->',
     instead='<!-- <topics><topic name="chatter" type="std_msgs/String" class="pub"/></topics> -->',
+    references=(ANNOTATIONS,),
     check=_check,
 )

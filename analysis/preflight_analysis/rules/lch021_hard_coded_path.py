@@ -10,6 +10,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.rules.files import in_named_package
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, FILE_SYSTEM, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.rule import Context, Rule
 
 _HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
@@ -110,12 +111,17 @@ RULE = Rule(
     id="LCH021",
     name="hard-coded-path",
     severity="info",
-    what="Points out paths below `/home/...`, `/Users/...`, `/root`, `~user` and `/opt/ros/...`, and other absolute "
-    "paths into the workspace, in the values of attributes. Where the file belongs to a package that is known here it "
-    "says how to write it with `$(find ...)` (ROS 2: `$(find-pkg-share ...)`). What a `<machine>` says is left alone.",
-    why="The launch file works for the one who wrote it: for other users, on the robot, or after an upgrade of ROS the "
-    "path leads nowhere.",
+    what="Checks for absolute paths in the values of attributes: below `/home/...`, `/Users/...`, `/root`, `~user` "
+    "and `/opt/ros/...`, or into the workspace. If the file belongs to a known package, the finding gives the path "
+    "with `$(find ...)` (ROS 2: `$(find-pkg-share ...)`). `<machine>` is not checked.",
+    why="The launch file works only for its author. For other users, on the robot, or after an upgrade of ROS the "
+    "path does not exist.",
     example='<param name="model" value="/home/bob/catkin_ws/src/vision/models/net.pt"/>',
     instead='<param name="model" value="$(find vision)/models/net.pt"/>',
+    references=(
+        ANONYMOUS_NAMES,
+        LAUNCH_SUBSTITUTIONS,
+        FILE_SYSTEM,
+    ),
     check=_check,
 )

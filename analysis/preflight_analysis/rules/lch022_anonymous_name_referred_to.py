@@ -13,6 +13,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related
 from preflight_analysis.launch.model import Value
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, NAMES
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -138,12 +139,15 @@ RULE = Rule(
     id="LCH022",
     name="anonymous-name-referred-to",
     severity="warning",
-    what="Reports a remap, parameter or argument that names something of a node, by the name that stands in the "
-    "`$(anon name)` of the node.",
-    why="`$(anon talker)` is not `talker`: it gets the host's name, the process and a random number attached, so that "
-    "nothing that names `/talker` ever means this node.",
+    what="Checks for a remap, parameter or argument that refers to a node by the name inside its `$(anon name)`.",
+    why="`$(anon talker)` is not `talker`. roslaunch appends the host name, the process id and a random number. A "
+    "reference to `/talker` never reaches this node.",
     example='<node pkg="chat" type="talker" name="$(anon talker)"/>\n<param name="/talker/rate" value="10"/>',
     instead='<param name="/$(anon talker)/rate" value="10"/>\n<node pkg="chat" type="talker" name="$(anon talker)"/>',
+    references=(
+        ANONYMOUS_NAMES,
+        NAMES,
+    ),
     generations=(1,),
     check=_check,
 )

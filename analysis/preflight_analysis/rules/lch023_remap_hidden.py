@@ -10,6 +10,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags, removal
@@ -134,15 +135,20 @@ RULE = Rule(
     id="LCH023",
     name="remap-hidden",
     severity="warning",
-    what="Reports a remap that has no effect because another one of the same name counts. In ROS 1 that is a later one "
-    "in the same scope, and two remaps of a node that are written differently and mean the same name (`scan` and "
-    "`/scan` in the root namespace) are reported too; a remap around a node that the node's own replaces is taken for "
-    "a default, and one under a condition for an alternative. In ROS 2 it is an earlier one, and those of "
-    "`<set_remap>` come before those of the node.",
-    why="Of several remaps of a name one counts, without a word: the last one for `roslaunch`, which hands those that "
-    "are written differently to the node all the same, and its client library picks one; the first one in ROS 2.",
+    what="Checks for a remap that another remap of the same name overrides. In ROS 1 a later remap in the same "
+    "scope overrides an earlier one. Two remaps of a node that resolve to the same name (`scan` and `/scan` in the "
+    "root namespace) are reported too. A remap around a node that the node's own remap overrides is a default, and "
+    "is not reported. Remaps under a condition are not reported. In ROS 2 the first remap applies, and "
+    "`<set_remap>` comes before those of the node.",
+    why="Only one of several remaps of a name applies, and the launcher does not report the others. `roslaunch` "
+    "uses the last one. It passes remaps that are written differently to the node, and its client library chooses "
+    "one. ROS 2 uses the first one.",
     example='<remap from="scan" to="front/scan"/>\n<remap from="scan" to="rear/scan"/>\n'
     '<node pkg="slam" type="mapper" name="mapper"/>',
     instead='<remap from="scan" to="front/scan"/>\n<node pkg="slam" type="mapper" name="mapper"/>',
+    references=(
+        ROSLAUNCH_REMAP,
+        REMAPPING_DESIGN,
+    ),
     check=_check,
 )

@@ -8,6 +8,7 @@ from itertools import chain
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags, removal
@@ -49,10 +50,14 @@ RULE = Rule(
     id="LCH024",
     name="remap-to-itself",
     severity="hint",
-    what="Reports a `<remap>` that is written with the same name on both sides. One that undoes an outer remap of the "
-    "name has an effect, and one whose names come from arguments may have: of these nothing is said.",
-    why="It does nothing. Either it is left over, or one of the names was to be another.",
+    what="Checks for a `<remap>` with the same name on both sides. A remap that undoes an outer remap has an "
+    "effect, and is not reported. A remap whose names come from arguments is not reported either.",
+    why="The remap has no effect. Either it is left over, or one of the names is wrong.",
     example='<remap from="scan" to="scan"/>',
     instead='<remap from="scan" to="front/scan"/>',
+    references=(
+        ROSLAUNCH_REMAP,
+        REMAPPING_DESIGN,
+    ),
     check=_check,
 )

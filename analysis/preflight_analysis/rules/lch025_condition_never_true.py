@@ -13,6 +13,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.substitutions import is_eval
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, ROSLAUNCH_ARG
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import CONDITIONS, has_condition
 
@@ -184,13 +185,18 @@ RULE = Rule(
     id="LCH025",
     name="condition-never-true",
     severity="warning",
-    what="Reports a comparison in the `$(eval ...)` of a condition that has the same result whatever the arguments "
-    "are: an argument compared with `'true'` or `'1'` as text. A tag that is never evaluated for another reason (a "
-    'literal `if="false"`, an argument that the file itself fixes) is a hint, since many comment tags out so.',
-    why="`$(eval)` makes `True` of the argument's text `true`, and 1 of `1`, before it is compared: it is never equal "
-    "to the text `'true'`, and the tag is never evaluated, whatever is passed.",
+    what="Checks for a comparison in the `$(eval ...)` of a condition that has the same result for all arguments. "
+    "This is an argument that is compared with the text `'true'` or `'1'`. A tag that is never evaluated for "
+    'another reason is a hint, because it is often used to disable a tag. Such reasons are a literal `if="false"` '
+    "and an argument that the file fixes.",
+    why="`$(eval)` converts the text `true` of an argument to `True`, and `1` to a number, before the comparison. "
+    "The value never equals the text `'true'`, and the tag is never evaluated.",
     example="<group if=\"$(eval arg('simulation') == 'true')\">\n</group>",
     instead='<group if="$(arg simulation)">\n</group>',
+    references=(
+        ROSLAUNCH_ARG,
+        ANONYMOUS_NAMES,
+    ),
     generations=(1,),
     check=_check,
 )

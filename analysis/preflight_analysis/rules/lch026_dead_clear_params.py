@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Use
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import ROSLAUNCH_ARCHITECTURE, ROSLAUNCH_GROUP
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tag, Tags
@@ -69,14 +70,18 @@ RULE = Rule(
     id="LCH026",
     name="dead-clear-params",
     severity="hint",
-    what="Reports `clear_params` of a group or include in whose namespace the launch has neither a node nor a "
-    "parameter, and of one in which an earlier tag of the same launch sets parameters, which stay.",
-    why="`roslaunch` deletes the namespaces first, whatever the order of the tags, and sets parameters afterwards: "
-    "only what an earlier launch left behind is deleted.",
+    what="Checks for `clear_params` of a group or include whose namespace has neither a node nor a parameter in the "
+    "launch. It also checks for a namespace in which an earlier tag of the same launch sets parameters: those stay.",
+    why="`roslaunch` deletes the namespaces first, whatever the order of the tags, and sets parameters afterwards. "
+    "It deletes only what an earlier launch has left behind.",
     example='<param name="/arm/rate" value="10"/>\n<group ns="arm" clear_params="true">\n'
     '  <node pkg="arm" type="driver" name="driver"/>\n</group>',
     instead='<group ns="arm" clear_params="true">\n  <param name="rate" value="10"/>\n'
     '  <node pkg="arm" type="driver" name="driver"/>\n</group>',
+    references=(
+        ROSLAUNCH_GROUP,
+        ROSLAUNCH_ARCHITECTURE,
+    ),
     generations=(1,),
     check=_check,
     every_root=True,

@@ -11,6 +11,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename, shown
@@ -138,13 +139,17 @@ RULE = Rule(
     id="LCH027",
     name="deprecated",
     severity="hint",
-    what="Points out an include of a file that its author has marked with `<launch deprecated=...>`, the defunct "
-    "`<master>`, and nodes, parameters and options that newer releases of ROS have removed or replaced: "
-    "`state_publisher`, the package `gazebo`, `static_transform_publisher` of tf, `robot_pose_ekf`, `use_gui` of "
-    "`joint_state_publisher`, `--inorder` of xacro.",
-    why="What is deprecated goes away with an upgrade; what was removed is not started at all.",
+    what="Checks for what is deprecated or removed: an include of a file with `<launch deprecated=...>`, the "
+    "defunct `<master>`, and nodes, parameters and options of older releases of ROS. These are `state_publisher`, "
+    "the package `gazebo`, `static_transform_publisher` of tf, `robot_pose_ekf`, `use_gui` of "
+    "`joint_state_publisher`, and `--inorder` of xacro.",
+    why="A deprecated part disappears with an upgrade. A removed node does not start.",
     example='<node pkg="robot_state_publisher" type="state_publisher" name="state_publisher"/>',
     instead='<node pkg="robot_state_publisher" type="robot_state_publisher" name="state_publisher"/>',
+    references=(
+        ROSLAUNCH,
+        XACRO,
+    ),
     generations=(1,),
     check=_check,
 )

@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.rules.further_reading import ROSLAUNCH, XML_STANDARD
 from preflight_analysis.rules.problems import problem_finding, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -46,12 +47,16 @@ RULE = Rule(
     id="LCH028",
     name="stray-text",
     severity="warning",
-    what="Reports text between the tags of a launch file, outside of `<rosparam>`. A remark, or what a `CDATA` section "
-    "leaves out, is a hint.",
-    why="""XML allows it and `roslaunch` does not look at it. It is what is left of a tag whose `<` was lost, so that a
-node is never started, or a remark that was meant as a comment.""",
+    what="Checks for text between the tags of a launch file, outside of `<rosparam>`. A remark, or the content of a "
+    "`CDATA` section, is a hint.",
+    why="XML_STANDARD allows such text and `roslaunch` ignores it. It may be a tag that has lost its `<`, so that a "
+    "node is never started. It may also be a comment without its marks.",
     example='<launch>\n  node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
     instead='<launch>\n  <node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
+    references=(
+        XML_STANDARD,
+        ROSLAUNCH,
+    ),
     check=_check,
     problems=(StrayText,),
 )

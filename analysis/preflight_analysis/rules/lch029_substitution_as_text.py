@@ -15,6 +15,7 @@ from preflight_analysis.launch.problems import SubstitutionAsText
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.rules.arguments import declarations
+from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -120,15 +121,19 @@ RULE = Rule(
     id="LCH029",
     name="substitution-as-text",
     severity="warning",
-    what="Reports what looks like a substitution and is none: without an end, or with other brackets. Likewise a "
-    "substitution in the YAML of a `<rosparam>` without `subst_value` (ROS 1), or in a parameter file that is given to "
-    "a node without `allow_substs` (ROS 2). It is information in the section of a controller that no node "
-    "of the launch is told to start.",
-    why="""`roslaunch` replaces `$(arg name)` and its like only in that form, and leaves everything else as it stands. A
-topic or file is then really called `$(arg name`, and nothing says so. In YAML both launchers replace them only if they
-are told to.""",
+    what="Checks for text that looks like a substitution and is none, because of a missing end or other brackets. "
+    "It also checks substitutions in the YAML of a `<rosparam>` without `subst_value` (ROS 1). In ROS 2 it checks "
+    "those in a parameter file of a node without `allow_substs`. In the section of a controller that no node of the "
+    "launch starts, the finding is information.",
+    why="`roslaunch` replaces only the form `$(arg name)` and treats everything else as literal text. The topic or "
+    "file is then named `$(arg name`. In YAML both launchers replace substitutions only on request.",
     example='<param name="port" value="${arg port}"/>\n<rosparam>rate: $(arg rate)</rosparam>',
     instead='<param name="port" value="$(arg port)"/>\n<rosparam subst_value="true">rate: $(arg rate)</rosparam>',
+    references=(
+        ANONYMOUS_NAMES,
+        ROSLAUNCH_ROSPARAM,
+        LAUNCH_SUBSTITUTIONS,
+    ),
     check=_check,
     problems=(SubstitutionAsText,),
 )

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import CLOCK
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -57,14 +58,15 @@ RULE = Rule(
     id="LCH030",
     name="use-sim-time-without-clock",
     severity="warning",
-    what="Reports `/use_sim_time` being true in a launch of which all nodes are known and none publishes `/clock`. "
-    "Simulators and `rosbag play --clock` count as publishers, and `/clock` among the external topics of the settings "
-    "as one.",
-    why="Timers, rates and timeouts wait for the first message on `/clock`: the nodes start and do nothing, without a "
-    "word.",
+    what="Checks for `/use_sim_time` set to true in a launch where all nodes are known and none publishes `/clock`. "
+    "Simulators, `rosbag play --clock` and `/clock` among `external.topics` count as publishers.",
+    why="Timers, rates and timeouts wait for the first message on `/clock`. The nodes start and do nothing, without "
+    "an error.",
     example='<param name="/use_sim_time" value="true"/>\n<node pkg="amcl" type="amcl" name="amcl"/>',
     instead='<arg name="simulated" default="false"/>\n<param name="/use_sim_time" value="$(arg simulated)"/>\n'
     '<node pkg="amcl" type="amcl" name="amcl"/>',
+    references=(CLOCK,),
+    settings=("external",),
     generations=(1,),
     check=_check,
     needs_graph=True,

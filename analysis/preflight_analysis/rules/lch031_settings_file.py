@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import OUR_SETTINGS
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -15,11 +16,11 @@ RULE = Rule(
     id="LCH031",
     name="settings-file",
     severity="warning",
-    what="Reports a key or a value in `.ros-preflight.yaml`, in the workspace's folder, that is not understood, and a "
-    "settings file that cannot be read.",
-    why="It is left out. What it was meant to say, of topics from outside, of nodes that cannot be run, of how launch "
-    "files are launched, does not count, and findings may be wrong or missing.",
+    what="Checks for invalid keys and values in `.ros-preflight.yaml`, and for a settings file that cannot be read.",
+    why="The invalid part is ignored: external topics, described nodes or roots are missing. Findings may be wrong "
+    "or missing.",
     example="external:\n  topic: [/scan]",
     instead="external:\n  topics: [/scan]",
+    references=(OUR_SETTINGS,),
     check=_check,
 )

@@ -10,6 +10,7 @@ from preflight_analysis.findings.finding import Confidence, Finding, Related, Se
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.elsewhere import absent_top
 from preflight_analysis.rules.files import nearest_file
+from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -99,14 +100,18 @@ RULE = Rule(
     id="LCH032",
     name="python-launch-file-fails",
     severity="error",
-    what="Reports the line of a Python launch file (ROS 2) that raises an exception: while it is loaded, in "
-    "`generate_launch_description`, in an `OpaqueFunction`, or by an action that is given what it does not take. Such "
-    "files are run in the sandbox, if the workspace is trusted, and nothing of what they describe is started. It is "
-    "information where the file itself refuses (`raise`) as it does not find a program, or a file outside of the "
-    "workspace.",
-    why="`ros2 launch` stops there. What earlier actions started may be running by then.",
+    what="Checks for the line of a Python launch file that raises an exception. It may raise while it is loaded, in "
+    "`generate_launch_description`, in an `OpaqueFunction`, or in an action with invalid arguments. Such files run "
+    "in the sandbox if the workspace is trusted. Nothing of what they describe is started. The finding is "
+    "information if the file itself raises because a program, or a file outside of the workspace, is missing.",
+    why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',
+    generations=(2,),
+    references=(
+        FORMATS,
+        SECURITY,
+    ),
     check=_check,
     problems=(
         PythonException,

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.rules.containers_elsewhere import called_elsewhere
+from preflight_analysis.rules.further_reading import COMPOSITION, NODELET
 from preflight_analysis.rules.nearest import did_you_mean, likeness
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
@@ -138,16 +139,21 @@ RULE = Rule(
     id="LCH034",
     name="container-not-found",
     severity="warning",
-    what="Reports a `<load_composable_node>` (`LoadComposableNodes`, ROS 2) whose target is no node of the launch, and "
-    "a nodelet that is to be loaded into a manager which is none (ROS 1). Where there is a container of that name in "
-    "another namespace, of nearly that name, or a single one that nothing is loaded into, it is a warning; otherwise "
-    "it is but a hint, as the container may be started elsewhere, and for information where at least two other launch "
-    "files of the package load into one of nearly that name.",
-    why="The loader waits for the service of the container, without end, and nothing is ever loaded.",
+    what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is no node of the launch (ROS "
+    "2). In ROS 1 it checks for a nodelet whose manager is no nodelet manager. The finding is a warning in three "
+    "cases: a container of that name is in another namespace, a container has a similar name, or a single container "
+    "has no components. It is information if two or more other launch files of the package load into a container of "
+    "a similar name. Otherwise it is a hint, because another launch may start the container.",
+    why="The loader waits for the service of the container without end, and loads nothing.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'
     '<load_composable_node target="vision">...</load_composable_node>',
     instead='<load_composable_node target="/robot/vision">...</load_composable_node>',
+    references=(
+        COMPOSITION,
+        NODELET,
+    ),
+    settings=("nodes",),
     check=_check,
     every_root=True,
     in_branches=True,

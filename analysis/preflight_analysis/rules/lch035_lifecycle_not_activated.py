@@ -5,6 +5,7 @@ from itertools import compress
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import LIFECYCLE, LIFECYCLE_MANAGER
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -138,16 +139,21 @@ RULE = Rule(
     id="LCH035",
     name="lifecycle-not-activated",
     severity="info",
-    what="Points out a lifecycle node, one of the servers of Nav2 for instance, that no `lifecycle_manager` of the "
-    "launch has among its `node_names`, and a name there that no node of the launch has, a warning if one has nearly "
-    "that. It is a warning too where all nodes are known, and none of them can activate another. Where there are "
-    "handlers of events, timers or commands that may activate it, nothing is said (ROS 2).",
-    why="A lifecycle node starts unconfigured: it publishes nothing and offers only the services to change its state, "
-    "until somebody configures and activates it.",
+    what="Checks for a lifecycle node, such as a server of Nav2, that no `lifecycle_manager` of the launch has in "
+    "its `node_names`. It also checks for a name in `node_names` that no node of the launch has. The finding is a "
+    "warning if a node has a similar name. It is a warning too if all nodes are known and none can activate "
+    "another. Handlers of events, timers and commands may activate the node: then there is no finding.",
+    why="A lifecycle node starts unconfigured. It publishes nothing and serves only its state changes until another "
+    "node configures and activates it.",
     example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>',
     instead='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>\n'
     '<node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="lifecycle_manager_map">\n'
     '  <param name="autostart" value="true"/>\n  <param name="node_names" value="[map_server]"/>\n</node>',
+    references=(
+        LIFECYCLE,
+        LIFECYCLE_MANAGER,
+    ),
+    settings=("nodes",),
     generations=(2,),
     check=_check,
     every_root=True,

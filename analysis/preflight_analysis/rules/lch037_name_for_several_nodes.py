@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import COMMAND_LINE, REMAPPING_DESIGN
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -40,13 +41,17 @@ RULE = Rule(
     id="LCH037",
     name="name-for-several-nodes",
     severity="warning",
-    what="Reports a `name` in the tag of a process that makes several nodes, of which a run or their source shows that "
-    "they take it (ROS 2). Nodes that choose their name themselves whatever the launch says are not counted.",
-    why="launch passes `-r __node:=name` to the process, which renames each node in it. They then share one name: "
-    "their parameters, their services and their lifecycle are mixed up, and keys of parameter files with their own "
-    "names fit none of them.",
+    what="Checks for a `name` in the tag of a process with several nodes, if a run or the source shows that they "
+    "take it. Nodes that always choose their own name are not counted.",
+    why="launch passes `-r __node:=name` to the process, which renames each of its nodes. They share one name, and "
+    "their parameters, services and lifecycles collide. Sections of parameter files with their original names apply "
+    "to none of them.",
     example='<!-- makes the nodes front and rear -->\n<node pkg="scanners" exec="both" name="scanner"/>',
     instead='<node pkg="scanners" exec="both">\n  <remap from="front:__node" to="scanner"/>\n</node>',
+    references=(
+        REMAPPING_DESIGN,
+        COMMAND_LINE,
+    ),
     generations=(2,),
     check=_check,
     needs_graph=True,

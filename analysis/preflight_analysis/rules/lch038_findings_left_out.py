@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.clipping import MAX_FINDINGS
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import SECURITY
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -26,12 +27,13 @@ RULE = Rule(
     id="LCH038",
     name="findings-left-out",
     severity="warning",
-    what=f"Counts the findings of a file beyond the {MAX_FINDINGS:,} most severe ones, which are not shown. It is as "
-    "severe as the most severe of them.",
-    why="A file with so many findings was made by a faulty program, or to stall an editor. Nobody reads them all, and "
-    "showing them would take longer than finding them.",
+    what=f"Checks for files with more than {MAX_FINDINGS:,} findings, and counts those that are not shown. The most "
+    "severe findings are shown. The severity is that of the most severe finding that is not shown.",
+    why="A faulty program, or an attack on the editor, makes a file with so many findings. Showing them takes "
+    "longer than finding them.",
     example="<launch>\n  <!-- ten thousand unknown tags -->\n</launch>",
     instead="Correct the first findings, and suppress or switch off the rule that speaks most.",
+    references=(SECURITY,),
     check=_check,
     left_out=_left_out,
 )

@@ -13,6 +13,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.problems import include_chain, quoted, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -107,13 +108,18 @@ RULE = Rule(
     id="LCH039",
     name="glued-strings",
     severity="warning",
-    what="Reports two strings in a list in a Python launch file, between which there is no comma: Python makes one "
-    "string of them. Lists with texts that have blanks, and what is broken at a `/` or another sign, are left alone. "
-    "In ROS 1 a list of a parameter file, too, in which one text is made of values like the others (`true false`).",
-    why="The list has neither of the two: an argument refuses a value that seems to be among its choices, a node "
-    "gets one word for two.",
+    what="Checks for two strings in a list of a Python launch file without a comma between them: Python joins them "
+    "to one string. Lists of texts with blanks, and strings that are split at a `/` or another sign, are not "
+    "reported. In ROS 1 it checks lists of parameter files, if one text consists of values like the others (`true "
+    "false`).",
+    why="The list contains neither of the two. An argument refuses a value that seems to be among its choices, or a "
+    "node gets one word instead of two.",
     example='choices=["diff_drive" "mecanum", "tricycle"]',
     instead='choices=["diff_drive", "mecanum", "tricycle"]',
+    references=(
+        FORMATS,
+        ROSLAUNCH_ROSPARAM,
+    ),
     check=_check,
     in_branches=True,
 )

@@ -10,6 +10,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.further_reading import FORMATS, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.problems import shortened
 from preflight_analysis.rules.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames
 from preflight_analysis.rules.rule import Context, Rule
@@ -127,13 +128,17 @@ RULE = Rule(
     id="LCH040",
     name="substitution-as-value",
     severity="warning",
-    what="Reports a substitution or a condition in a Python launch file that Python itself asks for its value: before "
-    "`and` and `or`, after `not`, in `if`, compared with a text, put into a text. Only objects are spoken of that are "
-    "written there, or whose name is bound in one place of the file.",
-    why="The value is known only while the launch runs. While the file is read the object is always true, equals no "
-    "text, and its text is the name of a Python object. Of `IfCondition(a) and UnlessCondition(b)` the second is left.",
+    what="Checks for a substitution or a condition in a Python launch file whose value Python itself reads: before "
+    "`and` and `or`, after `not`, in `if`, in a comparison with a text, or in a string. Only objects that are "
+    "written there, or whose name is bound once in the file, are checked.",
+    why="The value is unresolved while Python reads the file. The object itself is always true, equals no text, and "
+    "prints as a Python object. `IfCondition(a) and UnlessCondition(b)` is `UnlessCondition(b)`.",
     example="condition=IfCondition(use_rviz) and UnlessCondition(headless)",
     instead="condition=IfCondition(AndSubstitution(use_rviz, NotSubstitution(headless)))",
+    references=(
+        LAUNCH_SUBSTITUTIONS,
+        FORMATS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -10,6 +10,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.further_reading import FORMATS, NODE_ARGUMENTS
 from preflight_analysis.rules.python_names import BoundNames
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -57,12 +58,16 @@ RULE = Rule(
     id="LCH041",
     name="arguments-no-list",
     severity="error",
-    what="Reports `arguments=` of a node, or `cmd=` of a process, in a Python launch file that is one text or a set.",
-    why="launch takes it item by item. Of a text each character is an argument of its own; the items of a set of "
-    "texts come in another order at each launch, so that options lose their values.",
+    what="Checks for `arguments=` of a node, or `cmd=` of a process, that is a single text or a set instead of a list.",
+    why="launch iterates over the value. Each character of a text becomes one argument. The items of a set come in "
+    "another order at each launch, so options lose their values.",
     example='Node(package="tf2_ros", executable="static_transform_publisher", arguments="0 0 0 0 0 0 map odom")',
     instead='Node(package="tf2_ros", executable="static_transform_publisher",\n'
     '     arguments=["--frame-id", "map", "--child-frame-id", "odom"])',
+    references=(
+        FORMATS,
+        NODE_ARGUMENTS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -11,6 +11,7 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.further_reading import FORMATS
 from preflight_analysis.rules.python_names import BoundNames
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -77,11 +78,13 @@ RULE = Rule(
     id="LCH042",
     name="action-lost",
     severity="warning",
-    what="Reports an action that a Python launch file makes and assigns to a variable, which the same block assigns "
-    "another action to before anything uses the first one.",
-    why="What was copied kept the name: the first node, process or include is never launched, and nothing says so.",
+    what="Checks for an action in a Python launch file that is assigned to a variable, if the same block assigns "
+    "another action to that variable before any use.",
+    why="The name was copied with the line. The first node, process or include is never launched, and no tool "
+    "reports it.",
     example='front = Node(package="camera", executable="front")\nfront = Node(package="camera", executable="rear")',
     instead='front = Node(package="camera", executable="front")\nrear = Node(package="camera", executable="rear")',
+    references=(FORMATS,),
     generations=(2,),
     check=_check,
     in_branches=True,

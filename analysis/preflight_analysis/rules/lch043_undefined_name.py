@@ -13,6 +13,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.rules.further_reading import FORMATS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problems_of
 from preflight_analysis.rules.rule import Context, Rule
@@ -119,15 +120,16 @@ RULE = Rule(
     id="LCH043",
     name="undefined-name",
     severity="error",
-    what="Reports a name in a Python launch file that nothing in it defines, imports or takes as an argument, be it in "
-    "a branch that this launch does not take (ROS 2). Files that import `*`, or make names while they run, are left "
-    "alone, as are annotations; in a function that the file does not speak of again it is for information.",
-    why="Python notices it only where it comes to the line: the launch ends with a NameError, for those who set the "
-    "argument that leads there.",
+    what="Checks for a name in a Python launch file that the file does not define, import or take as an argument. "
+    "Branches that this launch does not take are checked too. Files that import `*` or create names at run time are "
+    "not checked, nor are annotations. In a function that the file does not use, the finding is information.",
+    why="Python raises a NameError only when it executes the line. The launch fails for users who set the argument "
+    "that leads there.",
     example="def setup(context):\n    gz_paused = LaunchConfiguration('paused').perform(context)\n"
     "    return simulation(world, paused)",
     instead="def setup(context):\n    gz_paused = LaunchConfiguration('paused').perform(context)\n"
     "    return simulation(world, gz_paused)",
+    references=(FORMATS,),
     generations=(2,),
     check=_check,
 )

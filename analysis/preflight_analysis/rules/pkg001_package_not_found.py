@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import debian_package_of, is_of_family, lack_of_package, near_package
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.places import attribute_location, program_known
@@ -150,16 +151,21 @@ RULE = Rule(
     id="PKG001",
     name="package-not-found",
     severity="error",
-    what="Reports a package, in `$(find ...)` or as a node's `pkg`, that is neither on the package path nor in the "
-    "workspace, and names the nearest one, here or among those that ROS's distributions have released, or the one "
-    "whose folder has that name and whose `package.xml` another. One that is released, or that a `package.xml` names, "
-    "may just not be installed on this machine: that is a hint only, with the Debian package. One that nobody knows "
-    "is an information where the launch has no other such package, and a warning where the workspace has one of a like "
-    "name.",
-    why="`$(find ...)` of a package that is not there stops `roslaunch`; a node of such a package is not started. The "
-    "command `ros-preflight doctor` shows where packages are looked for.",
+    what="Checks for a package, in `$(find ...)` or as the `pkg` of a node, that is neither on the package path nor "
+    "in the workspace. The finding names the nearest package, here or among the released packages of ROS. It also "
+    "names a package whose folder has that name and whose `package.xml` has another. A package that is released, or "
+    "that a `package.xml` names, may be missing on this machine only: this is a hint with the Debian package. An "
+    "unknown package is information if it is the only one in the launch. It is a warning if the workspace has one "
+    "of a similar name.",
+    why="`roslaunch` stops at `$(find ...)` of a missing package, and does not start a node of one. `ros-preflight "
+    "doctor` shows the folders that are searched.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
+    references=(
+        PACKAGE_NAMES,
+        ROSLAUNCH_NODE,
+        ROSDEP,
+    ),
     check=_check,
     problems=(PackageNotFound,),
     in_branches=True,

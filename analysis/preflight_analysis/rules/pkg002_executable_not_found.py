@@ -9,6 +9,7 @@ from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import lack_of_build, lack_of_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location, program_known
@@ -138,13 +139,18 @@ RULE = Rule(
     id="PKG002",
     name="executable-not-found",
     severity="error",
-    what="Reports a node whose `type` (ROS 2: `exec`) is no executable file of its package, and names the nearest one "
-    "that is, or the package of the launch that has it; or that is there without the permission to be executed. One "
-    "that a `CMakeLists.txt` of the package names is not built yet: that is a hint only.",
-    why="`roslaunch` prints an error among the output of the other nodes and goes on without this one; `ros2 launch` "
-    "stops.",
+    what="Checks for a node whose `type` (ROS 2: `exec`) is no executable file of its package. The finding names "
+    "the nearest executable, or the package of the launch that has it. It also checks for a file without the "
+    "permission to execute it. An executable that a `CMakeLists.txt` of the package names is not built yet: this is "
+    "a hint.",
+    why="`roslaunch` prints an error among the output of the other nodes and continues without this one. `ros2 "
+    "launch` stops.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',
     instead='<node pkg="rospy_tutorials" type="talker" name="talker"/>',
+    references=(
+        ROSLAUNCH_NODE,
+        LAUNCH_XML_DESIGN,
+    ),
     check=_check,
     in_branches=True,
 )

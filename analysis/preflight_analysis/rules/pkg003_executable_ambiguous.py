@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ROSLAUNCH_NODE
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -53,12 +54,13 @@ RULE = Rule(
     id="PKG003",
     name="executable-ambiguous",
     severity="warning",
-    what="Reports a node whose package has several executable files of that name with different content. A link to "
-    "the same file, a copy, and what a devel or install space was built to are not counted.",
-    why="`roslaunch` runs the first one that it meets and says nothing. Which one that is depends on the order in "
-    "which the file system lists the folders, so it may be another one on the robot.",
+    what="Checks for a node whose package has several executable files of that name with different content. A link, "
+    "a copy, and a built file in a devel or install space are not counted.",
+    why="`roslaunch` runs the first one that it finds and reports nothing. The order of folders in the file system "
+    "decides, so the robot may run another one.",
     example="scripts/talker.py\nscripts/old/talker.py",
     instead="scripts/talker.py\nscripts/old/talker_2019.py",
+    references=(ROSLAUNCH_NODE,),
     generations=(1,),
     check=_check,
 )

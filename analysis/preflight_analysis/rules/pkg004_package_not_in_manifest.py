@@ -17,6 +17,7 @@ from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
+from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^<>]*>[^<]*</\w+>", re.MULTILINE)
@@ -130,12 +131,17 @@ RULE = Rule(
     id="PKG004",
     name="package-not-in-manifest",
     severity="hint",
-    what="Points out a package that a launch file names, as a node's `pkg` or in `$(find ...)`, "
-    "`$(find-pkg-share ...)`, and that the package to which the file belongs does not name in its `package.xml`, as a "
-    "dependency of whatever kind. Each package is spoken of once in a file.",
-    why="Where the package is installed with `rosdep` or from a binary, what it does not name is not installed: the "
-    "launch file works only where somebody else needed it. In ROS 1 `roslaunch_add_file_check` reports the same.",
+    what="Checks for a package that a launch file uses and the `package.xml` of its own package does not name. A "
+    "use is the `pkg` of a node, `$(find ...)` or `$(find-pkg-share ...)`. Any kind of dependency counts. Each "
+    "package is reported once in a file.",
+    why="`rosdep` and binary packages install only declared dependencies. The launch file fails where no other "
+    "package needs the missing one. In ROS 1 `roslaunch_add_file_check` reports the same.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
     instead="<exec_depend>rviz</exec_depend>",
+    references=(
+        MANIFEST_2,
+        MANIFEST_3,
+        ROSDEP,
+    ),
     check=_check,
 )

@@ -11,6 +11,7 @@ from preflight_analysis.environment.installed_paths import installed_at, install
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
 from preflight_analysis.rules.rule import Context, Rule
 
 _IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPackageShare")
@@ -132,13 +133,18 @@ RULE = Rule(
     id="PKG005",
     name="not-installed",
     severity="warning",
-    what="Reports a launch or parameter file that is named by the share folder of a package, is in the package's "
-    "source, and is not installed by its `setup.py` or `CMakeLists.txt`, or in another folder than that (ROS 2). A "
-    "launch file in the folder `launch` that is not installed below the share folder at all is reported, too.",
-    why="`ros2 launch` looks in the share folder of the installed package, where the file will not be.",
+    what="Checks for a launch or parameter file that is referenced in the share folder of a package and that the "
+    "package does not install there. The file is in the source of the package, and its `setup.py` or "
+    "`CMakeLists.txt` does not install it, or installs it in another folder. A launch file in the folder `launch` "
+    "that is not installed at all is reported too.",
+    why="`ros2 launch` searches the share folder of the installed package. The file is not there.",
     example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
     "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",
     instead="data_files=[('share/robot/config', glob('config/*')), ('share/robot/launch', glob('launch/*'))]",
+    references=(
+        FILE_SYSTEM,
+        LARGE_PROJECTS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

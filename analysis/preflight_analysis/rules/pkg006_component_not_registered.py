@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import COMPOSITION
 from preflight_analysis.rules.nearest import did_you_mean, nearest_class
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
@@ -44,14 +45,15 @@ RULE = Rule(
     id="PKG006",
     name="component-not-registered",
     severity="error",
-    what="Reports the plugin of a `<composable_node>` that is not among those that its package registers, and names "
-    "the nearest of these: those that the prefix of an installed package lists, or that the `CMakeLists.txt` of one in "
-    "the workspace names in `rclcpp_components_register_node(s)`. Packages of which no component is known are left "
-    "alone (ROS 2).",
-    why="The container says `Failed to find class with the requested plugin name` and goes on without it.",
+    what="Checks for the plugin of a `<composable_node>` that its package does not register. The finding names the "
+    "nearest registered component. Registered components are those in the resource index of an installed package. "
+    "In the workspace they are those of `rclcpp_components_register_node(s)` in `CMakeLists.txt`. A package without "
+    "known components is not checked.",
+    why="The container logs `Failed to find class with the requested plugin name` and continues without the component.",
     example='<composable_node pkg="vision" plugin="Detector" name="detector"/>\n'
     '<!-- rclcpp_components_register_nodes(detector "vision::Detector") -->',
     instead='<composable_node pkg="vision" plugin="vision::Detector" name="detector"/>',
+    references=(COMPOSITION,),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -13,6 +13,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.installed import is_installed, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.rule import Context, Rule
@@ -76,11 +77,15 @@ RULE = Rule(
     id="PKG007",
     name="dependency-not-found",
     severity="warning",
-    what="Reports a package that the `package.xml` of a launch file's package names, that is neither in the workspace, "
-    "nor installed, nor released for any distribution of ROS, nor known to rosdep, and whose name is a slip of one "
-    "that is.",
-    why="`rosdep install` stops at it, and what was meant is not installed on the robot.",
+    what="Checks for a dependency in the `package.xml` of a launch file's package that is a typo. The name is not "
+    "in the workspace, not installed, not released for any distribution of ROS and not known to rosdep.",
+    why="`rosdep install` stops at it, and the intended package is not installed on the robot.",
     example="<exec_depend>robot_state_publiser</exec_depend>",
     instead="<exec_depend>robot_state_publisher</exec_depend>",
+    references=(
+        MANIFEST_2,
+        MANIFEST_3,
+        ROSDEP,
+    ),
     check=_check,
 )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.environment import middleware
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import MIDDLEWARE
 from preflight_analysis.rules.installed import has_ros, lack_of_package, near_package
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.problems import include_chain
@@ -39,13 +40,14 @@ RULE = Rule(
     id="PKG008",
     name="middleware-not-installed",
     severity="error",
-    what="Reports, once for a launch, a middleware that `RMW_IMPLEMENTATION` names, in the environment or by a "
-    "`<set_env>`, and that is not installed. A slip of a package's name is an error; otherwise the middleware is "
-    "missing on this machine. Nodes are then run with the default middleware (ROS 2).",
-    why="Each node ends at once: `Expected RMW implementation identifier of 'rmw_cyclonedds_cpp' but instead found "
-    "'rmw_fastrtps_cpp'`.",
+    what="Checks for a middleware in `RMW_IMPLEMENTATION` that is not installed, once in a launch. The "
+    "environment or a `<set_env>` sets the variable. A typo of a package's name is an error. Otherwise the "
+    "middleware is missing on this machine only, and nodes are run with the default one.",
+    why="Each node exits at once with `Expected RMW implementation identifier of 'rmw_cyclonedds_cpp' but instead "
+    "found 'rmw_fastrtps_cpp'`.",
     example='<set_env name="RMW_IMPLEMENTATION" value="rmw_cyclonedd_cpp"/>',
     instead='<set_env name="RMW_IMPLEMENTATION" value="rmw_cyclonedds_cpp"/>',
+    references=(MIDDLEWARE,),
     generations=(2,),
     check=_check,
 )

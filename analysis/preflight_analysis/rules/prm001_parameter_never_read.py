@@ -10,6 +10,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
 from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.parameters import namespace_of, renamed
 from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
@@ -180,16 +181,21 @@ RULE = Rule(
     id="PRM001",
     name="parameter-never-read",
     severity="warning",
-    what="Reports a parameter that no node reads. Where a node reads one of a like name that nothing sets, or the "
-    "same name in another namespace (a level too many or too few, global instead of private), it is a warning that "
-    "names both; otherwise a hint, and only for parameters of a node that is known to its event loop. Reading a "
-    "namespace as a whole reads all parameters in it. Of a node that the catalogue or its source "
-    "alone tell, and not in full, slips are told, and by its source what it reads by the same name elsewhere. "
-    "A parameter of a node that begins with `_`, and that nobody is "
-    "known to read, is a warning, too: so they are written on the command line alone.",
-    why="The node goes on with its default, and nothing says that the value of the launch file is not used.",
+    what="Checks for a parameter that no node reads. The finding is a warning if a node reads an unset parameter of "
+    "a similar name. It is a warning too if a node reads the same name in another namespace: one level too many or "
+    "too few, or global instead of private. Otherwise it is a hint, and only for a node that is known up to its "
+    "event loop. Reading a namespace reads all parameters in it. Of a node that the catalogue or its source "
+    "describes in part, only typos are reported. Its source also shows the same name in another namespace. A "
+    "parameter of a node that begins with `_` is a warning, because that form belongs on the command line.",
+    why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
     instead='<param name="publish_objects" value="false"/>',
+    references=(
+        PARAMETER_SERVER,
+        ROSLAUNCH_PARAM,
+        NAMES,
+    ),
+    settings=("nodes",),
     generations=(1,),
     check=_check,
     needs_graph=True,

@@ -2,20 +2,25 @@
 
 from preflight_analysis.evaluation.problems import ParameterFileNotFound
 from preflight_analysis.rules.files import check_missing_files
+from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(
     id="PRM002",
     name="parameter-file-not-found",
     severity="error",
-    what="Reports a `<rosparam file=...>`, `<param textfile=...>`, `<param binfile=...>` or `<param from=...>` whose "
-    "file does not exist, and names the nearest one of that folder or package. One in a top folder that this machine "
-    "lacks (`/ws/src/...` of a container), or in the folder where the launch is started (`$(env PWD)`), is "
-    "information.",
-    why="`roslaunch` stops and starts nothing. `ros2 launch` stops at that of a component; it starts other nodes "
-    "without the file, on their defaults: then it is a warning.",
+    what="Checks for a parameter file that does not exist: `<rosparam file=...>`, `<param textfile=...>`, `<param "
+    "binfile=...>` or `<param from=...>`. The finding names the nearest file of the folder or package. A file in a "
+    "top folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder "
+    "where the launch is started (`$(env PWD)`).",
+    why="`roslaunch` stops and starts nothing. `ros2 launch` stops if the file is for a component. Other nodes "
+    "start without the file, with their defaults: then it is a warning.",
     example='<rosparam command="load" file="$(find camera)/config/camrea.yaml"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
+    references=(
+        ROSLAUNCH_ROSPARAM,
+        PARAMETERS,
+    ),
     check=check_missing_files({ParameterFileNotFound: "parameter file"}),
     problems=(ParameterFileNotFound,),
     in_branches=True,

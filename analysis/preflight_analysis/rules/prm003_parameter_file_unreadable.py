@@ -2,18 +2,23 @@
 
 from preflight_analysis.evaluation.problems import UnreadableParameterFile
 from preflight_analysis.rules.files import check_unreadable_files
+from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(
     id="PRM003",
     name="parameter-file-unreadable",
     severity="error",
-    what="Reports a parameter file that exists but is a folder, is not permitted to be read, too large, or not text "
-    "where text is needed.",
-    why="`roslaunch` stops and starts nothing. `ros2 launch` starts a node without the file, and stops at that of a "
-    "component: the first is a warning, and information where the path is an argument that is empty.",
+    what="Checks for a parameter file that exists but cannot be read: a folder, without permission, too large, or "
+    "not text.",
+    why="`roslaunch` stops and starts nothing. `ros2 launch` stops if the file is for a component, and starts other "
+    "nodes without the file. The finding is then a warning, and information if the path is an empty argument.",
     example='<rosparam command="load" file="$(find camera)/config"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
+    references=(
+        ROSLAUNCH_ROSPARAM,
+        PARAMETERS,
+    ),
     check=check_unreadable_files(UnreadableParameterFile, "parameter file"),
     problems=(UnreadableParameterFile,),
     in_branches=True,

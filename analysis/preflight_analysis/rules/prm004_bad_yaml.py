@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.problems import BadYaml
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.files import says_not_set
+from preflight_analysis.rules.further_reading import ROSLAUNCH_ROSPARAM, YAML_STANDARD
 from preflight_analysis.rules.problems import problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -20,11 +21,15 @@ RULE = Rule(
     id="PRM004",
     name="bad-yaml",
     severity="error",
-    what="Reports parameters, in a `<rosparam>` or in the file that it loads, that are not valid YAML or not of the "
-    "shape that is needed.",
+    what="Checks for parameters, in a `<rosparam>` or in the file that it loads, that are not valid YAML or have an "
+    "invalid structure.",
     why="`roslaunch` stops and starts nothing.",
     example="<rosparam>\nrate: 10\n\tframe: map\n</rosparam>",
     instead="<rosparam>\nrate: 10\nframe: map\n</rosparam>",
+    references=(
+        ROSLAUNCH_ROSPARAM,
+        YAML_STANDARD,
+    ),
     check=_check,
     problems=(BadYaml,),
     in_branches=True,

@@ -20,6 +20,7 @@ from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.elsewhere import depends_on_working_folder
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
+from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_PARAM
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -269,15 +270,19 @@ RULE = Rule(
     id="PRM005",
     name="file-in-parameter-not-found",
     severity="warning",
-    what="Reports a file that does not exist in the value of a parameter, in the arguments of a node or in a command: "
-    "a path with an extension below a package or the workspace, also as `file://` or `package://`. It names the "
-    "nearest file. Names that speak of something that is written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are left alone; a model or recording, a file that git ignores, or one "
-    "in the folder where the launch is started (`$(env PWD)`), is for information only where there is none like it.",
-    why="The launcher takes the value for any text. The node ends when it opens the file, or goes on without: a camera "
-    "without its calibration, a planner without its limits.",
+    what="Checks for a file that does not exist in the value of a parameter, the arguments of a node or a command. "
+    "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. The "
+    "finding names the nearest file. Names of files that are written (`output`, `log`, `record`, ...), patterns and "
+    "files that the package builds are not reported. A model or recording, a file that git ignores, or a file in "
+    "`$(env PWD)` is information if no similar file exists.",
+    why="The launcher does not check the value. The node exits when it opens the file, or continues without it: a "
+    "camera without its calibration, a planner without its limits.",
     example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
     instead='<param name="camera_info_url" value="file://$(find camera)/config/calibration/left.yaml"/>',
+    references=(
+        ROSLAUNCH_PARAM,
+        PARAMETERS,
+    ),
     check=_check,
     in_branches=True,
 )

@@ -11,6 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import YamlKeyTwice
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
 from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS, ROSLAUNCH_PARAM, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tag, Tags, has_condition
@@ -259,22 +260,29 @@ RULE = Rule(
     id="PRM006",
     name="parameter-set-twice",
     severity="warning",
-    what="Reports a parameter that is set to a value which then does not count, in one of the ways that are easily "
-    "missed: twice in one tag or file, before an include or a file that sets it again, in a `<rosparam>` of a node "
-    "that has a `<param>` of the name, or as a key that stands twice in one YAML dictionary. A parameter file that is "
-    "overridden is what such files are for; of it nothing is said, nor of included files, nor of tags under a "
-    "condition. In ROS 2 it is a `<param>` of a node, or a dictionary in `parameters=[...]`, before another one or a "
-    "file that sets the same, and a value for the node's own name that a wildcard after it in the file replaces.",
-    why="Whoever reads or changes the value that does not count sees no effect. Of several settings the last one "
-    "counts, and neither launcher says anything; but in a `<node>` of ROS 1 each `<param>` comes after each "
-    '`<rosparam>`, and a `<param name="~...">` around the node after those too. In ROS 2 the client library gathers '
-    "all files by their keys first. Of two keys that fit a node, say `/**` and `/camera`, that one counts which is met "
-    "later for the first time: in one file the lower one, be it the wildcard. `<param>`s are for `/**`, unless the "
-    "node has both a `name` and a `namespace`; so a `<param>` does not count after a file with a `/**` and then the "
-    "node's own name, which sets the same.",
+    what="Checks for a parameter value that another one overrides in a way that is easily missed. In ROS 1 the "
+    "parameter is set twice in one tag or file, before an include or file that sets it again, or in the "
+    "`<rosparam>` of a node with a `<param>` of that name. A key that is twice in one YAML dictionary is reported "
+    "too. A parameter file that is overridden on purpose is not reported, nor are included files and tags under a "
+    "condition. In ROS 2 a `<param>`, or a dictionary in `parameters=[...]`, comes before another one or a file "
+    "that sets the same parameter. A value for the node's own name that a later wildcard in the file overrides is "
+    "reported too.",
+    why="A change of the overridden value has no effect. The last of several settings applies, and no launcher "
+    "reports the others. In a `<node>` of ROS 1 each `<param>` comes after each `<rosparam>`. A `<param "
+    'name="~...">` around the node comes after those too. In ROS 2 the client library first collects all files by '
+    "their keys. Of two keys that apply to a node, such as `/**` and `/camera`, the key that first appears later "
+    "applies. In one file this is the lower one, even if it is the wildcard. A `<param>` belongs to `/**`, unless "
+    "the node has both a `name` and a `namespace`. A `<param>` is therefore overridden by an earlier file with "
+    "`/**` and the node's own name.",
     example='<param name="use_sim_time" value="true"/>\n<!-- sets use_sim_time to false -->\n'
     '<include file="$(find robot)/launch/robot.launch"/>',
     instead='<include file="$(find robot)/launch/robot.launch"/>\n<param name="use_sim_time" value="true"/>',
+    references=(
+        ROSLAUNCH_PARAM,
+        ROSLAUNCH_ROSPARAM,
+        PARAMETERS,
+        NODE_ARGUMENTS,
+    ),
     check=_check,
     problems=(YamlKeyTwice,),
 )

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER
 from preflight_analysis.rules.name_tally import NO_NAMES, NameTally
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.parameters import namespace_of
@@ -192,12 +193,16 @@ RULE = Rule(
     id="PRM007",
     name="parameter-without-node",
     severity="warning",
-    what="Reports a parameter below a name that is neither a node's nor a namespace in which one is, and names the "
-    "node with a like name. Without one it is a hint, and only where a tag sets the parameter for itself and nothing "
-    "else in the launch mentions the name. Launch files without nodes and parameters at the top are left alone.",
-    why="The node that was meant goes on with its default, and nothing says that it did not get the value.",
+    what="Checks for a parameter below a name that is neither a node nor a namespace of a node. The finding names "
+    "the node with a similar name. Without one it is a hint, and only if a tag sets the parameter and nothing else "
+    "in the launch mentions the name. Launch files without nodes, and parameters at the top, are not checked.",
+    why="The intended node uses its default, and no tool reports it.",
     example='<param name="/talkr/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
     instead='<param name="/talker/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
+    references=(
+        PARAMETER_SERVER,
+        NAMES,
+    ),
     generations=(1,),
     check=_check,
     every_root=True,

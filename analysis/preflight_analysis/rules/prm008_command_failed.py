@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
+from preflight_analysis.rules.further_reading import ROSLAUNCH_PARAM, SECURITY, XACRO
 from preflight_analysis.rules.installed import (
     lack_of_build,
     lack_of_file,
@@ -149,13 +150,18 @@ RULE = Rule(
     id="PRM008",
     name="command-failed",
     severity="error",
-    what="Reports a `<param command=...>` whose command ended with an error, with the last lines that it printed, or "
-    "whose program does not exist. The command is run in the sandbox, if the workspace is trusted, and again when a "
-    "file that it read has changed. A file that git ignores, or an argument that is empty, is for information. "
-    "`ros-preflight check --no-run` runs nothing and finds missing programs only.",
-    why="`roslaunch` runs the command before it starts the first node, and stops and starts nothing if it fails.",
+    what="Checks for a `<param command=...>` whose command fails or whose program does not exist. The finding "
+    "quotes the last lines of its output. The command runs in the sandbox if the workspace is trusted, and again "
+    "when a file that it read changes. A file that git ignores, or an empty argument, makes the finding "
+    "information. `ros-preflight check --no-run` runs nothing and finds missing programs only.",
+    why="`roslaunch` runs the command before the first node, and starts nothing if it fails.",
     example='<param name="robot_description" command="$(find xacro)/xacro.py $(find arm)/urdf/arm.xacro"/>',
     instead='<param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro"/>',
+    references=(
+        ROSLAUNCH_PARAM,
+        XACRO,
+        SECURITY,
+    ),
     check=_check,
     problems=(
         CommandFailed,

@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.further_reading import PARAMETER_SERVER, ROSLAUNCH_PARAM
 from preflight_analysis.rules.parameters import changed_names
 from preflight_analysis.rules.places import related_param_read
 from preflight_analysis.rules.problems import include_chain, shortened
@@ -149,13 +150,17 @@ RULE = Rule(
     id="PRM009",
     name="parameter-type",
     severity="warning",
-    what="Reports a parameter whose value is of another kind than the default with which a node reads it, where that "
-    "matters: a text for a number, a list or a boolean, a list for a single value. An integer for a float is fine, and "
-    'defaults that stand for "not set" (`False`, `0`, an empty text) are taken for what they are.',
-    why="Some nodes crash at it, some go on with the default, and some take `off` for true. To `roslaunch` "
-    "`1e3`, `0x10` and `1_000` are texts.",
+    what="Checks for a parameter whose value has another kind than the default with which a node reads it. Reported "
+    "are a text for a number, a list or a boolean, and a list for a single value. An integer for a float is valid. "
+    'Defaults that mean "not set" (`False`, `0`, an empty text) are not compared.',
+    why="Some nodes crash, some use the default, and some read `off` as true. For `roslaunch` the values `1e3`, "
+    "`0x10` and `1_000` are texts.",
     example='<param name="rate" value="1e3"/> <!-- rospy.get_param("~rate", 10) -->',
     instead='<param name="rate" value="1000"/>',
+    references=(
+        ROSLAUNCH_PARAM,
+        PARAMETER_SERVER,
+    ),
     generations=(1,),
     check=_check,
     needs_graph=True,

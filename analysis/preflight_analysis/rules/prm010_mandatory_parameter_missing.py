@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFoun
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import likeness, nearest
 from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
@@ -176,17 +177,22 @@ RULE = Rule(
     id="PRM010",
     name="mandatory-parameter-missing",
     severity="warning",
-    what="Reports a parameter that a node reads without giving a default and that the launch does not set. In ROS 2 it "
-    "is an error where the node was run and ended because of it, and a warning where the source of a node in C++ "
-    "declares it by its type alone, in a line that no condition decides. In ROS 1 it is a warning where the node ended "
-    "because of it, shown at the parameter that was meant if one is set under a like name or in a namespace around; "
-    "otherwise a hint, as the node may cope. Where the node goes on, and a parameter that nobody reads was meant, "
-    "PRM001 says so.",
-    why="rospy raises a KeyError; in roscpp the variable keeps whatever it had. rclcpp raises an exception where the "
-    "parameter is declared with a type alone and has no value, and most nodes end by it.",
+    what="Checks for a parameter that a node reads without a default and that the launch does not set. In ROS 2 the "
+    "finding is an error if the node was run and exited because of it. It is a warning if the C++ source declares "
+    "the parameter by type only, in a line without a condition. In ROS 1 it is a warning if the node exited because "
+    "of it. That warning is at the intended parameter if one of a similar name, or in an outer namespace, is set. "
+    "Otherwise it is a hint, because the node may handle the missing value. If the node continues and an unused "
+    "parameter was intended, PRM001 reports it.",
+    why="rospy raises a KeyError; in roscpp the variable keeps its old value. rclcpp throws an exception for a "
+    "parameter that is declared by type only and has no value. Most nodes exit then.",
     example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'
     '<node pkg="p" type="talker" name="talker"/>',
     instead='<node pkg="p" type="talker" name="talker">\n  <param name="rate" value="10"/>\n</node>',
+    references=(
+        PARAMETER_SERVER,
+        PARAMETERS,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

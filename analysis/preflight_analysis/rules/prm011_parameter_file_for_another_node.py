@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.ros2.containers import container_of, containe
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -163,14 +164,19 @@ RULE = Rule(
     id="PRM011",
     name="parameter-file-for-another-node",
     severity="warning",
-    what="Reports a parameter file that is given to a node while none of its keys is the name of the node, with its "
-    "namespace, or a wildcard that fits it (ROS 2), and a key that fits no node and is meant for one that gets the "
-    "file: it is the node's name without its namespace, or nearly its name. A file that several nodes share may have "
-    "nothing for one of them.",
-    why="The node starts with its defaults, and neither `ros2 launch` nor the node says a word.",
+    what="Checks for a parameter file in which no section applies to the node that gets it. A section applies if "
+    "its key is the node's full name, or a wildcard that matches it. It also checks for a key that matches no node "
+    "and is close to one that gets the file: its name without the namespace, or a typo. A file that several nodes "
+    "share may have no section for one of them.",
+    why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',
     instead="localizer:\n  ros__parameters:\n    max_particles: 800",
+    references=(
+        PARAMETERS,
+        NODE_ARGUMENTS,
+        COMMAND_LINE,
+    ),
     generations=(2,),
     check=_check,
 )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Context, Rule
 
 MESSAGE = "'{}' does not stand below '{}', which has to follow the node's name: the file is refused"
@@ -30,12 +31,16 @@ RULE = Rule(
     id="PRM012",
     name="missing-ros-parameters",
     severity="error",
-    what="Reports a value in a parameter file that stands below a node's name without `ros__parameters` between (ROS "
-    "2). The first one of a file is reported. A file for components may have such values: `launch_ros` reads it "
-    "itself. In a parameter file of the package that no node of the launch gets it is a warning.",
+    what="Checks for a value in a parameter file that is below a node's name without `ros__parameters` between "
+    "them. The first one of a file is reported. A file for components may have such values, because `launch_ros` "
+    "reads it. In a parameter file of the package that no node of the launch gets, the finding is a warning.",
     why="The client libraries refuse the whole file, and the node does not start.",
     example="camera:\n  rate: 30",
     instead="camera:\n  ros__parameters:\n    rate: 30",
+    references=(
+        PARAMETERS,
+        NODE_ARGUMENTS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -7,6 +7,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
@@ -127,14 +128,19 @@ RULE = Rule(
     id="PRM013",
     name="parameter-not-declared",
     severity="warning",
-    what="Reports a parameter, in the launch file or in a parameter file, that the node it is for does not declare, "
-    "and names the nearest one that it does (ROS 2). Nothing is said of nodes that take undeclared parameters, but for "
-    "a slip of `use_sim_time`, and of what a controller of ros2_control reads, nor of what is written once for several "
-    "nodes of which one declares it, be it in another launch.",
-    why="The client libraries drop it without a word, and the node keeps its default.",
+    what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. The "
+    "finding names the nearest declared parameter. Nodes that accept undeclared parameters are checked for a typo "
+    "of `use_sim_time` only. Parameters of controllers of ros2_control are not checked. A value that several nodes "
+    "share is not reported if one of them, in any launch, declares it.",
+    why="The client libraries ignore the value without an error, and the node uses its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',
     instead='<param name="max_pressure" value="4.5"/>',
+    references=(
+        PARAMETERS,
+        PARAMETERS_DESIGN,
+    ),
+    settings=("nodes",),
     generations=(2,),
     check=_check,
     needs_graph=True,

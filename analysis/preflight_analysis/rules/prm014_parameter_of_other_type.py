@@ -6,6 +6,7 @@ from typing import Any
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.parameters import refusal_finding
 from preflight_analysis.rules.problems import shortened
 from preflight_analysis.rules.rule import Context, Rule
@@ -116,14 +117,18 @@ RULE = Rule(
     id="PRM014",
     name="parameter-of-other-type",
     severity="error",
-    what="Reports a parameter that arrives at its node with another type than the one that the node declares it with "
-    "(ROS 2). An integer is no double, and a list without items has no type at all. A text of the launch file may "
-    "arrive as something else: launch hands it over in a YAML file and puts it in quotes where Python's YAML needs "
-    "them, while rcl also takes `y`, `n` and `1e3` for values. "
-    "`use_sim_time` is declared by each node, as a bool.",
-    why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes end by it.",
+    what="Checks for a parameter whose type differs from the type that its node declares. An integer is no double, "
+    "and an empty list has no type. A text of the launch file may arrive with another type. launch writes it to a "
+    "YAML file, with quotes only where Python's YAML needs them. rcl also reads `y`, `n` and `1e3` as values. Each "
+    "node declares `use_sim_time` as a bool.",
+    why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes exit.",
     example='<!-- declare_parameter("rate", 10.0) -->\n<param name="rate" value="5"/>',
     instead='<param name="rate" value="5.0"/>',
+    references=(
+        PARAMETERS,
+        PARAMETERS_DESIGN,
+    ),
+    settings=("nodes",),
     generations=(2,),
     check=_check,
     needs_graph=True,

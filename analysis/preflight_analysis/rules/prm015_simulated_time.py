@@ -7,6 +7,7 @@ from preflight_analysis.evaluation.ros2.bridges import is_bridge
 from preflight_analysis.evaluation.ros2.spawners import SPAWN, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import CLOCK_AND_TIME, PARAMETERS
 from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -111,12 +112,17 @@ RULE = Rule(
     id="PRM015",
     name="simulated-time",
     severity="info",
-    what="Reports `use_sim_time` being true in a launch in which nothing publishes `/clock`, and, where something "
-    "does, nodes that do not use it beside more that do (ROS 2).",
-    why="Timers of a node on simulated time wait for the first message on `/clock`; transforms and messages of nodes "
-    "on different clocks look too old or too new to each other.",
+    what="Checks for `use_sim_time` set to true in a launch where no node publishes `/clock`. If a node publishes "
+    "`/clock`, it checks for nodes without `use_sim_time` among a majority with it.",
+    why="Timers of a node on simulated time wait for the first message on `/clock`. Transforms and messages of "
+    "nodes on different clocks look too old or too new to each other.",
     example='<set_parameter name="use_sim_time" value="true"/>',
     instead='<set_parameter name="use_sim_time" value="$(var simulation)"/>',
+    references=(
+        CLOCK_AND_TIME,
+        PARAMETERS,
+    ),
+    settings=("external",),
     generations=(2,),
     check=_check,
     needs_graph=True,

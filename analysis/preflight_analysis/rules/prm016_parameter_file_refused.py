@@ -8,6 +8,7 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, refused_items
 from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -72,15 +73,19 @@ RULE = Rule(
     id="PRM016",
     name="parameter-file-refused",
     severity="error",
-    what="Reports what a parameter file of ROS 2 cannot have although it is YAML: a list whose items are of several "
-    "types, such as `[1, 2.5]`, a list of lists, a parameter without a value, two slashes in a node's name (a key that "
-    "begins with a slash below another one). `y`, `n`, `on` and `off` are bools, so `[x, y, z]` "
-    "is such a list, in a launch file too. In a parameter file of the package that no node of the launch gets, as a "
-    "program rewrites it or an argument names it, it is a warning.",
-    why="The file is refused as a whole: `Sequence should be of same type`. Each node that gets it ends at once, "
-    "whether there is a section for it or not.",
+    what="Checks for parameter files that are valid YAML and that rcl refuses. Reported are a list of mixed types "
+    "such as `[1, 2.5]`, a list of lists, a parameter without a value, and a key with a slash below another key. "
+    "`y`, `n`, `on` and `off` are bools, so `[x, y, z]` is a list of mixed types, in a launch file too. In a "
+    "parameter file of the package that no node of the launch gets, the finding is a warning, because a program or "
+    "an argument may use it.",
+    why="rcl refuses the whole file: `Sequence should be of same type`. Each node that gets it exits at once, even "
+    "if it has no section in the file.",
     example="camera:\n  ros__parameters:\n    gains: [1, 2.5]",
     instead="camera:\n  ros__parameters:\n    gains: [1.0, 2.5]",
+    references=(
+        PARAMETERS,
+        NODE_ARGUMENTS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

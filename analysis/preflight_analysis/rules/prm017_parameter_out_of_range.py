@@ -8,6 +8,7 @@ from textwrap import shorten
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.parameters import refusal_finding
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse, Range
@@ -73,13 +74,18 @@ RULE = Rule(
     id="PRM017",
     name="parameter-out-of-range",
     severity="error",
-    what="Reports a number that is not in the range of the descriptor with which the node declares the parameter, or "
-    "between its steps (ROS 2).",
-    why="rclcpp and rclpy raise InvalidParameterValueException in `declare_parameter`, and most nodes end by it.",
+    what="Checks for a number outside of the range, or between the steps, of the descriptor with which the node "
+    "declares the parameter.",
+    why="rclcpp and rclpy raise InvalidParameterValueException in `declare_parameter`, and most nodes exit.",
     example="<!-- declare_parameter('rate', 10, ParameterDescriptor(integer_range=\n"
     "       [IntegerRange(from_value=1, to_value=50)])) -->\n"
     '<param name="rate" value="100"/>',
     instead='<param name="rate" value="50"/>',
+    references=(
+        PARAMETERS,
+        PARAMETERS_DESIGN,
+    ),
+    settings=("nodes",),
     generations=(2,),
     check=_check,
     needs_graph=True,

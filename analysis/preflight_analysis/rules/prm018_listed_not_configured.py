@@ -15,6 +15,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.places import getters_of
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -153,18 +154,22 @@ RULE = Rule(
     id="PRM018",
     name="listed-not-configured",
     severity="warning",
-    what="Reports a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, ...) for "
-    "which there is no `NAME.plugin`, or `NAME.type`, while there is one for another name of the list (ROS 2). The "
-    "lists that nav2 has by default are left alone: it knows their plugins. Files of the package that no node of the "
-    "launch gets are looked at, too. So is a name in MoveIt's `controller_names` without a section of that name.",
-    why="Whoever reads the list asks for that parameter of each name, and does not start without it. Mostly the list "
-    "has another name than the section with its parameters.",
+    what="Checks for a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, "
+    "...) without a `NAME.plugin` or `NAME.type`, if another name of the list has one. The default lists of Nav2 "
+    "are not checked, because Nav2 knows their plugins. Parameter files of the package that no node of the launch "
+    "gets are checked too. It also checks for a name in `controller_names` of MoveIt without a section.",
+    why="The node requests that parameter for each name of the list and does not start without it. Often the list "
+    "and the section differ in the name.",
     example='plugins: ["voxel_layer", "inflation_layer"]\n'
     'obstacle_layer:\n  plugin: "nav2_costmap_2d::ObstacleLayer"\n'
     'inflation_layer:\n  plugin: "nav2_costmap_2d::InflationLayer"',
     instead='plugins: ["obstacle_layer", "inflation_layer"]\n'
     'obstacle_layer:\n  plugin: "nav2_costmap_2d::ObstacleLayer"\n'
     'inflation_layer:\n  plugin: "nav2_costmap_2d::InflationLayer"',
+    references=(
+        NAV2,
+        PLUGINS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -70,14 +71,15 @@ RULE = Rule(
     id="PRM019",
     name="controller-not-configured",
     severity="warning",
-    what="Reports a controller among the arguments of ros2_control's `spawner` whose type the parameters of the "
-    "node that it asks do not tell (ROS 2). The manager is a node of the launch, or the one that the robot "
-    "description has Gazebo make. Nothing is said where its parameters are not all known, or where the spawner "
-    "brings parameters of its own.",
-    why="The manager refuses to load it: `The 'type' param was not defined`. The spawner ends, and what the "
-    "controller should do nobody does.",
+    what="Checks for a controller in the arguments of the `spawner` of ros2_control without a type in the "
+    "parameters of the controller manager. The manager is a node of the launch, or the one that the robot "
+    "description starts in Gazebo. There is no finding if the parameters of the manager are not all known, or if "
+    "the spawner has its own parameters.",
+    why="The manager refuses to load the controller: `The 'type' param was not defined`. The spawner exits and the "
+    "controller does not run.",
     example="arguments=['streaming_controller']  # the manager's file has twist_controller",
     instead="arguments=['twist_controller']",
+    references=(CONTROLLER_MANAGER,),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -7,6 +7,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import NothingToReplace
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import FORMATS, NAV2
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -62,11 +63,15 @@ RULE = Rule(
     name="nothing-to-replace",
     severity="warning",
     what="Checks for a key in the `param_rewrites` of a `RewrittenYaml`, or a text in the `replacements` of a "
-    "`ReplaceString`, that the source file does not have (ROS 2). Where the file has one of nearly that name it is a "
-    "warning, otherwise a hint: launch files often have rewrites for more than one file.",
-    why="`RewrittenYaml` adds no keys: the nodes keep the value of the file, and nothing says so.",
+    "`ReplaceString`, that the source file does not contain. The finding is a warning if the file has one of a "
+    "similar name, otherwise a hint. Launch files often have rewrites for several files.",
+    why="`RewrittenYaml` adds no keys. The nodes keep the value of the file, and no tool reports it.",
     example="RewrittenYaml(source_file=params, param_rewrites={'use_sim_tme': use_sim_time})",
     instead="RewrittenYaml(source_file=params, param_rewrites={'use_sim_time': use_sim_time})",
+    references=(
+        NAV2,
+        FORMATS,
+    ),
     generations=(2,),
     check=_check,
     problems=(NothingToReplace,),

@@ -16,6 +16,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
 from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.rules.places import getters_of
 from preflight_analysis.rules.problems import rename
@@ -97,12 +98,17 @@ RULE = Rule(
     id="PRM021",
     name="unknown-plugin-type",
     severity="warning",
-    what="Reports a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that the package which it names does "
-    "not have, while that one has another of nearly the same name (ROS 2). What packages have, the catalogue says, of "
-    "those of the workspace their plugin descriptions, where only a slip counts.",
-    why="Nobody finds a plugin of that name: the spawner of the controller ends, the node does not come up.",
+    what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, "
+    "if the package has one of a similar name. The catalogue lists the types of common packages. For packages of "
+    "the workspace the plugin descriptions list them, and only typos are reported.",
+    why="pluginlib does not find the class. The spawner of the controller exits, or the node does not start.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+    references=(
+        PLUGINS,
+        PLUGINLIB,
+        CONTROLLER_MANAGER,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -16,6 +16,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param_file
 from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.rules.places import getters_of
 from preflight_analysis.rules.plugin_params import KIND, LISTED, declared_below
@@ -116,12 +117,16 @@ RULE = Rule(
     id="PRM022",
     name="parameter-of-plugin-not-declared",
     severity="warning",
-    what="Reports a parameter below the name of a plugin that the plugin does not declare, while it declares one of "
-    "nearly the same name that is not set (ROS 2). What plugins of navigation2 declare, the catalogue knows; those of "
-    "the workspace are read from their source. Parameters of other versions of a plugin are left alone.",
-    why="The plugin keeps its default, and nothing says that the value of the file is not used.",
+    what="Checks for a parameter below the name of a plugin that the plugin does not declare, if it declares an "
+    "unset one of a similar name. The catalogue lists the parameters of the plugins of Nav2. Plugins of the "
+    "workspace are read from their source. Parameters of other versions of a plugin are not reported.",
+    why="The plugin uses its default, and no tool reports that the value of the file is unused.",
     example='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_maxx: 0.3',
     instead='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_max: 0.3',
+    references=(
+        NAV2,
+        PLUGINS,
+    ),
     generations=(2,),
     check=_check,
     in_branches=True,

@@ -6,6 +6,7 @@ from itertools import chain
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.graph.qos import incompatible
+from preflight_analysis.rules.further_reading import QOS, QOS_DESIGN
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -71,12 +72,18 @@ RULE = Rule(
     id="QOS001",
     name="incompatible-qos",
     severity="error",
-    what="Reports a publisher and a subscriber of one topic that never connect, as the subscription asks for more than "
-    "the publisher offers: reliability, durability, liveliness or deadline (ROS 2).",
-    why="The middleware does not match them. At best each end logs a line about incompatible QoS; no message arrives.",
+    what="Checks for a publisher and a subscriber of one topic with incompatible QoS: the subscriber requests more "
+    "than the publisher offers. Compared are reliability, durability, liveliness and deadline.",
+    why="The middleware does not connect them, and no message arrives. At best each side logs a line about "
+    "incompatible QoS.",
     example="<!-- the driver publishes /scan as best effort, the filter subscribes to it as reliable -->\n"
     '<node pkg="laser" exec="filter" name="filter"/>',
     instead="subscription = node.create_subscription(LaserScan, 'scan', callback, qos_profile_sensor_data)",
+    references=(
+        QOS,
+        QOS_DESIGN,
+    ),
+    settings=("nodes",),
     generations=(2,),
     check=_check,
     needs_graph=True,

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from preflight_analysis.rules.fix_availability import AVAILABILITY, fix_availability
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.rules.rule import Rule
 
 COMMAND = "python -m preflight_analysis.rules.reference docs/rules"
+SECTIONS = (
+    "What it checks",
+    "Why it matters",
+    "Example",
+    "How to fix",
+    "Fix availability",
+    "Options",
+    "Since",
+    "ROS versions",
+    "References",
+)
+"""The headings of each page, in their order."""
 _FAMILIES = {
     "ACT": "Actions",
     "ARG": "Arguments",
@@ -22,30 +36,65 @@ _FAMILIES = {
     "TOP": "Topics",
     "TRC": "Tracing",
 }
-_IN_BRANCHES = "It looks into tags that a condition leaves out, too, and says with which arguments it holds.\n"
+_IN_BRANCHES = (
+    "\n\nTags under a false condition are checked too. The finding names the arguments that make the condition true."
+)
+_EVERY_ROOT = "\n\nIn a file that other files include, the finding is shown only if it applies in every root."
 _GENERATED = f"<!-- Written by `{COMMAND}`. Do not edit: the text is in the rule's file. -->\n"
+_ROS_VERSIONS = {(1, 2): "ROS 1 and ROS 2.", (1,): "ROS 1.", (2,): "ROS 2."}
+_SETTINGS = {
+    "external": "`external.topics` names topics that other programs publish or subscribe to.",
+    "nodes": "`nodes` describes nodes that cannot be run.",
+    "roots": "`roots` names the launch files to launch, and their arguments.",
+}
+"""What the keys of the settings file do that a rule's `settings` names."""
+_PYTHON = ("def ", "while ", "open(", "pub =", "Node(", "front =", "condition=", "choices=", "arguments=", "Rewritten")
 
 
 def pages() -> dict[str, str]:
     """The reference: file name to content, an `index.md` and a page for each rule."""
     rules = all_rules()
-    return {"index.md": _index(rules), **{f"{rule.id}.md": page(rule) for rule in rules}}
+    return {"index.md": _index(rules), **{f"{rule.id}.md": f"{_GENERATED}\n{page(rule)}" for rule in rules}}
 
 
 def page(rule: Rule) -> str:
     """One rule in Markdown."""
+    sections = zip(SECTIONS, _contents(rule), strict=True)
     return "\n".join(
         (
-            _GENERATED,
             f"# {rule.id} {rule.name}\n",
             f"Severity: {rule.severity}{_needs(rule)}\n",
-            f"## What it does\n\n{rule.what}\n",
-            *([_IN_BRANCHES] if rule.in_branches else []),
-            f"## Why is this bad\n\n{rule.why}\n",
-            f"## Example\n\n```{_language(rule.example)}\n{rule.example}\n```\n",
-            f"## Use instead\n\n```{_language(rule.instead)}\n{rule.instead}\n```\n",
-            f"To silence it on a line: `<!-- preflight: ignore[{rule.id}] reason -->` there or on the line above.",
-            "",
+            *(f"## {heading}\n\n{content}\n" for heading, content in sections),
+        )
+    )
+
+
+def _contents(rule: Rule) -> Iterator[str]:
+    """What is below each heading."""
+    more = (_IN_BRANCHES if rule.in_branches else "") + (_EVERY_ROOT if rule.every_root else "")
+    yield f"{rule.what}{more}"
+    yield rule.why
+    yield _block(rule.example)
+    yield f"Use instead:\n\n{_block(rule.instead)}"
+    yield AVAILABILITY[fix_availability(rule)]
+    yield _options(rule)
+    yield f"Version {rule.since}."
+    yield _ROS_VERSIONS[rule.generations]
+    yield "\n".join(f"- {each}" for each in rule.references)
+
+
+def _options(rule: Rule) -> str:
+    return "\n".join(
+        (
+            "In [`.ros-preflight.yaml`](../settings.md):\n",
+            f"- `severities` sets the severity of {rule.id}: `off`, `hint`, `info`, `warning` or `error`.",
+            "- `paths` does the same for some files only.",
+            *(f"- {_SETTINGS[each]}" for each in rule.settings),
+            "\nTo suppress one finding, add a comment on its line or the line above.",
+            "\nIn XML:\n",
+            f"```xml\n<!-- preflight: ignore[{rule.id}] reason -->\n```",
+            "\nIn YAML and Python:\n",
+            f"```yaml\n# preflight: ignore[{rule.id}] reason\n```",
         )
     )
 
@@ -75,8 +124,11 @@ def _index(rules: Sequence[Rule]) -> str:
     for prefix, family in _FAMILIES.items():
         members = [rule for rule in rules if rule.id.startswith(prefix)]
         if members:
-            lines += [f"## {family}\n", "| rule | name | severity |", "| --- | --- | --- |"]
-            lines += [f"| [{rule.id}]({rule.id}.md) | {rule.name} | {rule.severity} |" for rule in members]
+            lines += [f"## {family}\n", "| rule | name | severity | fix |", "| --- | --- | --- | --- |"]
+            lines += [
+                f"| [{rule.id}]({rule.id}.md) | {rule.name} | {rule.severity} | {fix_availability(rule)} |"
+                for rule in members
+            ]
             lines.append("")
     return "\n".join(lines)
 
@@ -85,10 +137,16 @@ def _needs(rule: Rule) -> str:
     return "; needs the interfaces of the nodes" if rule.needs_graph else ""
 
 
+def _block(text: str) -> str:
+    return f"```{_language(text)}\n{text}\n```"
+
+
 def _language(text: str) -> str:
     if text.startswith("<"):
         return "xml"
-    return "python" if text.startswith(("def ", "while ", "open(", "pub =")) else "text"
+    if text.startswith(_PYTHON):
+        return "python"
+    return "yaml" if re.match(r"[\w/]+:(\s|$)", text) and "was not run" not in text else "text"
 
 
 if __name__ == "__main__":

@@ -132,6 +132,8 @@ class Rule(RuleDescription):
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
     `left_out` is for the one rule that counts the findings of a file which are too many to be shown.
+    `references` are Markdown links (`further_reading.py`), `since` the first version that has the rule, `settings` keys
+    of `.ros-preflight.yaml` that change what it finds, beside those of all rules.
     """
 
     check: Check = field(repr=False)
@@ -140,6 +142,9 @@ class Rule(RuleDescription):
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)
     in_branches: bool = False
+    references: tuple[str, ...] = ()
+    since: str = "0.1.0"
+    settings: tuple[str, ...] = ()
     unused_suppression: Callable[[Rule, Suppression], Finding] | None = field(default=None, repr=False)
     left_out: Callable[[Rule, str, Sequence[Finding]], Finding] | None = field(default=None, repr=False)
 

@@ -6,6 +6,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_providers
+from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import nodes_looked_at, weight
 from preflight_analysis.rules.near_miss_fixes import fixes_in
@@ -101,14 +102,19 @@ RULE = Rule(
     id="SRV001",
     name="service-not-offered",
     severity="warning",
-    what="Reports a node with a client of a service that no node of the launch offers. Where one offers a service of a "
-    "like name and the same type, or one with a word in common that nobody calls while the client's node waits for its "
-    "own, it is a warning that names both; otherwise a hint, as the service may be offered by "
-    "something that is started elsewhere, and for information where the client's remap is a slip of one that several "
-    "launch files around have.",
-    why="A client that waits for the service waits for ever; one that does not gets an error at its first call.",
+    what="Checks for a service client whose service has no server in the launch. The finding is a warning if a node "
+    "serves one of a similar name and the same type. It is a warning too if the client's node waits for the service "
+    "while a service with a word in common has no client. It is information if the client's remap is a typo of one "
+    "in several launch files nearby. Otherwise it is a hint, because another launch may start the server.",
+    why="A client that waits for the service waits forever. A client that does not wait gets an error at its first "
+    "call.",
     example='<!-- the base offers reset_odometry -->\n<remap from="reset" to="reset_odometri"/>',
     instead='<remap from="reset" to="reset_odometry"/>',
+    references=(
+        SERVICES,
+        SERVICES_2,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

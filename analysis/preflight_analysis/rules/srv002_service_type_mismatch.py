@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.type_mismatch import mismatches
@@ -16,11 +17,16 @@ RULE = Rule(
     id="SRV002",
     name="service-type-mismatch",
     severity="error",
-    what="Reports a service that one node offers with another type than a second one calls it with, or with another "
-    "definition (MD5 sum) of the same type.",
+    what="Checks for a service whose server and client have different types, or different definitions (MD5 sums) of "
+    "one type.",
     why="Every call fails.",
     example='<!-- /reset: std_srvs/Empty offered, std_srvs/Trigger called -->\n<remap from="restart" to="/reset"/>',
     instead='<remap from="restart" to="/restart"/>',
+    references=(
+        SERVICES,
+        SERVICES_2,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.further_reading import MASTER, SERVICES, SERVICES_2
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -56,15 +57,20 @@ RULE = Rule(
     id="SRV003",
     name="service-offered-twice",
     severity="warning",
-    what="Reports a service that two nodes of the launch offer under one name.",
-    why="The master of ROS 1 knows one server for a service: the node that registers last takes it from the other, and "
-    "which one that is differs from start to start. Two nodelets of one manager are one node, which refuses the second "
-    "one. In ROS 2 a request is a message that each server gets: all of them do what it asks for, and the client takes "
-    "the first answer, whichever server that is of.",
+    what="Checks for a service that two nodes of the launch serve under one name.",
+    why="The master of ROS 1 knows one server for a service. The node that registers last replaces the other, and "
+    "the order differs from start to start. Two nodelets of one manager are one node, which refuses the second "
+    "server. In ROS 2 each server receives each request and executes it. The client takes the first answer.",
     example='<node pkg="base" type="driver" name="left"/> <!-- both offer /reset -->\n'
     '<node pkg="base" type="driver" name="right"/>',
     instead='<node pkg="base" type="driver" name="left" ns="left"/>\n'
     '<node pkg="base" type="driver" name="right" ns="right"/>',
+    references=(
+        SERVICES,
+        MASTER,
+        SERVICES_2,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

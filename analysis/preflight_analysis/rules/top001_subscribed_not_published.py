@@ -6,6 +6,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
+from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
@@ -87,16 +88,26 @@ RULE = Rule(
     id="TOP001",
     name="subscribed-not-published",
     severity="warning",
-    what="Reports a node that subscribes to a topic which no node of the launch publishes. Where one publishes a topic "
-    "of a like name and the same type, or one that differs by a leading slash or a namespace, it is a warning that "
-    "names both, at the remap that gave the name if there is one; otherwise only a hint, as the publisher may be "
-    "started elsewhere (for information where the remap is a slip of one that several launch files around have), and "
-    "nothing where a node ended before its event loop: it may be that one's.",
-    why="The node waits for messages that never come, and nothing says so: not `roslaunch`, not the node.",
+    what="Checks for a subscriber whose topic has no publisher in the launch. The finding is a warning if a node "
+    "publishes a topic of the same type and a similar name, or a name that differs by a leading slash or a "
+    "namespace. It names both and is at the remap that set the name, if there is one. It is information if the "
+    "remap is a typo of one in several launch files nearby. Otherwise it is a hint, because another launch may "
+    "start the publisher. There is no finding if a node exited before its event loop, because it may be the "
+    "publisher.",
+    why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',
     instead='<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chatter"/>\n</node>',
+    references=(
+        TOPICS,
+        TOPICS_2,
+        REMAPPING_DESIGN,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -6,6 +6,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import dangling_topic_providers
+from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import connection_location, endpoints_of
@@ -51,11 +52,19 @@ RULE = Rule(
     id="TOP002",
     name="published-not-subscribed",
     severity="hint",
-    what="Says which topics of a node have no subscriber in the launch: a hint, and for information where "
-    "the remap of one is a slip of a name that several launch files around remap to.",
-    why="Mostly that is as it should be. Where something does not move, it is where to look first.",
+    what="Checks for published topics without a subscriber in the launch, per node. The finding is a hint. It is "
+    "information if the remap of a topic is a typo of one in several launch files nearby.",
+    why="Most of these topics are fine. If a robot does not move, check them first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',
+    references=(
+        TOPICS,
+        TOPICS_2,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

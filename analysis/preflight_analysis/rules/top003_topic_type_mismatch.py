@@ -6,6 +6,7 @@ from itertools import chain
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.rules.channels import channels_of
+from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -44,13 +45,20 @@ RULE = Rule(
     id="TOP003",
     name="topic-type-mismatch",
     severity="error",
-    what="Reports a topic that one node publishes with another type than a second one subscribes to, or with another "
-    "definition (MD5 sum) of the same type. `*` fits any type. So is one that the same node publishes, or subscribes "
-    "to, with two types.",
-    why="The two nodes refuse to connect, with one line in a log; no message arrives.",
+    what="Checks for a topic whose publisher and subscriber have different types, or different definitions (MD5 "
+    "sums) of one type. `*` matches any type. It also checks for one node that uses a topic with two types.",
+    why="The two nodes refuse to connect, with one line in a log. No message arrives.",
     example="<!-- /pose: geometry_msgs/Pose published, geometry_msgs/PoseStamped subscribed -->\n"
     '<remap from="goal" to="/pose"/>',
     instead='<remap from="goal" to="/pose_stamped"/>',
+    references=(
+        TOPICS,
+        TOPICS_2,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps
 from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
@@ -72,15 +73,20 @@ RULE = Rule(
     id="TOP004",
     name="remap-without-effect",
     severity="warning",
-    what="Reports a remap whose `from` is no topic, service or parameter of the nodes that it reaches, all of which "
-    "were run to their event loop or tell all by their source. It is a warning that names what was probably meant where"
-    " a node has a dangling end of a like name, or only one that fits what is there under the remap's `to`; "
-    "otherwise a hint, since a node or a library that it links may use the name later, and an information where the "
-    "catalogue has the node and nothing that decides what it does. Namespaces of names that are used, and names below "
-    "one, count as used: actions, image transports and `dynamic_reconfigure` make theirs so.",
-    why="A remap of a name that does not occur is ignored without a word, and the node keeps its own name.",
+    what="Checks for a remap whose `from` is no topic, service or parameter of its nodes. All of these nodes were "
+    "run up to their event loop, or static analysis describes them completely. The finding is a warning if a node "
+    "has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`. It is information "
+    "if only the catalogue knows the node and no argument decides what it does. Otherwise it is a hint, because the "
+    "node or a library may use the name later. Namespaces of names in use, and names below one, count as used: "
+    "actions, image transports and `dynamic_reconfigure` create such names.",
+    why="A remap of an unused name is ignored without an error, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
     instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',
+    references=(
+        ROSLAUNCH_REMAP,
+        REMAPPING_DESIGN,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
     every_root=True,

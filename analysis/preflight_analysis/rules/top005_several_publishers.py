@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -83,15 +84,23 @@ RULE = Rule(
     id="TOP005",
     name="several-publishers",
     severity="warning",
-    what="Reports a topic that is meant for one publisher and has several: `/clock`, latched topics, and what a sensor "
-    "sends. It is a warning for latched maps and for images and their calibration, an info for other latched topics, "
-    "scans, inertial measurements and odometry. Transforms, markers and diagnostics, "
-    "whose messages say whose they are, are meant for many.",
-    why="A latched message is taken for the state of the world. With two of them, what a subscriber believes depends "
-    "on the order in which they arrive.",
+    what="Checks for several publishers of a topic that should have one: `/clock`, latched topics and sensor data. "
+    "The finding is a warning for latched maps, and for images and their calibration. It is information for other "
+    "latched topics, scans, inertial measurements and odometry. Transforms, markers and diagnostics name their "
+    "source in each message, and are not reported.",
+    why="Subscribers treat a latched message as the state of the world. With two publishers the state depends on "
+    "the order of arrival.",
     example='<node pkg="map_server" type="map_server" name="map_server"/> <!-- both publish /map -->\n'
     '<node pkg="gmapping" type="slam_gmapping" name="slam"/>',
     instead='<node pkg="gmapping" type="slam_gmapping" name="slam"/>',
+    references=(
+        TOPICS,
+        TOPICS_2,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

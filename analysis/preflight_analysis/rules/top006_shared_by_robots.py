@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -99,16 +100,24 @@ RULE = Rule(
     id="TOP006",
     name="shared-by-robots",
     severity="warning",
-    what="Reports a topic outside of the namespaces of two robots on which each of them publishes with one node and "
-    "subscribes with another: the same executables run in two namespaces, and the name of the topic is absolute, in a "
-    "remap or in the code. One of several parts (`/fleet/poses`) that the code itself has may be meant so, and is only "
-    "pointed out. Transforms, the clock, markers and diagnostics are meant to be shared, and a node that "
-    "subscribes to what it publishes talks to its like.",
-    why="A namespace keeps robots apart as long as names are relative. At an absolute name it is lost: the commands of "
-    "one robot move the other as well.",
+    what="Checks for a topic outside of the namespaces of two robots that each robot publishes and subscribes to "
+    "with different nodes. Two robots are the same executables in two namespaces. The topic has an absolute name, "
+    "in a remap or in the code. A name of several parts in the code (`/fleet/poses`) may be intended, and is "
+    "information. Transforms, the clock, markers and diagnostics are shared on purpose and not reported. The same "
+    "applies to a node that subscribes to its own topic.",
+    why="A namespace separates robots only while names are relative. With an absolute name the commands of one "
+    "robot move the other as well.",
     example='<group>\n  <push_ros_namespace namespace="robot1"/>\n'
     '  <node pkg="base" exec="driver"><remap from="cmd_vel" to="/cmd_vel"/></node>\n</group>',
     instead='<group>\n  <push_ros_namespace namespace="robot1"/>\n  <node pkg="base" exec="driver"/>\n</group>',
+    references=(
+        NAMES,
+        TOPIC_NAMES,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

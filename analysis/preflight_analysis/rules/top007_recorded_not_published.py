@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.rules.further_reading import ROSBAG, ROSBAG2
 from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.places import argument_location, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
@@ -93,12 +94,20 @@ RULE = Rule(
     id="TOP007",
     name="recorded-not-published",
     severity="warning",
-    what="Reports a topic in the arguments of `rosbag record` or of a process `ros2 bag record` that no node of the "
-    "launch publishes or subscribes to, where one publishes a topic of nearly that name. Where not all nodes are known "
-    "it is for information. Other topics of a recorder may come from elsewhere and are left alone.",
-    why="The recorder waits for the topic without a word, and the recording lacks it.",
+    what="Checks for a topic in the arguments of `rosbag record` or `ros2 bag record` without publisher and "
+    "subscriber in the launch, if a node publishes a topic of a similar name. The finding is information if not all "
+    "nodes are known. Other topics of a recorder may come from another launch and are not reported.",
+    why="The recorder waits for the topic without an error, and the recording lacks it.",
     example='<node pkg="rosbag" type="record" name="record" args="/scna /odom"/>',
     instead='<node pkg="rosbag" type="record" name="record" args="/scan /odom"/>',
+    references=(
+        ROSBAG,
+        ROSBAG2,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.rules.further_reading import ROSBAG, ROSBAG2
 from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.places import argument_location, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
@@ -104,12 +105,20 @@ RULE = Rule(
     id="TOP008",
     name="played-not-subscribed",
     severity="warning",
-    what="Checks for a topic in the arguments of `rosbag play` or of a process `ros2 bag play`, after `--topics` or as "
-    "the new name in a remap, that no node of the launch subscribes to, where a node subscribes to a topic of nearly "
-    "that name which nobody publishes. Where not all other nodes are known it is for information.",
-    why="The recording is played, the node waits for its messages, and nothing says that the names differ.",
+    what="Checks for a topic in the arguments of `rosbag play` or `ros2 bag play` that no node of the launch "
+    "subscribes to. The topic follows `--topics` or is the new name in a remap. A node subscribes to a topic of a "
+    "similar name that has no publisher. The finding is information if not all other nodes are known.",
+    why="The recording is played and the node waits for its messages. No tool reports that the names differ.",
     example='<node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scna"/>',
     instead='<node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scan"/>',
+    references=(
+        ROSBAG,
+        ROSBAG2,
+    ),
+    settings=(
+        "external",
+        "nodes",
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

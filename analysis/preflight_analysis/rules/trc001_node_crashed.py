@@ -11,6 +11,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.elsewhere import absent_top_said, paths_said
+from preflight_analysis.rules.further_reading import RUNS, SECURITY
 from preflight_analysis.rules.installed import lack_of_made, lack_of_own_file, lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
@@ -166,20 +167,23 @@ RULE = Rule(
     id="TRC001",
     name="node-crashed",
     severity="warning",
-    what="Reports a node that ended with an error before it reached its event loop, with the line of its standard "
-    "error that tells why.",
-    why="With the parameters and arguments of this launch file it would most likely end so on the robot too. Only "
-    "what it did until then is known of it. "
-    "Where it was given a made-up answer before, the crash may come from that: it is only an information then, as "
-    "where the node ended for a parameter of which PRM001, PRM010, PRM014 or PRM017 tells, or asked for one whose "
-    "value is an error of its own or `robot_description`, which no parameter of the launch is called, "
-    "does not find a file in a top folder that this machine lacks (`/ws/src/...` of a "
-    "container), or needs what only the sandbox lacks: a device, a network, a display, a browser's "
-    "own sandbox, a folder to write to, another node's topic, "
-    "a file that git ignores, where it is a `<test>`, for which the nodes that it tests are not there, "
-    "or where a shell script tells that a signal killed another program.",
+    what="Checks for a node that exits with an error before its event loop. The finding quotes the line of its "
+    "standard error that gives the cause. It is information if the cause may be outside of the launch file. Such "
+    "causes are: a made-up answer that the node received, a parameter that PRM001, PRM010, PRM014 or PRM017 "
+    "reports, a value that is an error of its own, and a missing `robot_description`. Other such causes are a top "
+    "folder that this machine lacks (`/ws/src/...` of a container), and what only the sandbox lacks. The sandbox "
+    "may lack a device, a network, a display, a browser's own sandbox, a folder to write to, a topic of another "
+    "node, or a file that git ignores. A `<test>`, and a program that a signal kills in a shell script, are "
+    "information too.",
+    why="With these parameters and arguments the node most likely exits on the robot too. Only what it did before "
+    "is known.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
+    references=(
+        RUNS,
+        SECURITY,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
 )

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import RUNS
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -26,12 +27,14 @@ RULE = Rule(
     id="TRC002",
     name="node-exited",
     severity="info",
-    what="Says that a node ended by itself, with exit code 0, before it reached an event loop.",
-    why="Some do their work and are done. Where it is not meant to, it lacks its loop or gave up on something; only "
-    "what it did until then is known of it.",
+    what="Checks for a node that exits with code 0 before its event loop.",
+    why="Some nodes do their work and exit. If the node should keep running, it lacks its loop or has given up. "
+    "Only what it did before is known.",
     example="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)",
     instead="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)\n"
     "    rospy.spin()",
+    references=(RUNS,),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
 )

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import RUNS
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -25,13 +26,15 @@ RULE = Rule(
     id="TRC003",
     name="node-timed-out",
     severity="info",
-    what="Says that a node was still starting when its time was up.",
-    why="Only what it did until then is known of it: it may have more topics, services and parameters. A node that is "
-    "seen to wait for another one (for a service, a message, an action server, a transform, a parameter, simulated "
-    "time) gets a made-up answer. This one waits for something that nobody in the sandbox gives it: the finding says "
-    "for what, if the node was seen to ask for it, and which answers did not help.",
+    what="Checks for a node that is still starting when its time is up.",
+    why="Only what it did until then is known: it may have more topics, services and parameters. A node that waits "
+    "for another one gets a made-up answer: a service, a message, an action server, a transform, a parameter or "
+    "simulated time. This node waits for something that no answer in the sandbox satisfies. The finding names it if "
+    "the node was seen to request it.",
     example="while not ready():  # for hardware, say\n    time.sleep(1)\npub = rospy.Publisher('state', String)",
     instead="pub = rospy.Publisher('state', String)\nwhile not ready():\n    time.sleep(1)",
+    references=(RUNS,),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
 )

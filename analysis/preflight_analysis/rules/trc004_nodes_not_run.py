@@ -6,6 +6,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ANNOTATIONS, RUNS, SECURITY
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface
 
@@ -57,13 +58,19 @@ RULE = Rule(
     id="TRC004",
     name="nodes-not-run",
     severity="info",
-    what="Says which nodes were not run, and why: the workspace is not trusted, there is no sandbox on this machine, a "
-    "value that the node needs is unknown.",
-    why="Of their topics, services and parameters is known what annotations or the settings say, else what the same "
-    "executable did in a run under another configuration, else what the source says. Findings about connections are "
-    "missing, or less sure.",
+    what="Checks for nodes that were not run, and gives the reason: the workspace is not trusted, no sandbox works "
+    "on this machine, or a value is unresolved.",
+    why="Their topics, services and parameters come from annotations or settings. Without those they come from a "
+    "run of the same executable with other settings, or from its source. Findings about connections are missing or "
+    "less certain.",
     example="ros-preflight: the 2 nodes of this launch were not run: the workspace is not trusted",
     instead="Trust the workspace in the editor, install `bubblewrap`, or annotate the nodes.",
+    references=(
+        RUNS,
+        SECURITY,
+        ANNOTATIONS,
+    ),
+    settings=("nodes",),
     generations=(1,),
     check=_check,
 )

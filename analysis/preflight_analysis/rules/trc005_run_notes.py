@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from itertools import compress
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import RUNS, SECURITY
 from preflight_analysis.rules.installed import lack_of_module
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -33,13 +34,17 @@ RULE = Rule(
     id="TRC005",
     name="run-notes",
     severity="info",
-    what="Tells what was noticed of a node when it was run in the sandbox: it tried to write where it may not, did not "
-    "end when asked to, wrote more than is read, waited for something and got a made-up answer, or the like. That it "
-    "imports what is not on this machine, and ran with a stand-in, is a hint.",
-    why="Nothing of that reached the machine, but on the robot it would; and what the node did after a refusal or a "
-    "made-up answer may differ from what it does there.",
+    what="Checks for events in the run of a node in the sandbox: a refused write, no exit on request, too much "
+    "output, or a made-up answer. An import that is missing on this machine, and replaced by a stand-in, is a hint.",
+    why="Nothing of this reached the machine, but on the robot it does. After a refusal or a made-up answer the "
+    "node may behave differently than on the robot.",
     example="open('/home/me/.calibration', 'w')",
     instead="open(os.path.join(rospkg.get_ros_home(), 'calibration'), 'w')",
+    references=(
+        RUNS,
+        SECURITY,
+    ),
+    settings=("nodes",),
     check=_check,
     needs_graph=True,
 )

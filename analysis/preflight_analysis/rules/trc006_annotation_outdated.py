@@ -8,6 +8,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare
+from preflight_analysis.rules.further_reading import ANNOTATIONS, RUNS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -82,13 +83,17 @@ RULE = Rule(
     id="TRC006",
     name="annotation-outdated",
     severity="warning",
-    what="Compares the `<topics>`, `<services>`, `<actions>` and `<params>` that annotate a node with its run: another "
-    "type is a warning; what was not seen until the event loop, and what the annotation lacks, are hints. Parameters "
-    "are only missed where some are annotated.",
-    why="The annotation counts where the node cannot be run: on another machine, in a workspace that is not trusted, "
-    "without its hardware. What is wrong in it then leads to wrong findings. It may say more than the run on purpose.",
+    what="Checks the `<topics>`, `<services>`, `<actions>` and `<params>` that annotate a node against its run. A "
+    "different type is a warning. What the run did not show before the event loop, and what the annotation lacks, "
+    "are hints. Missing parameters are reported only if some are annotated.",
+    why="The annotation applies where the node cannot be run: on another machine, in an untrusted workspace, "
+    "without hardware. Errors in it cause wrong findings there. It may describe more than the run on purpose.",
     example='<!-- <topics><topic name="scan" type="sensor_msgs/PointCloud" class="pub"/></topics> -->',
     instead='<!-- <topics><topic name="scan" type="sensor_msgs/LaserScan" class="pub"/></topics> -->',
+    references=(
+        ANNOTATIONS,
+        RUNS,
+    ),
     check=_check,
     needs_graph=True,
     every_root=True,

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
+from preflight_analysis.rules.fix_availability import fix_availability
+from preflight_analysis.rules.reference import page
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.rules.rule import Rule
 
@@ -54,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
     return CLEAN
 
 
-def rule_json(rule: Rule) -> dict[str, str]:
+def rule_json(rule: Rule) -> dict[str, Any]:
     """The object of a rule in the contract."""
     return {
         "id": rule.id,
@@ -64,12 +67,13 @@ def rule_json(rule: Rule) -> dict[str, str]:
         "why": rule.why,
         "example": rule.example,
         "instead": rule.instead,
+        "fix": fix_availability(rule),
+        "since": rule.since,
+        "generations": list(rule.generations),
+        "references": list(rule.references),
     }
 
 
 def rule_page(rule: Rule) -> str:
-    """The page of a rule as text."""
-    return (
-        f"{rule.id} {rule.name} ({rule.severity})\n\n{rule.what}\n\nWhy: {rule.why}\n\n"
-        f"Example:\n\n{rule.example}\n\nInstead:\n\n{rule.instead}\n"
-    )
+    """The page of a rule, as docs/rules has it."""
+    return page(rule)
