@@ -29,7 +29,7 @@ def test_the_demo_in_text(harness: Harness, preflight: Run) -> None:
     assert done.code == 0, "a warning is below the default --fail-on"
     assert "launch/talker_listener.launch:7:31: warning (likely) TOP001 subscribed-not-published: " in done.out
     assert '  7 |     <remap from="chatter" to="chater"/>\n    |                               ^^^^^^\n' in done.out
-    assert "fix: Replace 'chater' by 'chatter'" in done.out
+    assert "fix: Replace 'chater' with 'chatter'" in done.out
     assert "2 nodes: 2 run" in done.out
     assert "\x1b" not in done.out, "no colours in a pipe"
     assert done.err == ""
@@ -52,7 +52,7 @@ def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     assert finding["range"] == {"start": {"line": 7, "column": 31}, "end": {"line": 7, "column": 37}}
     assert finding["roots"] == [str(harness.launch_file)]
     assert finding["related"][0]["file"] == str(harness.launch_file)
-    assert finding["fixes"] == ["Replace 'chater' by 'chatter'"]
+    assert finding["fixes"] == ["Replace 'chater' with 'chatter'"]
 
 
 def test_the_mended_demo_is_clean(harness: Harness, preflight: Run) -> None:
@@ -66,7 +66,7 @@ def test_no_run_executes_nothing(harness: Harness, preflight: Run) -> None:
     assert not_run["rule"] == "TRC004"
     assert "--no-run" in not_run["message"]
     assert [from_source[key] for key in ("rule", "severity", "confidence")] == ["TOP001", "warning", "possible"]
-    assert "by its source" in from_source["related"][0]["message"]
+    assert "from its source" in from_source["related"][0]["message"]
     assert done.json["traced"] == 0
     assert harness.sandbox_starts() == 0
 
@@ -199,7 +199,7 @@ def test_sarif_junit_and_github(harness: Harness, preflight: Run) -> None:
     done = preflight("check", harness.launch_file, "--format", "junit", "--fail-on", "warning")
     assert done.code == 1
     (failure,) = ElementTree.fromstring(done.out).iter("failure")
-    assert str(failure.get("message")).startswith("none of the 2 nodes of this launch publishes '/chater'")
+    assert str(failure.get("message")).startswith("'/chater' has no publisher")
     out = preflight("check", harness.launch_file, "--format", "github").out
     assert out.startswith(
         "::warning file=launch/talker_listener.launch,line=7,endLine=7,col=31,endColumn=37,title=TOP001"

@@ -114,7 +114,7 @@ def test_a_missing_program(harness: Harness, robot: Path, preflight: Run) -> Non
         findings = preflight("check", robot, "--format", "json", *more).json["findings"]
         (finding,) = [f for f in findings if f["rule"] == "PRM008"]
         assert finding["message"].endswith("did you mean 'xacro'?")
-        assert finding["fixes"] == ["Replace 'xacro.py' by 'xacro'"]
+        assert finding["fixes"] == ["Replace 'xacro.py' with 'xacro'"]
 
 
 def test_a_long_value_is_cut_in_text(robot: Path, preflight: Run) -> None:

@@ -43,7 +43,7 @@ def test_a_finding_is_shown_and_mended(trusted_harness: Harness) -> None:
     seen = drive(trusted_harness, "trusted")
     finding = next(each for each in seen["before"] if "did you mean" in each["text"])
     assert finding["underlined"] == "chater"
-    assert "Replace 'chater' by 'chatter'" in seen["offered"]
+    assert "Replace 'chater' with 'chatter'" in seen["offered"]
     assert [each["line"] for each in seen["after"]] == [7]
     assert "remapped to itself" in seen["after"][0]["text"]
     assert 'to="chatter"' in trusted_harness.launch_file.read_text()

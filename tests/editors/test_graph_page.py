@@ -89,7 +89,7 @@ def test_hover_tells_types_qos_and_what_is_wrong(seen: Mapping[str, Any]) -> Non
         assert "/base publishes" in " ".join(text.split())
         assert "nav_msgs/Odometry" in text
         assert "latch true, queue_size 10" in text
-        assert "error TOP003 types of '/odom' differ" in text
+        assert "error TOP003 type mismatch on '/odom'" in text
 
 
 def test_a_click_shows_all_of_a_node_and_leads_on(seen: Mapping[str, Any]) -> None:

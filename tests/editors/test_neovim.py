@@ -206,7 +206,7 @@ robot.launch  3 nodes
 ▾ Not started  1
     rviz  if $(arg gui) is false  robot.launch:12
 """.splitlines()
-MISSPELT = "none of the 3 nodes of this launch publishes '/front/chater'"
+MISSPELT = "'/front/chater' has no publisher"
 
 
 def test_tree(neovim: Neovim, trusted_harness: Harness) -> None:
@@ -242,7 +242,7 @@ def test_graph(neovim: Neovim, trusted_harness: Harness) -> None:
     assert [line.split(": none")[0] for line in lines] == [
         "▾ /chatter  std_msgs/String  no subscriber",
         "    publisher  /inner  latch false, queue size 10  inner.launch:2  made in talker.py:10",
-        "    hint: no node of this launch subscribes to '/chatter', published by /inner",
+        "    hint: '/chatter' has no subscriber in this launch (publisher: /inner)",
         "▾ /front/chater  std_msgs/String  no publisher",
         "    subscriber /front/listener  from chatter  robot.launch:8  made in listener.py:14",
         "    warning",

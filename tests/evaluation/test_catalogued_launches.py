@@ -127,7 +127,7 @@ def test_a_file_that_is_a_slip_of_one(tmp_path: Path) -> None:
     )
     assert (finding.severity, finding.confidence) == ("warning", "likely")
     assert finding.message.endswith("has no launch file 'launch/scna.launch'; did you mean 'scan.launch'?")
-    assert [fix.title for fix in finding.fixes] == ["Replace 'scna.launch' by 'scan.launch'"]
+    assert [fix.title for fix in finding.fixes] == ["Replace 'scna.launch' with 'scan.launch'"]
     marked = analysed(tmp_path, include("scan_launch.py", ros2=True), "a.launch.xml", "jazzy")
     assert said(marked) == [("LCH013", "warning", "likely")]
 

@@ -33,13 +33,13 @@ def report_of(text: str) -> Report:
 
 def test_text() -> None:
     assert to_text(report_of(TALKERS)) == (
-        "/main.launch:4:31: warning (likely) TOP001 subscribed-not-published: none of the 2 nodes of this launch "
-        "publishes '/chater', to which /listener subscribes; did you mean '/chatter', published by /talker (same type "
+        "/main.launch:4:31: warning (likely) TOP001 subscribed-not-published: '/chater' "
+        "has no publisher (subscriber: /listener); did you mean '/chatter', published by /talker (same type "
         "std_msgs/String)?\n"
         '  4 |     <remap from="chatter" to="chater"/>\n'
         "    |                               ^^^^^^\n"
         "  /main.launch:2:3: /talker publishes /chatter\n"
-        "  fix: Replace 'chater' by 'chatter'\n"
+        "  fix: Replace 'chater' with 'chatter'\n"
         "\n"
         "1 warning; 1 of 1 launch file evaluated, 2 nodes: 2 run\n"
     )
@@ -73,7 +73,7 @@ def test_json() -> None:
             }
         ],
         "roots": ["/main.launch"],
-        "fixes": ["Replace 'chater' by 'chatter'"],
+        "fixes": ["Replace 'chater' with 'chatter'"],
     }
 
 

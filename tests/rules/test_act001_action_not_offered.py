@@ -25,14 +25,14 @@ def test_a_near_miss_is_a_warning_that_names_both_and_the_topics_are_not_told() 
           <node pkg="p" type="t" name="base"/>
           <node pkg="p" type="t" name="patrol">
             <remap from="navigate" to="mov_base"/>
-                                       ^^^^^^^^ warning[ACT001] did you mean '/move_base', offered by /base
+                                       ^^^^^^^^ warning[ACT001] action '/mov_base' has no server (client: /patrol);
           </node>
         </launch>
         //- interfaces
         {{"/base": {server("move_base", "m/MoveBaseAction")}, "/patrol": {client("navigate", "m/MoveBaseAction")}}}
     """
     (finding,) = check(text)
-    assert "none of the 2 nodes of this launch offers action '/mov_base'" in finding.message
+    assert "action '/mov_base' has no server" in finding.message
     assert finding.confidence == "likely"
     assert '<remap from="navigate" to="move_base"/>' in apply(text, finding.fixes[0].edits)["/main.launch"]
 
@@ -76,7 +76,7 @@ def test_without_a_near_name_it_is_a_hint() -> None:
         <launch>
           <node pkg="p" type="t" name="base"/>
           <node pkg="p" type="t" name="patrol"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[ACT001] offers action '/gripper' (m/GripAction)
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[ACT001] action '/gripper' (m/GripAction) has no server in this
         </launch>
         //- interfaces
         {{"/base": {server("move_base", "m/MoveBaseAction")}, "/patrol": {client("gripper", "m/GripAction")}}}
@@ -111,14 +111,14 @@ def test_the_actions_of_ros_2() -> None:
           <node pkg="p" exec="base" name="base"/>
           <node pkg="p" exec="patrol" name="patrol">
             <remap from="navigate" to="/navigate_to_pse"/>
-                                       ^^^^^^^^^^^^^^^^ warning[ACT001] offers action '/navigate_to_pse', of which
+                                       ^^^^^^^^^^^^^^^^ warning[ACT001] action '/navigate_to_pse' has no server
           </node>
           <node pkg="p" exec="arm" name="arm"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ACT002] /base offers it as m/action/Dock, /arm sends goals
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ACT002] type mismatch on '/dock': /base serves m/action/Dock,
           <node pkg="p" exec="spare" name="spare"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT003] action '/lift' is offered by /base and /spare
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT003] action '/lift' has 2 servers (/base and /spare):
           <node pkg="p" exec="far" name="far"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[ACT001] offers action '/fly' (m/action/Fly), of which
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[ACT001] action '/fly' (m/action/Fly) has no server in this launch
         </launch>
         //- interfaces
         {"/base": {"action_servers": {"navigate_to_pose": "m/action/Nav", "dock": "m/action/Dock",

@@ -10,7 +10,7 @@ def test_types_that_differ_are_told_once() -> None:
         <launch>
           <node pkg="p" type="t" name="base"/>
           <node pkg="p" type="t" name="patrol"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ACT002] /base offers it as m/DockAction, /patrol sends
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ACT002] type mismatch on '/dock': /base serves m/DockAction,
         </launch>
         //- interfaces
         {{"/base": {server("dock", "m/DockAction")}, "/patrol": {client("dock", "m/MoveBaseAction")}}}

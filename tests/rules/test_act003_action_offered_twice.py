@@ -10,13 +10,13 @@ def test_an_action_with_two_servers() -> None:
         <launch>
           <node pkg="p" type="t" name="left"/>
           <node pkg="p" type="t" name="right"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT003] action '/dock' is offered by /left and /right: each of
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT003] action '/dock' has 2 servers (/left and /right): each
         </launch>
         //- interfaces
         {{"/left": {server("dock", "m/DockAction")}, "/right": {server("dock", "m/DockAction")}}}
     """
     (finding,) = check(text)
-    assert [related.message for related in finding.related] == ["/left offers /dock"]
+    assert [related.message for related in finding.related] == ["/left serves /dock"]
 
 
 @pytest.mark.silent

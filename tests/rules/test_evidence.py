@@ -46,7 +46,7 @@ def test_a_file_of_another_name_is_not_offered(tmp_path: Path) -> None:
 def test_a_file_of_nearly_that_name_is_offered(tmp_path: Path) -> None:
     (tmp_path / "camera.launch.xml").write_text("<launch/>")
     (found,) = launched(tmp_path, '<launch><include file="$(find p)/camrea.launch.xml"/></launch>')
-    assert [fix.title for fix in found.fixes] == ["Replace 'camrea.launch.xml' by 'camera.launch.xml'"]
+    assert [fix.title for fix in found.fixes] == ["Replace 'camrea.launch.xml' with 'camera.launch.xml'"]
 
 
 def test_of_files_of_that_name_the_one_in_the_folders_that_were_written_is_meant(tmp_path: Path) -> None:

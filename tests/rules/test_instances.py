@@ -54,5 +54,5 @@ def test_a_file_that_is_included_for_each_robot() -> None:
         {"/robot1/base": {"status": "crashed", "exit_code": 1}, "/robot2/base": {"status": "crashed", "exit_code": 1}}
     """)
     (crashed,) = [each for each in findings if each.rule == "TRC001"]
-    assert crashed.message == "/robot1/base and 1 more crashed when it was run: exit code 1"
-    assert crashed.related[-1].message == "in another context: /robot2/base crashed when it was run: exit code 1"
+    assert crashed.message == "/robot1/base and 1 more crashes on start: exit code 1"
+    assert crashed.related[-1].message == "in another context: /robot2/base crashes on start: exit code 1"

@@ -8,7 +8,7 @@ _ODOMETRY_RENAMED = """
     <launch>
       <node pkg="p" type="t" name="state_estimator">
         <remap from="gps_imu/pose" to="pose_estimate_new"/>
-                                       ^^^^^^^^^^^^^^^^^ warning[TOP001] subscribes to '/pose_estimate'
+                                       ^^^^^^^^^^^^^^^^^ warning[TOP001] '/pose_estimate_new', published by
       </node>
       <node pkg="p" type="t" name="wheel_odometry"/>
     </launch>
@@ -26,7 +26,7 @@ _LASER_REMAPPED_AWAY = """
     <launch>
       <node pkg="p" type="t" name="depth_to_scan">
         <remap from="scan" to="camera/scan"/>
-                               ^^^^^^^^^^^ warning[TOP001] they differ by the namespace 'camera'
+                               ^^^^^^^^^^^ warning[TOP001] '/camera/scan', published by /depth_to_scan: did you mean
       </node>
     </launch>
     //- interfaces
@@ -79,7 +79,7 @@ _REMAP_AFTER_THE_NODE = """
 _REMAP_SWAPPED = """
     <launch>
       <node pkg="p" type="t" name="laser"><remap from="scan" to="scan_raw"/></node>
-                                                                 ^^^^^^^^ warning[TOP001] subscribes to '/scan'
+                                                                 ^^^^^^^^ warning[TOP001] '/scan_raw', published by
       <node pkg="p" type="t" name="filter"><remap from="scan_raw" to="scan"/></node>
     </launch>
     //- interfaces
@@ -103,7 +103,7 @@ _ABSOLUTE_NAME = """
       <group ns="bot">
         <node pkg="p" type="t" name="avoid"/>
         <node pkg="p" type="t" name="base"/>
-        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] '/cmd_vel' is given with a leading slash
+        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP001] '/bot/cmd_vel' has no publisher (subscriber: /bot/base);
       </group>
     </launch>
     //- interfaces
@@ -116,7 +116,7 @@ _ACTION_IN_ANOTHER_NAMESPACE = """
       <group ns="arm"><node pkg="p" type="t" name="server"/></group>
       <node pkg="p" type="t" name="task">
         <remap from="goto" to="reach"/>
-                               ^^^^^ warning[ACT001] did you mean '/arm/reach', offered by /arm/server
+                               ^^^^^ warning[ACT001] action '/reach' has no server (client: /task); did you mean
       </node>
     </launch>
     //- interfaces
@@ -188,7 +188,7 @@ _TWO_MAPS = """
     <launch>
       <node pkg="p" type="t" name="slam"/>
       <node pkg="p" type="t" name="map_server"/>
-      ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/map' is published by /slam and /map_server
+      ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/map' has 2 publishers (/slam and /map_server): each
       <node pkg="p" type="t" name="amcl"/>
     </launch>
     //- interfaces

@@ -28,7 +28,7 @@ def test_a_slip_of_the_name_of_one_that_is_set(launch: Path) -> None:
     (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
     assert (finding.severity, finding.lack) == ("warning", None)
     assert finding.message == "environment variable 'ROBOT_MDOEL' is not set; did you mean 'ROBOT_MODEL'?"
-    assert [fix.title for fix in finding.fixes] == ["Replace 'ROBOT_MDOEL' by 'ROBOT_MODEL'"]
+    assert [fix.title for fix in finding.fixes] == ["Replace 'ROBOT_MDOEL' with 'ROBOT_MODEL'"]
 
 
 @pytest.mark.silent

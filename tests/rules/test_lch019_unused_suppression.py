@@ -28,7 +28,7 @@ def test_comments_of_ours_in_yaml() -> None:
           #   <topic name="chater" type="std_msgs/msg/String" class="sub"/>
           # </topics>
           - node:
-            ^^^^ warning[TOP001] publishes '/chater', to which /listener subscribes; did you mean '/chatter'
+            ^^^^ warning[TOP001] '/chater' has no publisher (subscriber: /listener); did you mean '/chatter'
               pkg: p
               exec: listener
               name: listener

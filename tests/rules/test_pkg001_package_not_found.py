@@ -42,7 +42,7 @@ def test_a_name_from_before_a_rename() -> None:
         //- /ca_tools/package.xml
         <package/>
     """)
-    assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' by 'ca_tools'", False)]
+    assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' with 'ca_tools'", False)]
 
 
 def test_who_uses_several_packages_that_nobody_knows_has_them_elsewhere() -> None:

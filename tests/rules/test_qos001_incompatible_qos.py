@@ -12,10 +12,10 @@ def test_qos_that_does_not_fit() -> None:
         <launch>
           <node pkg="p" exec="laser" name="laser"/>
           <node pkg="p" exec="filter" name="filter"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] /filter gets nothing of '/scan' from /laser
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] incompatible QoS on '/scan': /laser publishes best
           <node pkg="p" exec="map" name="map"/>
           <node pkg="p" exec="nav" name="nav"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] its durability is volatile
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[QOS001] incompatible QoS on '/map': /map publishes volatile
         </launch>
         //- interfaces
         {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"},
@@ -32,10 +32,10 @@ def test_qos_that_does_not_fit() -> None:
 
 def test_what_a_publisher_does_not_promise() -> None:
     for offered, asked, said in (
-        ({}, {"deadline": 0.5}, "it promises no deadline, and the subscription asks for 0.5 s"),
-        ({"deadline": 0.5}, {"deadline": 0.1}, "its deadline is 0.5 s"),
-        ({}, {"liveliness": "manual_by_topic"}, "its liveliness is automatic"),
-        ({}, {"lease_duration": 2.0}, "it promises no lease duration"),
+        ({}, {"deadline": 0.5}, "/a publishes no deadline, /b requests deadline 0.5 s"),
+        ({"deadline": 0.5}, {"deadline": 0.1}, "/a publishes deadline 0.5 s, /b requests deadline 0.1 s"),
+        ({}, {"liveliness": "manual_by_topic"}, "/a publishes automatic liveliness"),
+        ({}, {"lease_duration": 2.0}, "/a publishes no lease duration"),
         ({"lease_duration": 1.0, "deadline": 0.1}, {"lease_duration": 2.0, "deadline": 0.1}, None),
     ):
         plain = {"reliability": "reliable", "durability": "volatile"}

@@ -9,14 +9,14 @@ def test_a_near_miss_is_a_warning_that_names_both() -> None:
         <launch>
           <node pkg="p" type="t" name="base"/>
           <node pkg="p" type="t" name="dock"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] '/base/reset_odometry', offered by /base (same type
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] service '/base/reset_odom' has no server (client:
         </launch>
         //- interfaces
         {"/base": {"services": {"~reset_odometry": "std_srvs/Trigger"}},
          "/dock": {"clients": {"base/reset_odom": "std_srvs/Trigger"}}}
     """
     (finding,) = check(text)
-    assert "none of the 2 nodes of this launch offers service '/base/reset_odom', which /dock calls" in finding.message
+    assert "service '/base/reset_odom' has no server (client: /dock)" in finding.message
     assert (
         '<remap from="base/reset_odom" to="base/reset_odometry"/>'
         in apply(text, finding.fixes[0].edits)["/main.launch"]
@@ -28,7 +28,7 @@ def test_without_a_near_name_it_is_a_hint() -> None:
         <launch>
           <node pkg="p" type="t" name="base"/>
           <node pkg="p" type="t" name="dock"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] offers service '/gazebo/pause' (std_srvs/Empty)
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] service '/gazebo/pause' (std_srvs/Empty) has no server in
         </launch>
         //- interfaces
         {"/base": {"services": {"reset": "std_srvs/Empty", "~get_loggers": "roscpp/GetLoggers"}},
@@ -54,7 +54,7 @@ def test_a_service_that_is_waited_for_may_be_the_one_that_nobody_calls() -> None
         <launch>
           <node pkg="p" type="b" name="base"/>
           <node pkg="p" type="d" name="dock"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] waits for when it starts; did you mean '/reset_od
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV001] service '/base/reset_odom' (std_srvs/Empty) has no
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC005] it waits for the service /base/reset_odom
           <node pkg="p" type="c" name="calls"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[SRV001] '/calls/reset' (std_srvs/Empty)

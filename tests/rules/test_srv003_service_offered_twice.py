@@ -9,14 +9,14 @@ def test_a_service_that_two_nodes_offer() -> None:
         <launch>
           <node pkg="p" type="t" name="left"/>
           <node pkg="p" type="t" name="right"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] services '/reset' and '/stop' are offered by
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] services '/reset' and '/stop' have 2 servers (/left
         </launch>
         //- interfaces
         {"/left": {"services": {"reset": "std_srvs/Empty", "stop": "std_srvs/Empty", "~own": "std_srvs/Empty"}},
          "/right": {"services": {"reset": "std_srvs/Empty", "stop": "std_srvs/Empty", "~own": "std_srvs/Empty"}}}
     """
     (finding,) = check(text)
-    assert [related.message for related in finding.related] == ["/left offers /reset"]
+    assert [related.message for related in finding.related] == ["/left serves /reset"]
 
 
 def test_a_service_that_two_nodes_of_ros2_offer() -> None:
@@ -25,7 +25,7 @@ def test_a_service_that_two_nodes_of_ros2_offer() -> None:
         <launch>
           <node pkg="p" exec="t" name="left"/>
           <node pkg="p" exec="t" name="right"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] /left and /right: each of them carries out every
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[SRV003] service '/reset' has 2 servers (/left and /right):
         </launch>
         //- interfaces
         {"/left": {"services": {"reset": "std_srvs/srv/Trigger"}},
@@ -35,7 +35,7 @@ def test_a_service_that_two_nodes_of_ros2_offer() -> None:
 
 @pytest.mark.parametrize(
     ("manager", "said"),
-    [("one", "their manager /one takes the first one only"), ("two", "only the one that registers last is called")],
+    [("one", "their manager /one accepts only the first"), ("two", "only the last to register receives calls")],
 )
 def test_nodelets_of_one_manager_are_one_node(manager: str, said: str) -> None:
     right = f'<node pkg="nodelet" type="nodelet" name="right" args="load p/T {manager}"/>'
@@ -45,7 +45,7 @@ def test_nodelets_of_one_manager_are_one_node(manager: str, said: str) -> None:
           <node pkg="nodelet" type="nodelet" name="two" args="manager"/>
           <node pkg="nodelet" type="nodelet" name="left" args="load p/T one"/>
           {right}
-          {"^" * len(right)} warning[SRV003] service '/reset' is offered by /left and /right
+          {"^" * len(right)} warning[SRV003] service '/reset' has 2 servers (/left and /right)
         </launch>
         //- /nodelet/package.xml
         <package><name>nodelet</name></package>

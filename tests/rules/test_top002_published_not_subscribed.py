@@ -8,7 +8,7 @@ def test_a_connected_graph_is_quiet_and_unused_topics_share_a_hint() -> None:
     check("""
         <launch>
           <node pkg="p" type="t" name="base"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] subscribes to '/battery', '/joint_states' and '/odom'
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] '/battery', '/joint_states' and '/odom' have no subscriber
           <node pkg="p" type="t" name="teleop"/>
         </launch>
         //- interfaces
@@ -24,7 +24,7 @@ def test_an_image_that_is_read_compressed_is_read() -> None:
           <node pkg="p" type="t" name="camera"/>
           <node pkg="p" type="t" name="web"/>
           <node pkg="p" type="t" name="spare"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] '/spare/image', published by
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] '/spare/image' has no subscriber in this launch
         </launch>
         //- interfaces
         {"/camera": {"publishers": {"image": "sensor_msgs/Image", "image/theora": "theora_image_transport/Packet",

@@ -10,7 +10,7 @@ def test_goals_sent_without_a_client_are_a_topic() -> None:
         <launch>
           <node pkg="p" type="t" name="base"/>
           <node pkg="p" type="t" name="patrol"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[TOP003] types of '/move_base/goal' differ
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[TOP003] type mismatch on '/move_base/goal': /base publishes
         </launch>
         //- interfaces
         {{"/patrol": {server("move_base", "m/MoveBaseAction")},
@@ -24,7 +24,7 @@ def test_types_that_differ() -> None:
           <node pkg="p" type="t" name="a"/>
           <node pkg="p" type="t" name="b">
             <remap from="in" to="pose"/>
-                                 ^^^^ error[TOP003] /a publishes it as x/Pose, /b subscribes to it as x/PoseStamped
+                                 ^^^^ error[TOP003] type mismatch on '/pose': /a publishes x/Pose, /b subscribes to
           </node>
         </launch>
         //- interfaces
@@ -74,4 +74,4 @@ def test_two_types_of_one_node() -> None:
     """)
     (finding,) = (each for each in found if each.rule == "TOP003")
     assert (finding.severity, finding.confidence) == ("error", "likely")
-    assert finding.message == "/simulator subscribes to '/mast' as x/Position and as x/Throttle"
+    assert finding.message == "type mismatch on '/mast': /simulator subscribes to both x/Position and x/Throttle"

@@ -12,7 +12,7 @@ def test_a_typo_in_from_is_shown_there_and_nowhere_else() -> None:
           <node pkg="p" type="t" name="laser"/>
           <node pkg="p" type="t" name="amcl">
             <remap from="scna" to="front/scan"/>
-                         ^^^^ warning[TOP004] this remap has no effect: /amcl does not use '/scna'; did you mean 'scan'
+                         ^^^^ warning[TOP004] remap of '/scna' has no effect: /amcl does not use that name; did you
           </node>
         </launch>
         //- interfaces
@@ -21,7 +21,7 @@ def test_a_typo_in_from_is_shown_there_and_nowhere_else() -> None:
     """
     (finding,) = check(text)
     assert finding.confidence == "likely"
-    assert "'/front/scan' is what /laser publishes as sensor_msgs/LaserScan" in finding.message
+    assert "/laser publishes '/front/scan' (sensor_msgs/LaserScan)" in finding.message
     mended = apply(text, finding.fixes[0].edits)["/main.launch"]
     assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
 
@@ -76,7 +76,7 @@ def test_without_a_near_name_it_is_a_hint() -> None:
           <node pkg="p" type="t" name="n">
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002]
             <remap from="battery" to="power"/>
-                         ^^^^^^^ hint[TOP004] /n does not use '/battery' before its event loop
+                         ^^^^^^^ hint[TOP004] remap of '/battery' has no effect: /n does not use that name before its
           </node>
         </launch>
         //- interfaces
@@ -110,7 +110,7 @@ def test_a_remap_around_nodes_has_to_be_idle_at_all_of_them() -> None:
         <launch>
           <remap from="scan" to="front/scan"/>
           <remap from="sonar" to="front/sonar"/>
-                       ^^^^^ hint[TOP004] none of the 2 nodes that it reaches uses '/sonar'
+                       ^^^^^ hint[TOP004] remap of '/sonar' has no effect: none of its 2 nodes uses that name before
           <node pkg="p" type="t" name="a"/>
           <node pkg="p" type="t" name="b"/>
         </launch>

@@ -9,7 +9,7 @@ def test_two_nodes_that_latch_a_map() -> None:
         <launch>
           <node pkg="p" type="t" name="map_server"/>
           <node pkg="p" type="t" name="slam"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/map' is published by /map_server and /slam
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/map' has 2 publishers (/map_server and /slam): each
           <node pkg="p" type="t" name="planner"/>
         </launch>
         //- interfaces
@@ -24,8 +24,8 @@ def test_other_latched_topics_are_an_info_and_clock_a_warning() -> None:
         <launch>
           <node pkg="p" type="t" name="a"/>
           <node pkg="p" type="t" name="b"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/clock' is published by /a and /b
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TOP005] '/mode' is published by /a and /b
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/clock' has 2 publishers (/a and /b): time jumps between
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TOP005] '/mode' has 2 publishers (/a and /b): each latches its last
           <node pkg="p" type="t" name="c"/>
         </launch>
         //- interfaces
@@ -55,7 +55,7 @@ def test_two_cameras_on_one_topic() -> None:
         <launch>
           <group ns="head"><node pkg="p" type="t" name="left"/></group>
           <group ns="head"><node pkg="p" type="t" name="right"/></group>
-                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] a subscriber gets the
+                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP005] '/head/image_raw' has 2 publishers
           <node pkg="p" type="t" name="viewer"/>
         </launch>
         //- interfaces

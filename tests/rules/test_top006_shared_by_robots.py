@@ -31,7 +31,7 @@ def _launch(topic: str, type_: str = TWIST, *, expected: str = "", other: str = 
 
 
 def test_commands_of_one_robot_reach_the_other() -> None:
-    said = f"{UNDER} warning[TOP006] /r1/driver hears /r2/pilot as well as /r1/pilot: '/cmd_vel' is outside"
+    said = f"{UNDER} warning[TOP006] '/cmd_vel' is outside of the namespaces of both robots: /r1/driver receives from"
     check(_launch("/cmd_vel", expected=said))
 
 
@@ -51,7 +51,11 @@ def test_robots_that_are_apart_or_mean_to_talk(topic: str, type_: str, *, talks:
 
 
 def test_a_name_of_several_parts_may_be_meant_so() -> None:
-    check(_launch("/fleet/poses", "geometry_msgs/msg/PoseStamped", expected=f"{UNDER} info[TOP006] /r1/driver hears"))
+    check(
+        _launch(
+            "/fleet/poses", "geometry_msgs/msg/PoseStamped", expected=f"{UNDER} info[TOP006] '/fleet/poses' is outside"
+        )
+    )
 
 
 @pytest.mark.silent

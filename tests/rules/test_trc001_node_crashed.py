@@ -87,7 +87,7 @@ def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
           <param name="robot_description" command="xacro robot.xacro"/>
                                                    ^^^^^^^^^^^^^^^^^ hint[LCH018] was not run
           <node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/robot_description', which comes from a command
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n crashes on start: exit code 1; it reads
         </launch>
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "params": {"/robot_description": null}}}
@@ -121,7 +121,7 @@ def test_a_crash_for_want_of_a_value_that_is_reported_itself_is_a_consequence(se
     """)
     (crash,) = (each for each in found if each.rule != "PRM010" and each.rule.startswith(("TRC", "PRM01")))
     assert (crash.rule, crash.severity, crash.confidence) == ("TRC001", "info", "possible")
-    assert "it asked for '/robot_description', which has no value: " in crash.message
+    assert "it reads '/robot_description', which is unresolved: " in crash.message
     assert any(each.stops_launch for each in found)
 
 
@@ -131,7 +131,7 @@ def test_a_crash_for_want_of_a_private_value_that_is_reported_itself_is_a_conseq
           <param name="~model" value="$(find nowhere)/m"/>
                                       ^^^^^^^^^^^^^^^ info[PKG001] package 'nowhere' is neither
           <node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] asked for '/n/model', which has no value
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n crashes on start: exit code 1; it reads '/n/model', which
         </launch>
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "params": {"~model": null}}}
@@ -156,7 +156,7 @@ def test_a_crash_for_what_only_the_sandbox_lacks_is_no_warning() -> None:
     check("""
         <launch>
           <node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n needs a network; it ended with exit code 1; OSError
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n needs a network; it exited with exit code 1; OSError:
         </launch>
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "lacks": "a network",
@@ -185,9 +185,9 @@ def test_a_long_last_line_is_told_once_and_without_its_time() -> None:
         {"/n": {"status": "crashed", "exit_code": 1, "reason": "REASON", "stderr": ["LINE"]}}
     """
     (finding,) = findings_of(text.replace("LINE", line).replace("REASON", reason))
-    assert finding.message == f"/n crashed when it was run: {reason}"
+    assert finding.message == "/n crashes on start: " + ("no such device, " * 40)[:200]
     (finding,) = findings_of(text.replace("LINE", line).replace('"reason": "REASON", ', ""))
-    assert finding.message == "/n crashed when it was run: exit code 1; " + ("no such device, " * 40)[:200]
+    assert finding.message == "/n crashes on start: exit code 1; " + ("no such device, " * 40)[:200]
 
 
 def test_an_early_end_with_an_error() -> None:
@@ -215,7 +215,7 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
     """
     (found,) = [f for f in findings_of(text.format(package="panda_moveit_config")) if f.rule == "TRC001"]
     assert (found.severity, found.confidence) == ("info", "possible")
-    assert "'/board_description', which a part of the launch that is not known here may set" in found.message
+    assert "'/board_description', which an unresolved part of the launch may set" in found.message
     (found,) = [f for f in findings_of(text.format(package="p")) if f.rule == "TRC001"]
     assert "may set" not in found.message
 

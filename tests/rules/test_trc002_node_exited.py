@@ -8,7 +8,7 @@ def test_an_early_end() -> None:
     check("""
         <launch>
           <node pkg="p" type="t" name="done"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC002] /done ended by itself when it was run, without error
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC002] /done exits before its event loop, without an error
         </launch>
         //- interfaces
         {"/done": {"status": "exited", "exit_code": 0}}

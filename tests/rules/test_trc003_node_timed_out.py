@@ -8,7 +8,7 @@ def test_a_slow_start() -> None:
     check("""
         <launch>
           <node pkg="p" type="t" name="slow"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC003] before it reached its event loop: still waiting
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC003] /slow does not reach its event loop in time: still waiting
         </launch>
         //- interfaces
         {"/slow": {"status": "timed-out", "reason": "still waiting"}}

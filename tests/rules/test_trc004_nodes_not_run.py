@@ -7,7 +7,7 @@ from support.check import check
 def test_why_nothing_was_run_is_said_once() -> None:
     text = """
         <launch>
-        ^^^^^^^^ info[TRC004] the 2 nodes of this launch were not run: the workspace is not trusted
+        ^^^^^^^^ info[TRC004] 2 nodes are not run: the workspace is not trusted
           <node pkg="p" type="t" name="a"/>
           <node pkg="p" type="t" name="b"/>
         </launch>

@@ -19,9 +19,9 @@ def test_what_stood_in_for_a_module_is_a_lack() -> None:
     findings = check("""
         <launch>
           <node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs what is built of package 'p', which
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs module 'cv2', which is not here
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs package 'rospy', which is not here
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs module 'cv2', which is not installed; a stand-in
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs package 'rospy', which is not installed; a stand-in
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TRC005] /n needs the built package 'p', which is not installed; a
         </launch>
         //- interfaces
         {"/n": {"stand_ins": ["cv2", "p.msg", "p.srv", "rospy"]}}

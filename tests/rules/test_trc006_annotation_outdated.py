@@ -19,7 +19,7 @@ def test_another_type_is_a_warning() -> None:
         <launch>
           <node pkg="p" type="t" name="n">
             <!-- <topics><topic name="/tf" type="tf/tfMessage" class="pub"/></topics> -->
-                                                 ^^^^^^^^^^^^ warning[TRC006] '/tf' had the type tf2_msgs/TFMessage
+                                                 ^^^^^^^^^^^^ warning[TRC006] annotation of '/tf' has another type
           </node>
         </launch>
         //- interfaces
@@ -31,7 +31,7 @@ def test_another_type_is_one_where_the_run_failed_too() -> None:
     interface = {"services": {"reset": "std_srvs/Trigger"}, "status": "crashed", "exit_code": 1}
     assert complaints(
         '<services><service name="reset" type="std_srvs/Empty" class="server"/></services>', interface
-    ) == ["when /n was run, 'reset' had the type std_srvs/Trigger"]
+    ) == ["annotation of 'reset' has another type than the run of /n: std_srvs/Trigger"]
 
 
 def test_what_was_not_seen_and_what_is_missing_are_hints() -> None:
@@ -39,8 +39,8 @@ def test_what_was_not_seen_and_what_is_missing_are_hints() -> None:
         <launch>
           <node pkg="p" type="t" name="n">
             <!-- <services><service name="later" type="std_srvs/Empty" class="server"/></services> -->
-                 ^^^^^^^^^^ hint[TRC006] when /n was run, it was seen that it offers the service 'now'
-                                          ^^^^^ hint[TRC006] it was not seen that it offers the service 'later'
+                 ^^^^^^^^^^ hint[TRC006] annotation of /n is incomplete: in its run it offers the service 'now'
+                                          ^^^^^ hint[TRC006] annotation of 'later' is not confirmed: the run of /n
           </node>
         </launch>
         //- interfaces
@@ -65,7 +65,7 @@ def test_a_name_that_was_misspelt_or_renamed() -> None:
         if f.severity == "info"
     ]
     assert [fix.title for fix in finding.fixes] == [
-        "Replace 'rest' by 'reset'",
+        "Replace 'rest' with 'reset'",
         "Remove 'rest' from the annotation",
     ]
 
@@ -128,7 +128,7 @@ def test_an_action_is_annotated_as_such_or_by_its_topics(type_: str) -> None:
     topics = "".join(f'<topic name="{n}" class="{"pub" if n in CLIENT["publishers"] else "sub"}"/>' for n in TOPICS)
     assert complaints(f"<topics>{topics}</topics>", CLIENT) == []
     (other,) = complaints('<actions><action name="go" type="x/Halt" class="client"/></actions>', CLIENT)
-    assert "had the type x/GoAction" in other
+    assert "the run of /n: x/GoAction" in other
 
 
 def test_a_tag_that_makes_several_nodes_is_judged_by_all_of_them() -> None:
@@ -148,9 +148,7 @@ def test_a_tag_that_makes_several_nodes_is_judged_by_all_of_them() -> None:
     """
     assert [f for f in findings_of(text % '{"services": {"b": "x/Y"}}') if f.rule == "TRC006"] == []
     both = [f for f in findings_of(text % '{"services": {"c": "x/Y"}}') if f.rule == "TRC006"]
-    assert [f.message.partition(": ")[0] for f in both] == [
-        "when /n was run, it was seen that it offers the service 'c'"
-    ]
+    assert [f.message.partition(": ")[0] for f in both] == ["annotation of /n is incomplete"]
 
 
 RUN = {"publishers": {"a": "x/New", "b": "x/Y"}, "services": {"s": "x/S"}, "params": {"~rate": 1}}
@@ -238,7 +236,9 @@ def findings(text: str) -> list[Finding]:
 
 
 def brought_up_to_date(text: str) -> str:
-    fixes = {fix for f in findings(text) if f.rule == "TRC006" for fix in f.fixes if "up to date" in fix.title}
+    fixes = {
+        fix for f in findings(text) if f.rule == "TRC006" for fix in f.fixes if "Update the annotation" in fix.title
+    }
     (fix,) = fixes
     for edit in sorted(fix.edits, key=lambda e: e.location.span, reverse=True):
         start, end = edit.location.span

@@ -25,7 +25,7 @@ async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
 
         actions = await editor.actions(harness.launch_file, found.range, ["quickfix"])
         assert [(a.title, a.kind, a.is_preferred) for a in actions] == [
-            ("Replace 'chater' by 'chatter'", types.CodeActionKind.QuickFix, True)
+            ("Replace 'chater' with 'chatter'", types.CodeActionKind.QuickFix, True)
         ]
         assert [(d.code, d.range) for d in actions[0].diagnostics or ()] == [("TOP001", found.range)]
         editor.apply(actions[0].edit)

@@ -70,9 +70,9 @@ async def test_an_outdated_annotation_is_told_and_brought_up_to_date(harness: Ha
         assert found.severity == types.DiagnosticSeverity.Warning
         assert "reads the parameter '~rate'" in told["<topics>"].message
         actions = await editor.actions(path, found.range)
-        (action,) = [a for a in actions if a.title == "Bring the annotation of '/talker' up to date"]
+        (action,) = [a for a in actions if a.title == "Update the annotation of '/talker' from its run"]
         assert action.kind == types.CodeActionKind.QuickFix
-        same = (await titles(editor, path, "<node"))["Bring the annotation of '/talker' up to date"]
+        same = (await titles(editor, path, "<node"))["Update the annotation of '/talker' from its run"]
         assert same.edit == action.edit
         editor.apply(action.edit)
         await editor.without(path, "TRC006")

@@ -844,7 +844,7 @@ def test_a_bug_of_an_unbuilt_workspace_is_found_and_its_mended_form_is_quiet(har
         return [finding.message for finding in whole.findings if finding.rule == "TOP001"]
 
     (message,) = dangling("imu/data")
-    assert "'/imu/data', to which /fusion subscribes; did you mean '/imu_filtered/data'" in message
+    assert "'/imu/data' has no publisher (subscriber: /fusion); did you mean '/imu_filtered/data'" in message
     assert dangling("imu_filtered/data") == []
 
 

@@ -70,7 +70,7 @@ def annotating(analysis: Analysis, file: str, offset: int) -> Iterator[Rewrite]:
         outdated = compare([(each, interfaces[index]) for index, each in nodes])
         edits = bring_up_to_date(outdated, document) if outdated is not None else ()
         if edits:
-            yield Rewrite(f"Bring the annotation of '{node.name}' up to date", edits)
+            yield Rewrite(f"Update the annotation of '{node.name}' from its run", edits)
     if interfaces is None or not any(interfaces[index].complete for index, _ in nodes):
         edit = annotation_edit(node, annotation_template(), document)
         if edit is not None:

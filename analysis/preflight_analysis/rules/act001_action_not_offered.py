@@ -6,14 +6,14 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.dangling import dangling_consumers
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
-from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
+from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
-_VERBS = Verbs("offers", "is a client of")
+_VERBS = Verbs("serves", "is a client of")
 _OF_GOALS = ("/goal", "/send_goal")
 """How the first part of an action is called, in ROS 1 and 2."""
 
@@ -22,11 +22,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    near = near_misses(context, "actions")
+    near, unknown = near_misses(context, "actions"), not_analysed(graph)
     for pair in near:
         message = (
-            f"{nodes_looked_at(graph)} offers action '{pair.consumer.name}', of which {pair.consumer.node.name} is a "
-            f"client; did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?"
+            f"action '{pair.consumer.name}' has no server (client: {pair.consumer.node.name}); did you mean "
+            f"'{pair.provider.name}', served by {pair.provider.node.name} ({pair.why}{unknown})?"
         )
         weighed = weight(pair, graph.complete, graph.likely_complete)
         yield near_miss_finding(rule, pair, message, _VERBS, _fixes(context, pair), weighed)
@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for connection in dangling_consumers(context, "actions"):
         if id(connection) not in explained and not graph.blind:
             action, client = with_type(connection), connection.node.name
-            message = f"{nodes_looked_at(graph)} offers action {action}, of which {client} is a client"
+            message = f"action {action} has no server in this launch (client: {client}){unknown}"
             yield lone_finding(rule, connection, message, whole=graph.complete)
 
 

@@ -10,7 +10,7 @@ from preflight_analysis.rules.type_mismatch import mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    return mismatches(rule, context, "actions", Verbs("offers", "sends goals to"))
+    return mismatches(rule, context, "actions", Verbs("serves", "sends goals to"))
 
 
 RULE = Rule(

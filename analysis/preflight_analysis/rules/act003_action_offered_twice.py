@@ -21,11 +21,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # A remap that brings them together is the place to change; else the later of the nodes.
         servers.sort(key=lambda c: c.remap is not None)
         yield rule.finding(
-            f"action '{channel.name}' is offered by {' and '.join(c.node.name for c in servers)}: each of them takes "
-            "every goal",
+            f"action '{channel.name}' has {len(servers)} servers ({' and '.join(c.node.name for c in servers)}): "
+            "each executes every goal",
             connection_location(servers[-1]),
             confidence="possible" if any(c.endpoint.speculative for c in servers) else "likely",
-            related=(*(related_endpoint(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+            related=(*(related_endpoint(c, "serves") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
             endpoints=endpoints_of(*servers),
         )
 

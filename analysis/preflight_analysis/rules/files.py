@@ -173,7 +173,7 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
     start = location.span.start + written.index(folders)
     text = "/" if below == Path() else f"/{below}/"
     edit = Edit(context.location(location.file, Span(start, start + len(folders))), text)
-    return (Fix(f"Replace '{folders}' by '{text}'", (edit,), True),)
+    return (Fix(f"Replace '{folders}' with '{text}'", (edit,), True),)
 
 
 def package_folder(path: str, environment: Environment) -> Path | None:

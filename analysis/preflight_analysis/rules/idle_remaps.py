@@ -18,7 +18,7 @@ from preflight_analysis.rules.well_known import is_transform
 from preflight_analysis.tracing.interface import Interface
 
 _TOPIC_ROLES = ("publisher", "subscriber")
-BY_CATALOGUE = "by what the catalogue has of it"
+BY_CATALOGUE = "according to the catalogue"
 _BY_RUN = "before its event loop"
 _KNOWN_BY = {"source": "in its source", "catalogue": BY_CATALOGUE}
 

@@ -44,7 +44,7 @@ def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Itera
         edits = (Edit(location, name), insert_attribute(tag.action, document, "ns", ns))
         yield Fix(f'Use ns="{ns}" and name="{name}"', edits, True)
     elif legal and legal != written and names.is_legal(legal):
-        yield Fix(f"Replace '{written}' by '{legal}'", (Edit(location, legal),), True)
+        yield Fix(f"Replace '{written}' with '{legal}'", (Edit(location, legal),), True)
 
 
 def _legal(written: str) -> str:

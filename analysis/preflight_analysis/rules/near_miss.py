@@ -65,12 +65,12 @@ class NearMiss:
     @property
     def why(self) -> str:
         """What speaks for it, for a message: `same type x/Y; '/scan' is absolute`."""
-        said = f"same type {self.consumer.endpoint.type}" if self.same_type else "type not known"
+        said = f"same type {self.consumer.endpoint.type}" if self.same_type else "type unknown"
         short, long = sorted((self.consumer.name, self.provider.name), key=len)
         if self.likeness == "slash":
-            return f"{said}; '{short}' is given with a leading slash, the other one is relative to its node's namespace"
+            return f"{said}; '{short}' is absolute, the other name is relative to its node's namespace"
         if self.likeness == "level":
-            return f"{said}; they differ by the namespace '{extra_level(short, long)}'"
+            return f"{said}; the names differ by the namespace '{extra_level(short, long)}'"
         return said
 
 
@@ -102,11 +102,10 @@ def _of_another_node(near: NearMiss) -> bool:
     return not has_all_words(near.consumer.name, near.provider.name)
 
 
-def nodes_looked_at(graph: Graph) -> str:
-    """`none of the 3 nodes of this launch`, with how many of them are not known."""
+def not_analysed(graph: Graph) -> str:
+    """`; 2 of 3 nodes not fully analysed`, empty where all are."""
     count, unknown = len(graph.tree.nodes), graph.incomplete
-    nodes = f"none of the {count} nodes of this launch" if count > 1 else "no other node of this launch"
-    return f"{nodes} ({unknown} of them not fully known)" if unknown else nodes
+    return f"; {unknown} of {count} nodes not fully analysed" if unknown else ""
 
 
 def extra_level(short: str, long: str) -> str | None:

@@ -68,7 +68,7 @@ def _correct_remap(document: Document | None, connection: Connection, remap: Rem
     if "$(" in written or "&" in written or not written:
         return None
     text = _in_style_of(written, connection.name, new)
-    return Fix(f"Replace '{written}' by '{text}'", (Edit(remap.target_location, text),), True)
+    return Fix(f"Replace '{written}' with '{text}'", (Edit(remap.target_location, text),), True)
 
 
 def _in_style_of(written: str, full: str, new: str) -> str:

@@ -35,7 +35,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"neither the workspace nor any distribution has a package '{name}'{did_you_mean(near)}",
                 location,
                 confidence="likely",
-                fixes=(Fix(f"Replace '{name}' by '{near}'", (Edit(location, near),), True),),
+                fixes=(Fix(f"Replace '{name}' with '{near}'", (Edit(location, near),), True),),
             )
 
 

@@ -91,10 +91,10 @@ def related_param_read(read: ParamRead) -> Related:
 
 def _how_known(what: Endpoint | ParamUse) -> str:
     if what.similar:
-        return ", by a run elsewhere"
+        return " (from a run with other settings)"
     if what.catalogued:
-        return f", by {what.catalogued}"
-    return ", by its source" if what.inferred else ""
+        return f" (from {what.catalogued})"
+    return " (from its source)" if what.inferred else ""
 
 
 def getters_of(node: LaunchNode) -> tuple[tuple[str, Related], ...]:

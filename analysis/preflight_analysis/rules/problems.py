@@ -91,7 +91,7 @@ def rename(context: Context, location: Location, old: str, new: str, *, preferre
         return ()
     start = location.span.start + hits[0]
     edit = Edit(context.location(location.file, Span(start, start + len(old))), new)
-    return (Fix(f"Replace '{old}' by '{new}'", (edit,), preferred),)
+    return (Fix(f"Replace '{old}' with '{new}'", (edit,), preferred),)
 
 
 def quoted(names: Iterable[str]) -> str:

@@ -22,7 +22,7 @@ def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:
     alike: dict[str, list[Connection]] = {}
     for provider in channel.providers if channel.consumers else ():
         alike.setdefault(_settings(provider), []).append(provider)
-    problems: dict[tuple[str, str], str | None] = {}
+    problems: dict[tuple[str, str], tuple[str, str] | None] = {}
     found: list[Finding] = []
     for consumer in channel.consumers if channel.providers else ():
         asked = _settings(consumer)
@@ -36,10 +36,13 @@ def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def _finding(rule: Rule, channel: Channel, provider: Connection, consumer: Connection, problem: str) -> Finding:
+def _finding(
+    rule: Rule, channel: Channel, provider: Connection, consumer: Connection, problem: tuple[str, str]
+) -> Finding:
     assumed = consumer.endpoint.assumed or provider.endpoint.assumed
     return rule.finding(
-        f"{consumer.node.name} gets nothing of '{channel.name}' from {provider.node.name}: {problem}",
+        f"incompatible QoS on '{channel.name}': {provider.node.name} publishes {problem[0]}, "
+        f"{consumer.node.name} requests {problem[1]}",
         connection_location(consumer),
         severity="warning" if assumed else None,
         confidence="likely" if assumed or any(e.endpoint.stood_in for e in (consumer, provider)) else "certain",
@@ -52,16 +55,17 @@ def _settings(connection: Connection) -> str:
     return repr(sorted(connection.endpoint.qos.items()))
 
 
-def _problem(provider: Connection, consumer: Connection) -> str | None:
+def _problem(provider: Connection, consumer: Connection) -> tuple[str, str] | None:
+    """What the publisher offers, and what the subscription requests; None where they are compatible."""
     policy = incompatible(provider.endpoint, consumer.endpoint)
     if policy is None:
         return None
     name = policy.name.replace("_", " ")
     if isinstance(policy.requested, str):
-        return f"its {name} is {_said(str(policy.offered))}, and the subscription asks for {_said(policy.requested)}"
-    if policy.offered is None:
-        return f"it promises no {name}, and the subscription asks for {policy.requested} s"
-    return f"its {name} is {policy.offered} s, and the subscription asks for {policy.requested} s"
+        kind = "" if policy.name == "reliability" else f" {name}"
+        return f"{_said(str(policy.offered))}{kind}", f"{_said(policy.requested)}{kind}"
+    offered = f"no {name}" if policy.offered is None else f"{name} {policy.offered} s"
+    return offered, f"{name} {policy.requested} s"
 
 
 def _said(value: str) -> str:

@@ -72,7 +72,7 @@ def elsewhere_finding(rule: Rule, context: Context, connection: Connection, mess
     """The finding for an end whose other one is most likely started by another launch, under another name."""
     location = connection_location(connection)
     return rule.finding(
-        f"{message}; {found.files} launch files around remap to '{found.name}': did you mean that?",
+        f"{message}; did you mean '{found.name}', as in {found.files} launch files nearby?",
         location,
         severity="info",
         confidence="possible",

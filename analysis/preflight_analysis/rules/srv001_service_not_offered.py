@@ -8,7 +8,7 @@ from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_providers
 from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import nodes_looked_at, weight
+from preflight_analysis.rules.near_miss import not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.rules.nearest import numbers_in, share_words
@@ -17,7 +17,7 @@ from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_el
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
-_VERBS = Verbs("offers", "calls")
+_VERBS = Verbs("serves", "calls")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -30,8 +30,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     near = [pair for pair in pairs if id(pair.consumer) not in remapped and not _loads(pair.consumer)]
     for pair in near:
         message = (
-            f"{nodes_looked_at(graph)} offers service '{pair.consumer.name}', which {pair.consumer.node.name} calls; "
-            f"did you mean '{pair.provider.name}', offered by {pair.provider.node.name} ({pair.why})?"
+            f"service '{pair.consumer.name}' has no server (client: {pair.consumer.node.name}); did you mean "
+            f"'{pair.provider.name}', served by {pair.provider.node.name} ({pair.why}{not_analysed(graph)})?"
         )
         weighed = weight(pair, graph.complete, graph.likely_complete)
         yield near_miss_finding(rule, pair, message, _VERBS, fixes_in(context, pair), weighed)
@@ -43,30 +43,30 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(context, "services", dangling_providers(context, "services")) if answers else {}
-    elsewhere, who = context.once(used_elsewhere), nodes_looked_at(graph)
+    elsewhere, unknown = context.once(used_elsewhere), not_analysed(graph)
     meant = [_meant(each, answers.get(id(each.node), ()), unused) for each in lone] if answers else [None] * len(lone)
     hints: list[tuple[Connection, Connection | None]] = []
     for client, server in zip(lone, meant, strict=True):
         if server is None and (graph.blind or client.endpoint.catalogued):
             continue  # of a common node it is no news, as gazebo offers what its spawners call
         if server is None and id(client) in elsewhere:
-            yield elsewhere_finding(rule, context, client, _message(client, who), elsewhere[id(client)])
+            yield elsewhere_finding(rule, context, client, _message(client, unknown), elsewhere[id(client)])
         else:
             hints.append((client, server))
     if hints:
-        yield from context.kept.each_row(_hint, zip(*hints, strict=True), rule, who, graph.complete)
+        yield from context.kept.each_row(_hint, zip(*hints, strict=True), rule, unknown, graph.complete)
 
 
-def _message(client: Connection, who: str) -> str:
-    return f"{who} offers service {with_type(client)}, which {client.node.name} calls"
+def _message(client: Connection, unknown: str) -> str:
+    return f"service {with_type(client)} has no server in this launch (client: {client.node.name}){unknown}"
 
 
-def _hint(client: Connection, meant: Connection | None, rule: Rule, who: str, complete: bool) -> Finding:
-    hint = f" and waits for when it starts; did you mean '{meant.name}', which nobody calls?" if meant else ""
+def _hint(client: Connection, meant: Connection | None, rule: Rule, unknown: str, complete: bool) -> Finding:
+    hint = f"; the client waits for it on start; did you mean '{meant.name}', which has no client?" if meant else ""
     return lone_finding(
         rule,
         client,
-        _message(client, who) + hint,
+        _message(client, unknown) + hint,
         whole=complete,
         severity="hint" if meant is None else "warning",
         related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),

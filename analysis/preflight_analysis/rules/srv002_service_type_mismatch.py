@@ -10,7 +10,7 @@ from preflight_analysis.rules.type_mismatch import mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    return mismatches(rule, context, "services", Verbs("offers", "calls"))
+    return mismatches(rule, context, "services", Verbs("serves", "calls"))
 
 
 RULE = Rule(

@@ -13,7 +13,7 @@ from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.nodelets import manager_of
 
-_BOTH_ANSWER = "each of them carries out every request, and the client takes the answer that comes first"
+_BOTH_ANSWER = "each executes every request, and the client takes the first answer"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -33,13 +33,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for (location, nodes), offered in found.items():
         names, servers = [name for name, _ in offered], offered[0][1]
         sure = not any(c.endpoint.uncertain for _, connections in offered for c in connections)
-        subject = f"service {quoted(names)} is" if len(names) == 1 else f"services {quoted(names)} are"
+        subject = f"service {quoted(names)} has" if len(names) == 1 else f"services {quoted(names)} have"
         yield rule.finding(
-            f"{subject} offered by {' and '.join(nodes)}: {_what_happens(context, servers)}",
+            f"{subject} {len(nodes)} servers ({' and '.join(nodes)}): {_what_happens(context, servers)}",
             location,
             severity="info" if any(c.endpoint.assumed for c in servers) else None,
             confidence="likely" if sure else "possible",
-            related=(*(related_endpoint(c, "offers") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
+            related=(*(related_endpoint(c, "serves") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
             endpoints=endpoints_of(*(c for _, connections in offered for c in connections)),
         )
 
@@ -49,8 +49,8 @@ def _what_happens(context: Context, servers: Sequence[Connection]) -> str:
         return _BOTH_ANSWER
     managers = {manager_of(server.node) for server in servers}
     if len(managers) == 1 and (manager := managers.pop()) is not None:
-        return f"their manager {manager} takes the first one only"
-    return "only the one that registers last is called"
+        return f"their manager {manager} accepts only the first"
+    return "only the last to register receives calls"
 
 
 RULE = Rule(

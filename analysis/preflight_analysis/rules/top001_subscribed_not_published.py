@@ -8,7 +8,7 @@ from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import NearMiss, nodes_looked_at, weight
+from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import Verbs, related_endpoint
@@ -27,9 +27,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_endpoints)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
-    who = nodes_looked_at(graph)
+    unknown = not_analysed(graph)
     columns = (near, *documents_of(context, near))
-    yield from context.kept.each_row(_near, columns, rule, who, graph.complete, graph.likely_complete)
+    yield from context.kept.each_row(_near, columns, rule, unknown, graph.complete, graph.likely_complete)
     if graph.blind:
         return
     explained = {id(pair.consumer) for pair in near} | remapped
@@ -38,12 +38,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         elsewhere = context.once(used_elsewhere)
         for each in others:
             if id(each) in elsewhere:
-                yield elsewhere_finding(rule, context, each, _lone_message(who, each), elsewhere[id(each)])
+                yield elsewhere_finding(rule, context, each, _lone_message(unknown, each), elsewhere[id(each)])
         others = [each for each in others if id(each) not in elsewhere]
         dangling = by_type(context, "topics", context.once(dangling_topic_providers))
         of_types = [dangling.get(each.endpoint.type, ()) for each in others]
         lone = context.kept.each_row(lone_of_type, (others, of_types))
-        yield from context.kept.each_row(_hint, (others, lone), rule, who, graph.complete)
+        yield from context.kept.each_row(_hint, (others, lone), rule, unknown, graph.complete)
 
 
 def _near(
@@ -51,36 +51,38 @@ def _near(
     consumers: Document | None,
     providers: Document | None,
     rule: Rule,
-    who: str,
+    unknown: str,
     complete: bool,
     likely_complete: bool,
 ) -> Finding:
     weighed = weight(pair, complete, likely_complete)
-    return near_miss_finding(rule, pair, _near_message(who, pair), _VERBS, fixes(pair, consumers, providers), weighed)
-
-
-def _near_message(who: str, pair: NearMiss) -> str:
-    consumer, provider = pair.consumer, pair.provider
-    if pair.site is consumer:
-        return (
-            f"{who} publishes '{consumer.name}', to which {consumer.node.name} subscribes; "
-            f"did you mean '{provider.name}', published by {provider.node.name} ({pair.why})?"
-        )
-    return (
-        f"{provider.node.name} publishes '{provider.name}', but {consumer.node.name} subscribes to '{consumer.name}' "
-        f"({pair.why}), which {who} publishes; did you mean '{consumer.name}'?"
+    return near_miss_finding(
+        rule, pair, _near_message(unknown, pair), _VERBS, fixes(pair, consumers, providers), weighed
     )
 
 
-def _lone_message(who: str, connection: Connection) -> str:
-    return f"{who} publishes {with_type(connection)}, to which {connection.node.name} subscribes"
+def _near_message(unknown: str, pair: NearMiss) -> str:
+    consumer, provider = pair.consumer, pair.provider
+    if pair.site is consumer:
+        return (
+            f"'{consumer.name}' has no publisher (subscriber: {consumer.node.name}); did you mean "
+            f"'{provider.name}', published by {provider.node.name} ({pair.why}{unknown})?"
+        )
+    return (
+        f"'{provider.name}', published by {provider.node.name}: did you mean '{consumer.name}'? {consumer.node.name} "
+        f"subscribes to it, and it has no publisher ({pair.why}{unknown})"
+    )
 
 
-def _hint(connection: Connection, lone: Connection | None, rule: Rule, who: str, whole: bool) -> Finding:
-    message = _lone_message(who, connection)
+def _lone_message(unknown: str, connection: Connection) -> str:
+    return f"{with_type(connection)} has no publisher in this launch (subscriber: {connection.node.name}){unknown}"
+
+
+def _hint(connection: Connection, lone: Connection | None, rule: Rule, unknown: str, whole: bool) -> Finding:
+    message = _lone_message(unknown, connection)
     if lone is None:
         return lone_finding(rule, connection, message, whole=whole)
-    message += f"; '{lone.name}' of {lone.node.name} has this type and no subscriber"
+    message += f"; '{lone.name}', published by {lone.node.name}, has the same type and no subscriber"
     return lone_finding(rule, connection, message, whole=whole, related=(related_endpoint(lone, _VERBS.provides),))
 
 

@@ -24,7 +24,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     elsewhere = context.once(used_elsewhere)
     for each in dangling:
         if id(each) in elsewhere:
-            message = f"no node of this launch subscribes to '{each.name}', published by {each.node.name}"
+            message = f"'{each.name}' has no subscriber in this launch (publisher: {each.node.name})"
             yield elsewhere_finding(rule, context, each, message, elsewhere[id(each)])
     dangling = [each for each in dangling if id(each) not in elsewhere]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
@@ -37,10 +37,11 @@ def _place(connection: Connection) -> tuple[Location, str]:
 
 
 def _finding(connections: tuple[Connection, ...], rule: Rule, complete: bool) -> Finding:
-    topics, node = quoted(sorted({connection.name for connection in connections})), connections[0].node
+    topics, node = sorted({connection.name for connection in connections}), connections[0].node
+    have = "has" if len(topics) == 1 else "have"
     sure = complete and not any(connection.endpoint.uncertain for connection in connections)
     return rule.finding(
-        f"no node of this launch subscribes to {topics}, published by {node.name}",
+        f"{quoted(topics)} {have} no subscriber in this launch (publisher: {node.name})",
         connection_location(connections[0]),
         confidence="likely" if sure else "possible",
         related=include_chain(node.origin),

@@ -18,7 +18,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for first, second in chain.from_iterable(context.kept.each(_of_one_node, channels_of(context)["topics"])):
         does = "publishes" if first.endpoint.role == "publisher" else "subscribes to"
         yield rule.finding(
-            f"{first.node.name} {does} '{first.name}' as {first.endpoint.type} and as {second.endpoint.type}",
+            f"type mismatch on '{first.name}': {first.node.name} {does} both {first.endpoint.type} and "
+            f"{second.endpoint.type}",
             connection_location(second),
             severity="info" if first.endpoint.assumed or second.endpoint.assumed else None,
             confidence="possible" if first.endpoint.assumed or second.endpoint.assumed else "likely",

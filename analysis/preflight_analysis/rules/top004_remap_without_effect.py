@@ -15,7 +15,7 @@ from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
-_DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "offers", "client": "calls"}
+_DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "serves", "client": "calls"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -26,9 +26,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
     remap, meant = idle.remap, idle.meant
-    node = idle.nodes[0].name if len(idle.nodes) == 1 else f"none of the {len(idle.nodes)} nodes that it reaches"
-    verb = "does not use" if len(idle.nodes) == 1 else "uses"
-    message = f"this remap has no effect: {node} {verb} '{names.resolve(remap.source, idle.nodes[0].name)}'"
+    source = names.resolve(remap.source, idle.nodes[0].name)
+    one = len(idle.nodes) == 1
+    who = f"{idle.nodes[0].name} does not use" if one else f"none of its {len(idle.nodes)} nodes uses"
+    message = f"remap of '{source}' has no effect: {who} that name"
     if meant is None:
         return rule.finding(
             f"{message} {idle.known_by}",
@@ -41,9 +42,9 @@ def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
     if idle.partner is not None:
         other = idle.partner
         does = _DOES[other.endpoint.role]
-        evidence += f"? '{other.name}' is what {other.node.name} {does} as {other.endpoint.type}"
+        evidence += f"? {other.node.name} {does} '{other.name}' ({other.endpoint.type})"
     else:
-        evidence += " and to which nobody else is connected?"
+        evidence += " and which is unconnected?"
     return rule.finding(
         f"{message}; {evidence}",
         remap.source_location,
@@ -66,7 +67,7 @@ def _fix(document: Document | None, location: Location, meant: Connection) -> tu
     written = document.text[location.span.start : location.span.end] if document is not None else ""
     if not written or "$(" in written or "&" in written:
         return ()
-    return (Fix(f"Replace '{written}' by '{_given(meant)}'", (Edit(location, _given(meant)),), True),)
+    return (Fix(f"Replace '{written}' with '{_given(meant)}'", (Edit(location, _given(meant)),), True),)
 
 
 RULE = Rule(

@@ -45,10 +45,10 @@ def _of_channel(channel: Channel, rule: Rule) -> Finding | None:
         return _finding(rule, channel, connections, "warning", "time jumps between them")
     if len(latched) > 1:
         severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
-        consequence = "each latches its last message, and a new subscriber gets both in any order"
+        consequence = "each latches its last message, and a new subscriber receives both in any order"
         return _finding(rule, channel, latched, severity, consequence)
     if len(connections) > 1 and (stream := _one_stream(connections)) is not None:
-        return _finding(rule, channel, connections, stream, "a subscriber gets the messages of both in turn")
+        return _finding(rule, channel, connections, stream, "a subscriber receives the messages of both in turn")
     return None
 
 
@@ -68,7 +68,8 @@ def _finding(
     connections = sorted(connections, key=lambda connection: connection.remap is not None)
     sure = not any(connection.endpoint.uncertain for connection in connections)
     return rule.finding(
-        f"'{channel.name}' is published by {' and '.join(c.node.name for c in connections)}: {consequence}",
+        f"'{channel.name}' has {len(connections)} publishers ({' and '.join(c.node.name for c in connections)}): "
+        f"{consequence}",
         connection_location(connections[-1]),
         severity="info" if any(connection.endpoint.assumed for connection in connections) else severity,
         confidence="likely" if sure else "possible",

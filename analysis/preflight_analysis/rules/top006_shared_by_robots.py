@@ -67,7 +67,7 @@ def _same(pair: _Pair, mine: Connection, theirs: Connection) -> bool:
 def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hearing: _Pair) -> Finding:
     mine, theirs = saying
     listener = next(connection for connection in hearing if connection.node.namespace == mine.node.namespace)
-    names = f"{theirs.node.name} as well as {mine.node.name}"
+    names = f"{theirs.node.name} and {mine.node.name}"
     connections = (*saying, *hearing)
     # A name like `/fleet/poses` that the code itself has is rather meant so than `/cmd_vel`.
     meant = channel.name.count("/") > 1 and not any(connection.remap for connection in connections)
@@ -77,7 +77,7 @@ def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hear
         *(related_endpoint(connection, "subscribes") for connection in hearing),
     ]
     return rule.finding(
-        f"{listener.node.name} hears {names}: '{channel.name}' is outside of their namespaces, so both robots share it",
+        f"'{channel.name}' is outside of the namespaces of both robots: {listener.node.name} receives from {names}",
         connection_location(theirs),
         severity="info" if assumed or meant else None,
         confidence="possible" if meant else "likely",

@@ -36,8 +36,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             place = argument_location(context, node, written)
             known = _others_known(graph, node)
             yield rule.finding(
-                f"played topic '{topic}' has no subscriber in this launch; did you mean '{consumer.name}', to which "
-                f"{consumer.node.name} subscribes and which nobody publishes?",
+                f"played topic '{topic}' has no subscriber in this launch; did you mean '{consumer.name}' (subscriber: "
+                f"{consumer.node.name}, no publisher)?",
                 place,
                 severity=None if known else "info",
                 confidence="likely" if known else "possible",

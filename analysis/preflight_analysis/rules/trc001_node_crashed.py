@@ -25,6 +25,9 @@ _KILLED = re.compile(
     r"(?: +\(core dumped\))? +([^\s]+)"
 )
 
+_EXIT = re.compile(r"it ended with exit code \d+: ")
+_EXCEPTION = re.compile(r"\A(?:\w+\.)+\w+: (?=\S)")
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
@@ -51,7 +54,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
         absent = absent_top_said(context.disk, told)
         made = any(is_ignored(context.disk, path) for path in paths_said(told))
-        message = _message(node.name, outcome) + (f"; it asked for {lacking}" if lacking else "")
+        message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
         yield rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
             node.location,
@@ -111,7 +114,7 @@ class _LostParams:
     def why(self, read: ParamRead) -> str | None:
         """`'/x', which has no value: ...` of one that is lost, None of any other."""
         if read.name in self._commands:
-            return f"'{read.name}', which comes from a command without a result"
+            return f"'{read.name}', whose command has no result"
         if read.name in self._set:
             return None
         for lost, reason in self._reasons.items():
@@ -121,7 +124,7 @@ class _LostParams:
             # A search looks for it in every namespace around the node.
             found = read.use.access == "search" and read.use.name.strip("~/") == leaf
             if below or found:
-                return f"'{read.name}', which has no value: {reason}"
+                return f"'{read.name}', which is unresolved: {reason}"
         return None
 
     def possible_cause(self, read: ParamRead, outcome: Outcome) -> str | None:
@@ -135,7 +138,7 @@ class _LostParams:
             return None
         leaf = re.compile(rf"(?<!\w){re.escape(names.leaf(read.name))}(?!\w)")
         said = any(leaf.search(line) for line in (outcome.reason or "", *outcome.stderr_tail))
-        setter = "another launch" if self._complete else "a part of the launch that is not known here"
+        setter = "another launch" if self._complete else "an unresolved part of the launch"
         return f"'{read.name}', which {setter} may set" if said else None
 
 
@@ -148,17 +151,22 @@ def _is_reported(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
     return any(f"~{param.name}" == use.name for each in in_process for param in each.params)
 
 
+def _cause(reason: str) -> str:
+    """The line that says why, if the reason has one: without the exit code, and without the package of an exception."""
+    return _EXCEPTION.sub("", _EXIT.sub("", reason))
+
+
 def _message(name: str, outcome: Outcome) -> str:
     if outcome.lacks:
-        message = f"{name} needs {outcome.lacks}; it ended"
+        message = f"{name} needs {outcome.lacks}; it exited"
         if outcome.exit_code is not None:
             message += f" with exit code {outcome.exit_code}"
     elif outcome.reason:
-        message = f"{name} crashed when it was run: {outcome.reason}"
+        message = f"{name} crashes on start: {_cause(outcome.reason)}"
     elif outcome.signal:
-        message = f"{name} crashed when it was run: killed by {outcome.signal}"
+        message = f"{name} crashes on start: killed by {outcome.signal}"
     else:
-        message = f"{name} crashed when it was run: exit code {outcome.exit_code}"
+        message = f"{name} crashes on start: exit code {outcome.exit_code}"
     telling = telling_line(outcome.stderr_tail)[:REASON_COLUMNS]
     return message if not telling or telling in message else f"{message}; {telling}"
 

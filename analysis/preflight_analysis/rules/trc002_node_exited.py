@@ -16,7 +16,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if outcome.status == "exited" and outcome.exit_code in (None, 0):
             because = f": {outcome.reason}" if outcome.reason else ""
             yield rule.finding(
-                f"{node.name} ended by itself when it was run, without error{because}",
+                f"{node.name} exits before its event loop, without an error{because}",
                 node.location,
                 confidence="possible" if outcome.answers else "likely",
                 related=include_chain(node.origin),

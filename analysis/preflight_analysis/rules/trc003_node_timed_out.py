@@ -15,7 +15,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if interface.outcome.status == "timed-out":
             because = f": {interface.outcome.reason}" if interface.outcome.reason else ""
             yield rule.finding(
-                f"{node.name} was stopped before it reached its event loop{because}",
+                f"{node.name} does not reach its event loop in time{because}",
                 node.location,
                 confidence="likely",
                 related=include_chain(node.origin),

@@ -15,7 +15,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     count = len(context.tree.nodes)
     if context.why_not_run is not None:
         if count:
-            nodes = f"the {count} nodes of this launch were" if count > 1 else "the node of this launch was"
+            nodes = f"{count} nodes are" if count > 1 else "1 node is"
             yield rule.finding(f"{nodes} not run: {context.why_not_run}", _root_location(context))
         return
     if context.graph is None:
@@ -35,7 +35,7 @@ def _skipped(node: LaunchNode, interface: Interface) -> _Skipped | None:
     # That there is nothing to run is a finding about the package or executable.
     if interface.outcome.status != "not-run" or interface.declared or node.resolved.path is None:
         return None
-    return _Skipped(node, interface.outcome.reason or "no reason is known")
+    return _Skipped(node, interface.outcome.reason or "unknown reason")
 
 
 def _where_and_why(skipped: _Skipped) -> tuple[str, str]:
@@ -63,7 +63,7 @@ RULE = Rule(
     why="Their topics, services and parameters come from annotations or settings. Without those they come from a "
     "run of the same executable with other settings, or from its source. Findings about connections are missing or "
     "less certain.",
-    example="ros-preflight: the 2 nodes of this launch were not run: the workspace is not trusted",
+    example="ros-preflight: 2 nodes are not run: the workspace is not trusted",
     instead="Trust the workspace in the editor, install `bubblewrap`, or annotate the nodes.",
     references=(
         RUNS,

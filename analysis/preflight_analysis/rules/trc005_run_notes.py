@@ -10,7 +10,7 @@ from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface
 
-_WHAT = {"module": "module", "package": "package", "build": "what is built of package"}
+_WHAT = {"module": "module", "package": "package", "build": "the built package"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -22,7 +22,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for note in interface.notes:
             yield rule.finding(f"{node.name}: {note}", node.location, related=include_chain(node.origin))
         for lack in dict.fromkeys(filter(None, (lack_of_module(context, each) for each in interface.stand_ins))):
-            message = f"{node.name} needs {_WHAT[lack.kind]} '{lack.name}', which is not here: a stand-in was used"
+            message = (
+                f"{node.name} needs {_WHAT[lack.kind]} '{lack.name}', which is not installed; a stand-in replaces it"
+            )
             yield rule.finding(message, node.location, related=include_chain(node.origin), lack=lack)
 
 

@@ -41,10 +41,10 @@ def _agree(nodes: tuple[LaunchNode, ...], interfaces: tuple[Interface, ...]) -> 
 def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdated: Outdated) -> Iterator[Finding]:
     document = context.documents[file]
     edits = bring_up_to_date(outdated, document)
-    fixes = (Fix(f"Bring the annotation of '{node.name}' up to date", edits, preferred=True),) if edits else ()
+    fixes = (Fix(f"Update the annotation of '{node.name}' from its run", edits, preferred=True),) if edits else ()
     chain = include_chain(node.origin)
     for item, type_ in outdated.conflicts:
-        message = f"when {node.name} was run, '{item.what.name}' had the type {type_}"
+        message = f"annotation of '{item.what.name}' has another type than the run of {node.name}: {type_}"
         yield rule.finding(
             message, context.location(file, item.values["type"]), confidence="likely", related=chain, fixes=fixes
         )
@@ -53,9 +53,10 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
         meant = nearest(name, [what.name for what in outdated.missing if _does(what) == _does(item.what)])
         mends = [Fix(f"Remove '{name}' from the annotation", (remove_tag(document, item.span),))]
         if meant is not None:
-            mends.insert(0, Fix(f"Replace '{name}' by '{meant}'", (Edit(place, meant),), preferred=True))
+            mends.insert(0, Fix(f"Replace '{name}' with '{meant}'", (Edit(place, meant),), preferred=True))
         yield rule.finding(
-            f"when {node.name} was run, it was not seen that it {_does(item.what)} '{name}'{did_you_mean(meant)}",
+            f"annotation of '{name}' is not confirmed: the run of {node.name} does not show that it "
+            f"{_does(item.what)} it{did_you_mean(meant)}",
             place,
             severity="info" if meant is not None else "hint",
             confidence="likely" if meant is not None else "possible",
@@ -66,7 +67,7 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
         shown = [f"{_does(what)} '{what.name}'" for what in outdated.missing[:_MOST]]
         more = f" and {len(outdated.missing) - _MOST} more" if len(outdated.missing) > _MOST else ""
         yield rule.finding(
-            f"when {node.name} was run, it was seen that it {', '.join(shown)}{more}: the annotation lacks that",
+            f"annotation of {node.name} is incomplete: in its run it {', '.join(shown)}{more}",
             context.location(file, outdated.groups[0].head),
             severity="hint",
             confidence="likely",
@@ -76,7 +77,7 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
 
 
 def _does(what: Endpoint | ParamUse) -> str:
-    return DOES[what.role] if isinstance(what, Endpoint) else "reads the parameter"
+    return DOES[what.role] if isinstance(what, Endpoint) else "reads parameter"
 
 
 RULE = Rule(

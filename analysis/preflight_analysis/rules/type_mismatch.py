@@ -23,10 +23,9 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
         if consumer.remap is None and provider.remap is not None:
             site, other = provider, consumer
         yield rule.finding(
-            f"types of '{consumer.name}' differ: {provider.node.name} {verbs.provides} it as "
-            f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} it as "
-            f"{consumer.endpoint.type or 'an unknown type'}"
-            f"{difference}",
+            f"type mismatch on '{consumer.name}': {provider.node.name} {verbs.provides} "
+            f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} "
+            f"{consumer.endpoint.type or 'an unknown type'}{difference}",
             connection_location(site),
             severity="info" if consumer.endpoint.assumed or provider.endpoint.assumed else None,
             confidence=_confidence(graph, consumer, provider),
@@ -74,12 +73,12 @@ def _difference(consumer: Connection, provider: Connection) -> str | None:
     sums_differ = bool(mine.md5 and theirs.md5) and mine.md5 != theirs.md5
     if mine.type is None or theirs.type is None:
         # A roscpp client of a service knows no type, but what it sends is known by the sum.
-        return f", with the MD5 sums {theirs.md5} and {mine.md5}" if sums_differ else None
+        return f" (MD5 sums {theirs.md5} and {mine.md5})" if sums_differ else None
     if mine.type != theirs.type:
         # Of a service only the sums are compared when it is called.
         return None if mine.role == "client" and mine.md5 and mine.md5 == theirs.md5 else ""
     if sums_differ:
-        return f", with the MD5 sums {theirs.md5} and {mine.md5}: one of them was built from another definition"
+        return f" (different definitions, MD5 sums {theirs.md5} and {mine.md5})"
     return None
 
 
