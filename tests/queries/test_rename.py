@@ -137,9 +137,12 @@ def test_arguments_that_cannot_be_renamed(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("tag", "message"),
     [
-        ('<node pkg="$0p" type="t" name="n"/>', "This is a package: only arguments and nodes can be renamed here"),
-        ('<remap from="$0a" to="b"/>', "This is a topic, whose name the nodes' sources have too"),
-        ('<param name="$0a" value="b"/>', "This is a parameter, whose name the node's source has too"),
+        (
+            '<node pkg="$0p" type="t" name="n"/>',
+            "This is a package: only arguments, nodes, parameters and topics can be renamed here",
+        ),
+        ('<remap from="$0a" to="b"/>', "'a' is a name of the node itself: rename it in the source"),
+        ('<param name="$0a$(env HOME)" value="b"/>', "comes from a substitution"),
         ('<include file="$0a"/>', "This is a launch file"),
     ],
 )

@@ -23,7 +23,7 @@ async def test_the_missing_letter_is_found_and_mended(harness: Harness) -> None:
         assert found.related_information
         assert found.related_information[0].location.uri == harness.launch_file.as_uri()
 
-        actions = await editor.actions(harness.launch_file, found.range, ["quickfix"])
+        actions = await editor.fixes(harness.launch_file, found.range)
         assert [(a.title, a.kind, a.is_preferred) for a in actions] == [
             ("Replace 'chater' with 'chatter'", types.CodeActionKind.QuickFix, True)
         ]
@@ -112,7 +112,7 @@ async def test_columns_behind_other_scripts(harness: Harness, encoding: str) -> 
         editor.open(harness.launch_file, text)
         found = await editor.misspelling(harness.launch_file)
         assert editor.covered(harness.launch_file, found.range) == "chater"
-        actions = await editor.actions(harness.launch_file, found.range, ["quickfix"])
+        actions = await editor.fixes(harness.launch_file, found.range)
         editor.apply(actions[0].edit)
         assert '𝒳 --><remap from="chatter" to="chatter"/>' in editor.texts[harness.launch_file]
         # The mended remap now says what would be so without it.

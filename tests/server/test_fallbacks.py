@@ -57,6 +57,10 @@ async def titles(editor: Editor, path: Path, needle: str) -> dict[str, types.Cod
     return {action.title: action for action in await editor.actions(path, types.Range(where, where))}
 
 
+def annotating(actions: dict[str, types.CodeAction]) -> set[str]:
+    return {title for title in actions if title.startswith("Annotate")}
+
+
 async def test_an_outdated_annotation_is_told_and_brought_up_to_date(harness: Harness) -> None:
     path = harness.launch_file.with_name("annotated.launch")
     path.write_bytes(ANNOTATED.encode())
@@ -66,7 +70,7 @@ async def test_an_outdated_annotation_is_told_and_brought_up_to_date(harness: Ha
         told = {editor.covered(path, d.range): d for d in editor.diagnostics(path) or () if d.code == "TRC006"}
         assert set(told) == {"std_msgs/Int32", "<topics>"}
         found = told["std_msgs/Int32"]
-        assert "had the type std_msgs/String" in found.message
+        assert "std_msgs/String" in found.message
         assert found.severity == types.DiagnosticSeverity.Warning
         assert "reads the parameter '~rate'" in told["<topics>"].message
         actions = await editor.actions(path, found.range)
@@ -90,12 +94,12 @@ async def test_annotations_can_be_made_of_whatever_is_known(harness: Harness) ->
     async with editing(harness) as editor:
         editor.open(other)
         await editor.having(other, "TRC004")
-        assert set(await titles(editor, other, "<node")) == {from_source, template}
+        assert annotating(await titles(editor, other, "<node")) == {from_source, template}
         # in a file that does not parse, too
         editor.change(other, OTHER.replace("</launch>", "  <group>\n</launch>"))
         await editor.having(other, "LCH001")
         actions = await titles(editor, other, "<node")
-        assert set(actions) == {from_source, template}
+        assert annotating(actions) == {from_source, template}
         editor.apply(actions[template].edit)
         assert '<topic name="" type="" class="pub"/>' in editor.texts[other]
         assert "  </node>" in editor.texts[other]
@@ -106,7 +110,7 @@ async def test_annotations_can_be_made_of_whatever_is_known(harness: Harness) ->
         editor.change(other, OTHER)
         await editor.having(other, "TRC004")
         actions = await titles(editor, other, "<node")
-        assert set(actions) == {from_elsewhere, template}
+        assert annotating(actions) == {from_elsewhere, template}
         editor.apply(actions[from_elsewhere].edit)
         assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in editor.texts[other]
         assert '<param name="~rate"/>' in editor.texts[other]

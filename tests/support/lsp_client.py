@@ -7,9 +7,10 @@ import contextlib
 import os
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Union
 from urllib.parse import unquote
 
+from cattrs import Converter
 from lsprotocol import types
 from pygls.protocol import default_converter
 from pytest_lsp import LanguageClient
@@ -29,14 +30,19 @@ def capabilities(
     refresh: bool = True,
     dynamic: bool = True,
     snippets: bool = True,
+    creates: bool = True,
 ) -> types.ClientCapabilities:
     """What an editor of today can do; `pull` and `refresh` are the two halves of pulled diagnostics."""
     return types.ClientCapabilities(
         general=types.GeneralClientCapabilities(position_encodings=[encoding] if encoding else None),
-        window=types.WindowClientCapabilities(work_done_progress=True),
+        window=types.WindowClientCapabilities(
+            work_done_progress=True, show_document=types.ShowDocumentClientCapabilities(support=True)
+        ),
         workspace=types.WorkspaceClientCapabilities(
             apply_edit=True,
-            workspace_edit=types.WorkspaceEditClientCapabilities(document_changes=True),
+            workspace_edit=types.WorkspaceEditClientCapabilities(
+                document_changes=True, resource_operations=[types.ResourceOperationKind.Create] if creates else []
+            ),
             configuration=True,
             did_change_configuration=types.DidChangeConfigurationClientCapabilities(dynamic_registration=dynamic),
             did_change_watched_files=types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=dynamic),
@@ -47,7 +53,7 @@ def capabilities(
         text_document=types.TextDocumentClientCapabilities(
             synchronization=types.TextDocumentSyncClientCapabilities(did_save=True),
             publish_diagnostics=types.PublishDiagnosticsClientCapabilities(
-                related_information=True, version_support=True
+                related_information=True, version_support=True, code_description_support=True
             ),
             diagnostic=types.DiagnosticClientCapabilities() if pull else None,
             hover=types.HoverClientCapabilities(content_format=[types.MarkupKind.Markdown]),
@@ -79,11 +85,23 @@ def capabilities(
     )
 
 
+def _converter() -> Converter:
+    """lsprotocol's takes an action that has a command for a command."""
+    converter = default_converter()
+
+    def action(given: Any, _: Any) -> types.Command | types.CodeAction:
+        kind = types.Command if isinstance(given.get("command"), str) else types.CodeAction
+        return converter.structure(given, kind)
+
+    converter.register_structure_hook(Union[types.Command, types.CodeAction], action)  # noqa: UP007 - as it is there
+    return converter
+
+
 class Editor:
     """Open documents and what the server said of them."""
 
     def __init__(self) -> None:
-        self.client = LanguageClient(converter_factory=default_converter)
+        self.client = LanguageClient(converter_factory=_converter)
         self.published: dict[str, types.PublishDiagnosticsParams] = {}
         self.history: list[types.PublishDiagnosticsParams] = []
         self.registered: list[str] = []
@@ -95,6 +113,10 @@ class Editor:
         self.analysed = 0
         self.live: list[Any] = []
         """What `rosPreflight/live` told."""
+        self.shown: list[str] = []
+        """The documents that the server showed."""
+        self.messages: list[str] = []
+        """What the server told in a message."""
         self.progress: dict[types.ProgressToken, list[Any]] = {}
         self.on_progress: Callable[[types.ProgressToken, Any], None] = lambda token, value: None
         self.texts: dict[Path, str] = {}
@@ -108,6 +130,8 @@ class Editor:
         features[types.WORKSPACE_DIAGNOSTIC_REFRESH] = self._refreshed()
         features[types.WORKSPACE_INLAY_HINT_REFRESH] = self._hints_refreshed()
         features[types.WORKSPACE_CODE_LENS_REFRESH] = self._lenses_refreshed()
+        features[types.WINDOW_SHOW_DOCUMENT] = self._showed()
+        features[types.WINDOW_SHOW_MESSAGE] = self._messaged()
         features[types.PROGRESS] = self._progressed()
         features[types.WINDOW_WORK_DONE_PROGRESS_CREATE] = self._created()
         register_lsp_features(self.client, features)
@@ -177,6 +201,20 @@ class Editor:
         def handler(ls: LanguageClient, params: types.WorkDoneProgressCreateParams) -> None:
             assert params.token not in self.progress, "a progress token was used twice"
             self.progress[params.token] = []
+
+        return handler
+
+    def _showed(self) -> Callable[..., types.ShowDocumentResult]:
+        def handler(ls: LanguageClient, params: types.ShowDocumentParams) -> types.ShowDocumentResult:
+            self.shown.append(params.uri)
+            return types.ShowDocumentResult(success=True)
+
+        return handler
+
+    def _messaged(self) -> Callable[..., None]:
+        def handler(ls: LanguageClient, params: types.ShowMessageParams) -> None:
+            self.messages.append(params.message)
+            self._news.set()
 
         return handler
 
@@ -349,6 +387,17 @@ class Editor:
         found = await self.client.text_document_code_action_async(params)
         return [each for each in found or () if isinstance(each, types.CodeAction)]
 
+    async def fixes(self, path: Path, range_: types.Range) -> list[types.CodeAction]:
+        """The quick fixes that edit the file itself or another source, without ways to suppress or explain."""
+        found = await self.actions(path, range_, ["quickfix"])
+        return [each for each in found if not each.title.startswith(("Suppress ", "Explain ", "Show ", "Fix all "))]
+
+    async def execute(self, command: types.Command | None) -> Any:
+        """Have the server execute a command of an action."""
+        assert command is not None
+        params = types.ExecuteCommandParams(command.command, command.arguments)
+        return await self.client.workspace_execute_command_async(params)
+
     async def completion(
         self, path: Path, where: types.Position, trigger: str | None = None
     ) -> list[types.CompletionItem]:
@@ -420,6 +469,9 @@ class Editor:
         assert edit is not None
         changes = {uri: list(edits) for uri, edits in (edit.changes or {}).items()}
         for change in edit.document_changes or ():
+            if isinstance(change, types.CreateFile):
+                from_uri(change.uri).touch(exist_ok=False)
+                continue
             assert isinstance(change, types.TextDocumentEdit)
             path = from_uri(change.text_document.uri)
             assert change.text_document.version == self.versions.get(path)
@@ -428,7 +480,7 @@ class Editor:
         for uri, edits in changes.items():
             path = from_uri(uri)
             if path not in self.texts:
-                self.open(path)
+                self.open(path, language="yaml" if path.suffix in (".yaml", ".yml") else "roslaunch")
             for each in sorted(edits, key=lambda e: (e.range.start.line, e.range.start.character), reverse=True):
                 text = self.texts[path]
                 start = offset(text, each.range.start, self.encoding)

@@ -1,4 +1,5 @@
-"""`<!-- preflight: ignore[TOP001, PRM001] reason -->` on the line of a finding or the line above it."""
+"""`<!-- preflight: ignore[TOP001, PRM001] reason -->` on the line of a finding or the line above it, or above the start
+tag that it is in."""
 
 from __future__ import annotations
 
@@ -49,6 +50,7 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
         return (), ()  # nearly every file, on every keystroke
     found: list[Suppression] = []
     malformed: list[Malformed] = []
+    ends_of_tags: dict[int, int] | None = None
     for comment in _comments(document.children):
         content = comment.content
         marks = list(_MARK.finditer(content.text))
@@ -60,6 +62,9 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
             last, _ = document.lines.position(comment.span.end)
             # Behind something else on its line a comment speaks of that, not of the next line.
             alone = not document.text[document.lines.line_start(first) : comment.span.start].strip()
+            if alone:
+                ends_of_tags = _ends_of_tags(document) if ends_of_tags is None else ends_of_tags
+                last = max(last + 1, ends_of_tags.get(last + 1, 0))
             for at, each in enumerate(ids):
                 base = mark.start("ids")
                 span = content.slice_span(base + each.start(), base + each.end())
@@ -71,8 +76,18 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
                 elif len(marks) > 1:
                     removal = Edit(document.location(content.slice_span(*mark.span())), "")
                 place = document.location(span)
-                found.append(Suppression(each.group(), place, removal, first, last + alone))
+                found.append(Suppression(each.group(), place, removal, first, last))
     return tuple(found), tuple(malformed)
+
+
+def _ends_of_tags(document: Document) -> dict[int, int]:
+    """The line on which a start tag begins to that on which the last one that begins there ends, counted from 0."""
+    found: dict[int, int] = {}
+    for node in _walk(document.children):
+        if isinstance(node, Element):
+            first, last = (document.lines.position(at)[0] for at in node.open_span)
+            found[first] = max(last, found.get(first, 0))
+    return found
 
 
 def apply_suppressions(
@@ -94,11 +109,14 @@ def apply_suppressions(
 
 
 def _comments(nodes: Iterable[Node]) -> Iterator[Comment]:
+    return (node for node in _walk(nodes) if isinstance(node, Comment))
+
+
+def _walk(nodes: Iterable[Node]) -> Iterator[Node]:
     # A stack, not recursion: a hostile file nests deeper than Python's stack.
     stack = list(nodes)[::-1]
     while stack:
         node = stack.pop()
-        if isinstance(node, Comment):
-            yield node
-        elif isinstance(node, Element):
+        yield node
+        if isinstance(node, Element):
             stack.extend(reversed(node.children))

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
+from preflight_analysis.documents.hash_comments import preflight_comments
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
@@ -51,7 +52,8 @@ def read_ros2_python(source: Text, classes: PythonClasses) -> LaunchFile:
     """What the text says of the launch file. Any text gives one."""
     python = PythonSource(source.text, source.lines)
     problems = (SyntaxProblem(*python.problem),) if python.problem is not None else ()
-    document = Document(source.path, source.text, source.digest, (), problems, source.lines)
+    comments = preflight_comments(source.text, source.lines)
+    document = Document(source.path, source.text, source.digest, comments, problems, source.lines)
     whole = Span(0, len(source.text))
     reader = _Reader(python, classes)
     children = actions_of(reader.actions(), python, whole, classes)

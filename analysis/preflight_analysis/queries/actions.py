@@ -1,11 +1,12 @@
-"""What can be done at a place: the fixes of its findings, and writing a traced interface into the launch file."""
+"""What can be done at a place: the fixes of its findings, alone or all of a kind, ways to suppress them, and writing a
+traced interface into the launch file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.graph.annotations import annotation_edit, annotation_template, annotation_text
 from preflight_analysis.graph.outdated import bring_up_to_date, compare
@@ -29,13 +30,48 @@ class Rewrite:
     edits: tuple[Edit, ...]
 
 
-def fixes(findings: Iterable[Finding], file: str, span: Span) -> Iterator[FixOf]:
-    """The fixes of the findings that touch `span`."""
+def touching(findings: Iterable[Finding], file: str, span: Span) -> tuple[Finding, ...]:
+    """The findings that touch `span`."""
+    return tuple(
+        finding
+        for finding in findings
+        if finding.location.file == file
+        and finding.location.span.start <= span.end
+        and span.start <= finding.location.span.end
+    )
+
+
+def fixes(findings: Iterable[Finding]) -> Iterator[FixOf]:
+    """The fixes of findings, those that change the same once."""
+    first: dict[tuple[Edit, ...], FixOf] = {}
     for finding in findings:
-        there = finding.location
-        if there.file == file and there.span.start <= span.end and span.start <= there.span.end:
-            for fix in finding.fixes:
-                yield FixOf(finding, fix)
+        for fix in finding.fixes:
+            first.setdefault(fix.edits, FixOf(finding, fix))
+    return iter(first.values())
+
+
+def fix_all(findings: Iterable[Finding], rule: str | None = None) -> tuple[tuple[Edit, ...], int]:
+    """The edits of the preferred fixes of a rule, and how many of them there are; without a rule those of all findings
+    that are certain. Of two that change the same place the first counts."""
+    chosen: dict[Edit, None] = {}
+    count = 0
+    for finding in findings:
+        fix = next((each for each in finding.fixes if each.preferred), None)
+        if fix is None or finding.rule != (rule or finding.rule) or (rule is None and finding.confidence != "certain"):
+            continue
+        new = [edit for edit in fix.edits if edit not in chosen]
+        if not any(_overlap(edit.location, known.location) for edit in new for known in chosen):
+            count += 1
+            chosen.update(dict.fromkeys(new))
+    return tuple(chosen), count
+
+
+def _overlap(one: Location, other: Location) -> bool:
+    """Whether two places share text; two insertions at one place do not."""
+    if one.file != other.file:
+        return False
+    (start, end), (first, last) = one.span, other.span
+    return (start < last and first < end) or ((start, end) == (first, last) and start < end)
 
 
 _FROM = {

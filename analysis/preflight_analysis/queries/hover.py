@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import Command, CommandValue, LaunchNode, ParamValue, Use
+from preflight_analysis.evaluation.tree import Command, CommandValue, Include, LaunchNode, ParamValue, Use
 from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
+from preflight_analysis.queries.arguments import accepted
+from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.language import described
 from preflight_analysis.queries.param_files import in_param_file, is_param_file
@@ -27,6 +30,7 @@ from preflight_analysis.queries.places import (
     use_at,
     uses_at,
 )
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Frame, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -39,6 +43,9 @@ _SHOWN_COLUMNS = 160
 _SHOWN_ROOTS = 8
 _SHOWN_VALUES = 4
 _SHOWN_QOS = ("reliability", "durability")
+_SHOWN_ENDPOINTS = 8
+_OF_ONE_RUN = (re.compile(r", kept from an earlier run"), re.compile(r" after \d+\.\d+ s(?=\.)"))
+"""What two runs of the same node differ in."""
 
 _OF_THE_TAG = ("value", "executable", "include", "node")
 """Uses of which the tag around them tells more."""
@@ -70,15 +77,22 @@ _SIDES = (
 )
 
 
-def hover(analyses: Sequence[Analysis], file: str, offset: int, unseen: int = 0) -> Hover | None:
+def hover(
+    analyses: Sequence[Analysis], file: str, offset: int, unseen: int = 0, context: QueryContext | None = None
+) -> Hover | None:
     """What is known of the thing at `offset`, in the first of the roots in which there is something to say, what it
     comes to in each where that is not the same, and what the language says of a tag or attribute whose name is there.
 
-    None where there is nothing to say. `unseen` is how many more roots there are that reach the file.
+    None where there is nothing to say. `unseen` is how many more roots there are that reach the file. With a `context`
+    what other files say of a parameter, a package or an argument is there too.
     """
     if analyses and is_param_file(analyses[0], file):
         return in_param_file(analyses, file, offset)
-    found = next((h for a in analyses if (h := _known(a, file, offset)) is not None), None)
+    symbol = symbol_hover(context, offset) if context is not None else None
+    found = symbol or next((h for a in analyses if (h := _known(a, file, offset)) is not None), None)
+    notes = argument_notes(context, offset) if context is not None and found is not None else ""
+    if found is not None and notes:
+        found = Hover(f"{found.markdown}\n\n{notes}", found.span)
     contexts = _contexts(analyses, file, offset, unseen) if found else ""
     if found is not None and contexts:
         found = Hover(f"{found.markdown}\n\n{contexts}", found.span)
@@ -161,7 +175,7 @@ def _made(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
         for include in analysis.tree.includes:
             if include.origin[-1].file == file and include.origin[-1].span == action.head_span:
                 given = (" " + code(f"{name}:={value}") for name, value in include.args.items())
-                yield f"{code(include.path or 'not known')}{''.join(given)}"
+                yield f"{code(include.path or 'unresolved')}{''.join(given)}"
     elif action.kind in _SET_PARAMETERS:
         yield from (f"{code(p.name)} = {value_text(p.value)}" for p in params_of(analysis.tree, file, action))
     elif action.kind in ("remap", "set_remap"):
@@ -172,19 +186,11 @@ def _made(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
 def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
     """One block of text for each thing that the tag makes."""
     if action.kind in NODE_KINDS:
-        nodes = list(nodes_of(analysis, file, action))
-        for index, node in nodes[:_SHOWN_CONTEXTS]:
-            yield _node(analysis, index, node)
-        if len(nodes) > _SHOWN_CONTEXTS:
-            yield f"… and {len(nodes) - _SHOWN_CONTEXTS} more nodes of this tag"
+        yield from _nodes(analysis, list(nodes_of(analysis, file, action)))
     elif action.kind == "include":
         include = include_of(analysis.tree, file, action)
         if include is not None:
-            lines = [f"Includes {link(include.path, None)}" if include.path else "Includes a file that is not known"]
-            lines += [f"- {code(name)} = {value_text(value)}" for name, value in include.args.items()]
-            if include.path:
-                lines.insert(1, f"\n{code(include.path)}\n")
-            yield "\n".join(lines)
+            yield _include(analysis, include)
     elif action.kind in _SET_PARAMETERS:
         params = list(params_of(analysis.tree, file, action))
         lines = [f"- {code(p.name)} = {value_text(p.value)} ({_type(p.value)})" for p in params[:_SHOWN_PARAMS]]
@@ -200,6 +206,55 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
         yield from dict.fromkeys(_command(command) for command in made[:_SHOWN_CONTEXTS])
     elif action.kind in ("remap", "set_remap"):
         yield from _remap(analysis, file, action)
+
+
+def _nodes(analysis: Analysis, nodes: Sequence[tuple[int, LaunchNode]]) -> Iterator[str]:
+    """The nodes of one tag. Of those that are alike but for their namespace all but the first are only named."""
+    blocks: dict[str, tuple[str, list[LaunchNode]]] = {}
+    for index, node in nodes:
+        body = _node_body(analysis, index, node)
+        _, alike = blocks.setdefault(_without_namespace(body, node), (_node_title(analysis, node) + body, []))
+        alike.append(node)
+    for text, alike in list(blocks.values())[:_SHOWN_CONTEXTS]:
+        more = [f"- {code(node.name)}, {_chain(analysis, node.origin)}" for node in alike[1 : 1 + _SHOWN_CONTEXTS]]
+        if len(alike) - 1 > len(more):
+            more.append(f"- … and {len(alike) - 1 - len(more)} more")
+        yield "\n".join([text, "", "Likewise:", *more]) if more else text
+    if len(blocks) > _SHOWN_CONTEXTS:
+        hidden = sum(len(alike) for _, alike in list(blocks.values())[_SHOWN_CONTEXTS:])
+        yield f"… and {hidden} more nodes of this tag"
+
+
+def _without_namespace(text: str, node: LaunchNode) -> str:
+    """A text of a node without what differs in the same node of another namespace."""
+    for pattern in _OF_ONE_RUN:
+        text = pattern.sub("", text)
+    above = names.parent(node.name)
+    return text.replace(above, "\0/") if above != "/" else text
+
+
+def _include(analysis: Analysis, include: Include) -> str:
+    """The file and its arguments: those that are given, then those that keep their defaults."""
+    if include.path is None:
+        written = analysis.context.text(include.file_location)
+        return f"Unresolved include{f': {code(written)}' if written else ''}"
+    lines = [f"Includes {link(include.path, None)}", "", code(include.path)]
+    launch_file = analysis.launch_files.get(include.path)
+    declared = {each.name: each for each in accepted(launch_file)} if launch_file is not None else {}
+    shown = []
+    for name, value in include.args.items():
+        known = declared.pop(name, None)
+        doc = _doc(known.doc if known is not None else None)
+        shown.append(f"- {code(name)} = {value_text(value)}, given{doc}")
+    for each in declared.values():
+        state = "required, not given" if each.required else f"{code(each.default or '')}, default"
+        shown.append(f"- {code(each.name)}{': ' if each.required else ' = '}{state}{_doc(each.doc)}")
+    more = [f"- … and {len(shown) - _SHOWN_PARAMS} more"] if len(shown) > _SHOWN_PARAMS else []
+    return "\n".join([*lines, *(["", "Arguments"] if shown else []), *shown[:_SHOWN_PARAMS], *more])
+
+
+def _doc(text: str | None) -> str:
+    return f" — {escaped(text)}" if text else ""
 
 
 def _command(command: Command) -> str:
@@ -221,12 +276,20 @@ def _command(command: Command) -> str:
 
 
 def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
+    """What a remap does: for the first robot with both sides of the new name."""
     reached = list(remaps_of(analysis.tree, file, action))
     named = (((names.resolve(r.source, n.name), names.resolve(r.target, n.name)), n.name) for n, r in reached)
-    for (source, target), nodes in _grouped(named):
-        lines = [f"{code(source)} → {code(target)} for {', '.join(code(n) for n in nodes)}"]
-        if analysis.graph is not None:
+    groups = list(_grouped(named))
+    lines: list[str] = []
+    for number, ((source, target), nodes) in enumerate(groups[: 1 + _SHOWN_CONTEXTS]):
+        lines += ["", "Likewise:"] if number == 1 else []
+        shown = f"{code(source)} → {code(target)} for {', '.join(code(n) for n in nodes)}"
+        lines.append(f"- {shown}" if number else shown)
+        if not number and analysis.graph is not None:
             lines += _connections(analysis.graph, target)
+    if len(groups) > 1 + _SHOWN_CONTEXTS:
+        lines.append(f"- … and {len(groups) - 1 - _SHOWN_CONTEXTS} more")
+    if lines:
         yield "\n".join(lines)
 
 
@@ -238,13 +301,29 @@ def _grouped(pairs: Iterable[tuple[tuple[str, str], str]]) -> Iterator[tuple[tup
 
 
 def _connections(graph: Graph, name: str) -> Iterator[str]:
+    """Both sides of a topic, service or action: who is there, with type, QoS and the line of the source."""
     for kind, channels in (("topic", graph.topics), ("service", graph.services), ("action", graph.actions)):
         channel = channels.get(name)
-        if channel is not None:
-            verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
-            for verb, connections in zip(verbs, (channel.providers, channel.consumers), strict=True):
-                nodes = ", ".join(sorted({code(c.node.name) for c in connections})) or "nobody"
-                yield f"- {kind} {code(name)} {verb} {nodes}"
+        if channel is None:
+            continue
+        verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
+        for verb, connections in zip(verbs, (channel.providers, channel.consumers), strict=True):
+            if not connections:
+                yield f"- {kind} {code(name)} {verb} nobody"
+            for connection in sorted(connections, key=lambda each: each.node.name)[:_SHOWN_ENDPOINTS]:
+                endpoint = connection.endpoint
+                kind_of = f" {code(endpoint.type)}" if endpoint.type else ""
+                more = f"{kind_of}{_quality(endpoint)}{_made_at(endpoint)}"
+                yield f"- {kind} {code(name)} {verb} {code(connection.node.name)}{more}"
+            if len(connections) > _SHOWN_ENDPOINTS:
+                yield f"- … and {len(connections) - _SHOWN_ENDPOINTS} more"
+
+
+def _quality(endpoint: Endpoint) -> str:
+    text = ", latched" if endpoint.qos.get("latch") else ""
+    return text + "".join(
+        f", {escaped(str(endpoint.qos[each]).replace('_', ' '))}" for each in _SHOWN_QOS if endpoint.qos.get(each)
+    )
 
 
 def _use(analysis: Analysis, use: Use) -> str:
@@ -273,15 +352,18 @@ def _chain(analysis: Analysis, origin: Origin) -> str:
     return ", ".join(steps)
 
 
-def _node(analysis: Analysis, index: int, node: LaunchNode) -> str:
-    lines = [f"**{escaped(node.name)}** {code(f'{node.package}/{node.executable}')}"]
+def _node_title(analysis: Analysis, node: LaunchNode) -> str:
+    title = f"**{escaped(node.name)}** {code(f'{node.package}/{node.executable}')}"
     if node.resolved.path:
-        lines[0] += f" — {link(node.resolved.path, None)}"
-    if len(node.origin) > 1:
-        lines += ["", _chain(analysis, node.origin)]
+        title += f" — {link(node.resolved.path, None)}"
+    return f"{title}\n\n{_chain(analysis, node.origin)}" if len(node.origin) > 1 else title
+
+
+def _node_body(analysis: Analysis, index: int, node: LaunchNode) -> str:
+    """All but the title of a node, beginning with an empty line."""
     graph = analysis.graph
     interface = graph.processes[index] if graph is not None else None
-    lines += ["", _outcome(analysis, interface)]
+    lines = ["", "", _outcome(analysis, interface)]
     if interface is not None and graph is not None and interface.known:
         for title, channels, side in _SIDES:
             connections = [
@@ -356,9 +438,7 @@ def _connection(connection: Connection, interface: Interface) -> str:
         text += f" {code(endpoint.type)}"
     if connection.remap is not None:
         text += f", called {code(endpoint.name)} by the node and remapped"
-    if endpoint.qos.get("latch"):
-        text += ", latched"
-    text += "".join(f", {escaped(str(endpoint.qos[p]).replace('_', ' '))}" for p in _SHOWN_QOS if endpoint.qos.get(p))
+    text += _quality(endpoint)
     if endpoint.speculative:
         text += ", after a made-up answer"
     if endpoint.on_demand:

@@ -1,4 +1,4 @@
-"""Renaming arguments and nodes, over all files, or the reason why not."""
+"""Renaming arguments, nodes, parameters and topics, over all files, or the reason why not."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import keyword
 import re
 from collections.abc import Iterator
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
@@ -16,6 +17,8 @@ from preflight_analysis.launch.references import NOT_ARGUMENTS
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.node_names import mentions_of, remap_names, tags_of
 from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.queries.rename_names import parameter_edits, parameter_rename, shown, topic_edits
+from preflight_analysis.queries.rename_refused import RenameRefusedError as RenameRefusedError  # noqa: PLC0414 - what a rename raises
 from preflight_analysis.queries.symbol_at import NamedSymbol, symbol_at
 
 _ARGUMENT = re.compile(r"[A-Za-z]\w*\Z", re.ASCII)
@@ -24,15 +27,9 @@ _WHAT = {
     "package": "a package",
     "executable": "an executable",
     "component": "a component, whose name its source has too",
-    "param": "a parameter, whose name the node's source has too",
-    "topic": "a topic, whose name the nodes' sources have too",
     "env": "an environment variable",
     "machine": "a machine",
 }
-
-
-class RenameRefusedError(Exception):
-    """Why it cannot be renamed, in words for the user."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +53,15 @@ def prepare(context: QueryContext, offset: int) -> Renamed | None:
         name = context.text(context.location(context.path, symbol.span))
         _node_places(context, symbol, name)
         return Renamed(name, symbol.span)
-    raise RenameRefusedError(f"This is {_WHAT[symbol.kind]}: only arguments and nodes can be renamed here")
+    if symbol.kind == "param":
+        found = parameter_rename(context, symbol)
+        return Renamed(found.leaf, found.span)
+    if symbol.kind == "topic":
+        topic_edits(context, symbol, None)
+        return Renamed(context.text(context.location(context.path, symbol.span)), symbol.span)
+    raise RenameRefusedError(
+        f"This is {_WHAT[symbol.kind]}: only arguments, nodes, parameters and topics can be renamed here"
+    )
 
 
 def rename(context: QueryContext, offset: int, new: str) -> tuple[Edit, ...]:
@@ -67,6 +72,10 @@ def rename(context: QueryContext, offset: int, new: str) -> tuple[Edit, ...]:
         raise RenameRefusedError("There is nothing to rename here")
     if new == found.name:
         return ()
+    if symbol.kind == "topic":
+        return _checked(context, topic_edits(context, symbol, new))
+    if symbol.kind == "param":
+        return _checked(context, parameter_edits(context, parameter_rename(context, symbol), new))
     if symbol.kind == "arg":
         places = _argument_places(context, symbol, found.name)
         _check_argument(context, symbol, found.name, new)
@@ -75,9 +84,17 @@ def rename(context: QueryContext, offset: int, new: str) -> tuple[Edit, ...]:
         _check_node(context, symbol, new)
     for place in places:
         if context.text(place) != found.name or not _is_text(context, place):
-            where = _shown(context, place)
+            where = shown(context, place)
             raise RenameRefusedError(f"'{found.name}' cannot be replaced at {where}: the text there is not as expected")
     return tuple(Edit(place, new) for place in sorted(places, key=lambda place: (place.file, place.span)))
+
+
+def _checked(context: QueryContext, edits: tuple[Edit, ...]) -> tuple[Edit, ...]:
+    """The edits in order, none of them in what is not the user's or of a variable."""
+    for edit in edits:
+        if catalogued_file(edit.location.file) is not None or not _is_text(context, edit.location):
+            raise RenameRefusedError(f"The name at {shown(context, edit.location)} cannot be changed")
+    return tuple(sorted(edits, key=lambda edit: (edit.location.file, edit.location.span)))
 
 
 def _is_text(context: QueryContext, place: Location) -> bool:
@@ -123,7 +140,7 @@ def _check_argument(context: QueryContext, symbol: NamedSymbol, name: str, new: 
     same_tag = {tag for place in shared_arguments.given_at(context, files, name) for tag in _tags(context, place, name)}
     given = (p for p in shared_arguments.given_at(context, files, new) if same_tag.intersection(_tags(context, p, new)))
     for place in (*taken, *given):
-        raise RenameRefusedError(f"There is an argument '{new}' already, at {_shown(context, place)}")
+        raise RenameRefusedError(f"There is an argument '{new}' already, at {shown(context, place)}")
 
 
 def _tags(context: QueryContext, place: Location, name: str) -> Iterator[Location]:
@@ -152,7 +169,7 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
     for tree in trees:
         for node in tree.nodes:
             if node.name in wanted and node.location not in own:
-                where = _shown(context, node.location)
+                where = shown(context, node.location)
                 raise RenameRefusedError(
                     f"The tag at {where} makes a node '{node.name}' too: which one is meant is not sure"
                 )
@@ -169,7 +186,7 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
     for value, spans in mixed.items():
         span = spans.pop()
         if span is None or spans:
-            where = _shown(context, value)
+            where = shown(context, value)
             raise RenameRefusedError(
                 f"The node's name is part of what is set at {where}, but not written there: rename it by hand"
             )
@@ -216,10 +233,4 @@ def _check_node(context: QueryContext, symbol: NamedSymbol, new: str) -> None:
     for tree in context.all_trees:
         for node in tree.nodes:
             if node.name in wanted:
-                raise RenameRefusedError(f"There is a node '{node.name}' already, at {_shown(context, node.location)}")
-
-
-def _shown(context: QueryContext, place: Location) -> str:
-    document = context.document(place.file)
-    line = document.lines.position(place.span.start)[0] + 1 if document else 1
-    return f"{context.shown(place.file)}:{line}"
+                raise RenameRefusedError(f"There is a node '{node.name}' already, at {shown(context, node.location)}")

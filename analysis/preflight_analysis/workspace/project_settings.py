@@ -93,6 +93,12 @@ def read_project_settings(folder: str) -> ProjectSettings:
     return _settings(folder, path, read_text(path))
 
 
+def settings_of_text(folder: str, text: str) -> ProjectSettings:
+    """The settings of a workspace as they would be with this text."""
+    path = os.path.join(folder, SETTINGS_FILE)
+    return _settings(folder, path, Text.of(path, text))
+
+
 @query
 def project_settings_of(db: Database, folder: str) -> ProjectSettings:
     """The settings of a workspace; empty where there is no settings file."""

@@ -232,6 +232,7 @@ class Analyses:
             only_news,
             self._server.texts,
             self._shows_related,
+            self._server.shown_pages,
         )
 
     def _commit(self, round_: Round) -> None:

@@ -21,6 +21,7 @@ from preflight_server.lsp.folders import Folders
 from preflight_server.lsp.live import LiveWatch
 from preflight_server.lsp.protocol import PreflightProtocol, RefusedError, is_failure
 from preflight_server.lsp.publisher import Publisher
+from preflight_server.lsp.rule_pages import RulePages
 from preflight_server.lsp.session import Session, View
 from preflight_server.lsp.settings import Settings, as_mapping
 from preflight_server.lsp.status import Status
@@ -51,6 +52,7 @@ class PreflightServer(LanguageServer):
         self.status = Status(self)
         self.publisher = Publisher(self)
         self.live = LiveWatch(self)
+        self.rule_pages = RulePages()
         self.turn_to_run = asyncio.Lock()
         """Held while the nodes of one folder are run: the machine has no more cores for several folders."""
         self.client_commands: frozenset[str] = frozenset()
@@ -75,6 +77,13 @@ class PreflightServer(LanguageServer):
             trusted=options.get("workspaceTrusted") is True,
             environments=_environments(options),
         )
+
+    @property
+    def shown_pages(self) -> RulePages | None:
+        """The pages of rules, for a client that follows the code of a diagnostic; None for any other."""
+        document = self.client_capabilities.text_document
+        ways = (document.publish_diagnostics, document.diagnostic) if document is not None else ()
+        return self.rule_pages if any(way is not None and way.code_description_support for way in ways) else None
 
     @property
     def sessions(self) -> tuple[Session, ...]:

@@ -14,6 +14,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Severity
 from preflight_analysis.queries.symbols import Symbol
 
 from preflight_server.lsp.positions import Positions
+from preflight_server.lsp.rule_pages import RulePages
 from preflight_server.lsp.text_store import TextStore, to_uri
 
 SOURCE = "ros-preflight"
@@ -61,6 +62,7 @@ class Converter:
     """Converts what speaks of files by path. `documents` are the texts the spans were computed on.
 
     A text that is neither there nor open is read from disk (YAML files, node sources), so use it off the event loop.
+    `pages` are what the codes of diagnostics lead to, for a client that follows them.
     Diagnostics that `before` made of the same findings, in texts that have not changed, are the same objects again:
     to make thousands, and to compare them with what was published, takes longer than a keystroke may.
     """
@@ -71,11 +73,13 @@ class Converter:
         documents: Mapping[str, Document],
         *,
         related: bool = True,
+        pages: RulePages | None = None,
         before: Converter | None = None,
     ) -> None:
         self._texts = texts
         self._documents = documents
         self._related = related
+        self._pages = pages
         self._positions: dict[str, Positions] = {}
         self._uris: dict[str, str] = {}
         self._made: dict[str, _OfFile] = {}
@@ -178,6 +182,7 @@ class Converter:
 
     def _diagnostic(self, finding: Finding, places: Sequence[types.Location]) -> types.Diagnostic:
         """`places` has the finding's, and the related ones. How sure we are is said where we are not."""
+        page = self._pages.uri(finding.rule) if self._pages is not None else None
         sure = "" if finding.confidence == "certain" else f" ({finding.confidence})"
         related = None
         if self._related and finding.related:
@@ -190,6 +195,7 @@ class Converter:
             message=finding.message + sure,
             severity=SEVERITIES[finding.severity],
             code=finding.rule,
+            code_description=types.CodeDescription(page) if page is not None else None,
             source=SOURCE,
             related_information=related,
             data={"name": finding.name, "confidence": finding.confidence},

@@ -21,6 +21,7 @@ from preflight_analysis.workspace.run_results import RunResults
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.lsp.convert import Converter
+from preflight_server.lsp.rule_pages import RulePages
 from preflight_server.lsp.text_store import TextStore
 
 _log = logging.getLogger(__name__)
@@ -73,6 +74,7 @@ class Snapshot:
     """Whether `before` is all there is to tell where the roots that are asked for are what they were."""
     texts: TextStore
     shows_related: bool
+    pages: RulePages | None
 
     def round(self, workspace: Workspace) -> Round | None:
         """What follows from it; None where an edit came first. Call it in a thread."""
@@ -124,7 +126,7 @@ class Snapshot:
             path: document for root in newest_last for path, document in shown_roots[root].all_documents.items()
         }
         before = self.before.converter if self.before is not None else None
-        converter = Converter(self.texts, documents, related=self.shows_related, before=before)
+        converter = Converter(self.texts, documents, related=self.shows_related, pages=self.pages, before=before)
         shown = {path: kept.get(lacks_once, path, found) for path, found in findings.items()}
         diagnostics = {path: converter.diagnostics(path, found) for path, found in shown.items()}
         lacks = missing((f.lack, f.location) for found in findings.values() for f in found if f.lack is not None)

@@ -211,7 +211,7 @@ class Session:
         if parsed is None or parsed.text != document.text:
             return None
         findings = self.analyses.findings.get(document.path, ())
-        converter = Converter(self._server.texts, analyses[0].documents)
+        converter = Converter(self._server.texts, analyses[0].documents, pages=self._server.shown_pages)
         index = self.indexing.index
         return View(self, document, document.path, analyses[0], analyses, index, findings, converter)
 

@@ -31,5 +31,5 @@ def register(server: PreflightServer) -> None:
         offset = positions.offset(params.position)
         context = await query_context(view)
         unseen = max(0, len(view.session.choice.of(view.path)) - len(view.analyses))
-        found = await view.session.in_pool(lambda: query(context.analyses, view.path, offset, unseen))
+        found = await view.session.in_pool(lambda: query(context.analyses, view.path, offset, unseen, context))
         return types.Hover(_content(ls, found.markdown), positions.range(found.span)) if found else None

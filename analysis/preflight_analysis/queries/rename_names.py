@@ -1,0 +1,183 @@
+"""Renaming parameters and topics through launch files, parameter files and remaps.
+
+The sources of nodes are left alone: what a node itself calls by the old name stands in the way of a rename.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation import names
+from preflight_analysis.findings.finding import Edit
+from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.queries.references import connections, made_at
+from preflight_analysis.queries.rename_refused import RenameRefusedError
+from preflight_analysis.queries.symbol_at import NamedSymbol, own_parameter, remaps_at, settings_of
+from preflight_analysis.workspace.workspace import Analysis
+
+_LEAF = re.compile(r"[^~/.:\s]+\Z")
+_PARAMETER = re.compile(r"[A-Za-z][\w-]*\Z", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterRename:
+    """A parameter with all places that set it. `leaf` is the last part of its name, which a rename changes: `places`
+    are where that is written; `names` are the full names that they set."""
+
+    leaf: str
+    span: Span
+    places: tuple[Location, ...]
+    names: frozenset[str]
+
+
+def parameter_rename(context: QueryContext, symbol: NamedSymbol) -> ParameterRename:
+    """What a rename of the parameter at the cursor changes. Raises `RenameRefusedError`."""
+    at = _leaf(context, context.location(context.path, symbol.span))
+    leaf = context.text(at)
+    full, places = set(symbol.names), dict[Location, None]()
+    while True:
+        before = len(full), len(places)
+        for tree in context.all_trees:
+            for name, param in settings_of(tree):
+                if name in full or param.place in places:
+                    full.add(name)
+                    places[param.place] = None
+        if before == (len(full), len(places)):
+            break
+    written = []
+    for place in places:
+        part = _leaf(context, place)
+        if context.text(part) != leaf:
+            raise RenameRefusedError(
+                f"The parameter is set at {shown(context, place)} under a name that does not end in '{leaf}'"
+            )
+        written.append(part)
+    if not written:
+        raise RenameRefusedError(f"No launch file or parameter file sets '{leaf}'")
+    return ParameterRename(leaf, at.span, tuple(written), frozenset(full))
+
+
+def parameter_edits(context: QueryContext, found: ParameterRename, new: str) -> tuple[Edit, ...]:
+    """The edits that give the parameter another last part. Raises `RenameRefusedError`."""
+    if not _PARAMETER.match(new):
+        raise RenameRefusedError(f"'{new}' is not a parameter name: a letter, then letters, digits and underscores")
+    renamed = {name: name[: len(name) - len(found.leaf)] + new for name in found.names}
+    for tree in context.all_trees:
+        for name, param in settings_of(tree):
+            if name in renamed.values():
+                raise RenameRefusedError(f"'{new}' is already set at {shown(context, param.place)}")
+    for analysis in context.analyses:
+        _refuse_if_read(context, analysis, found, renamed)
+    return tuple(Edit(place, new) for place in found.places)
+
+
+def _refuse_if_read(
+    context: QueryContext, analysis: Analysis, found: ParameterRename, renamed: Mapping[str, str]
+) -> None:
+    """A node that asks for the old name, and not for the new one, would no longer get the value."""
+    own = analysis.tree.ros.own_parameters
+    reads: dict[str, list[Location | None]] = {}
+    by_node: dict[str, set[str]] = {}
+    for read in analysis.graph.param_reads if analysis.graph is not None else ():
+        name = own_parameter(read.node, read.use.name) if own else read.name
+        by_node.setdefault(read.node.name, set()).add(name)
+        if name in found.names and read.use.access != "set":
+            reads.setdefault(f"{read.node.name}\0{name}", []).append(made_at(context, read.use))
+    for key, places in reads.items():
+        node, _, name = key.partition("\0")
+        if renamed[name] not in by_node[node]:
+            place = next((each for each in places if each is not None), None)
+            where = f" at {shown(context, place)}" if place is not None else ""
+            raise RenameRefusedError(f"{node} reads '{found.leaf}'{where}: rename it in the source first")
+
+
+def _leaf(context: QueryContext, place: Location) -> Location:
+    """The last part of the name that is written at a place."""
+    text = context.text(place)
+    found = _LEAF.search(text.rstrip("'\""))
+    if found is None or "$" in text:
+        raise RenameRefusedError(f"The name at {shown(context, place)} comes from a substitution")
+    start = place.span.start
+    return context.location(place.file, Span(start + found.start(), start + found.end()))
+
+
+def topic_edits(context: QueryContext, symbol: NamedSymbol, new: str | None) -> tuple[Edit, ...]:
+    """The edits of all remaps that give nodes the topic, service or action at the cursor, which `new` is written in
+    place of; for None only whether that is possible. Raises `RenameRefusedError`."""
+    at = context.location(context.path, symbol.span)
+    renamed: dict[str, str] = {}
+    for tree in context.all_trees:
+        for node, remap in remaps_at(tree, at):
+            if remap.target_location != at:
+                raise RenameRefusedError(
+                    f"'{context.text(at)}' is the name that {node.name} itself uses: rename it in the source"
+                )
+            old = names.resolve(remap.target, node.name)
+            renamed[old] = names.resolve(new, node.name) if new is not None else old
+    if not renamed:
+        raise RenameRefusedError(f"'{context.text(at)}' is a name of the node itself: rename it in the source")
+    if new is not None and (not new or not names.is_legal(new) or new.startswith("~")):
+        raise RenameRefusedError(f"'{new}' is not a topic name: a letter, then letters, digits, underscores, slashes")
+    for analysis in context.analyses:
+        _refuse_if_own(context, analysis, renamed, checks_new=new is not None)
+    edits = dict(_targets(context, renamed, context.text(at), new))
+    return tuple(Edit(place, text) for place, text in edits.items())
+
+
+def _refuse_if_own(context: QueryContext, analysis: Analysis, renamed: Mapping[str, str], *, checks_new: bool) -> None:
+    if analysis.graph is None:
+        raise RenameRefusedError("The nodes of this launch are not analysed yet")
+    for connection, _ in connections(analysis.graph, frozenset(renamed)):
+        if connection.remap is None and not connection.endpoint.builtin:
+            place = made_at(context, connection.endpoint) or connection.node.location
+            raise RenameRefusedError(
+                f"{connection.node.name} uses '{connection.name}' without a remap, at {shown(context, place)}"
+            )
+    for old, new in renamed.items() if checks_new else ():
+        if old != new and (met := next(connections(analysis.graph, frozenset({new})), None)) is not None:
+            raise RenameRefusedError(f"'{new}' exists already: {met[0].node.name} uses it")
+
+
+def _targets(
+    context: QueryContext, renamed: Mapping[str, str], written: str, new: str | None
+) -> Iterator[tuple[Location, str]]:
+    """The targets of remaps that come to one of the names, with what is to be written there."""
+    reached: dict[Location, list[tuple[str, str]]] = {}
+    for tree in context.all_trees:
+        for node in tree.nodes:
+            for remap in node.remaps:
+                pair = node.name, names.resolve(remap.target, node.name)
+                reached.setdefault(remap.target_location, []).append(pair)
+    for place, pairs in reached.items():
+        if not any(full in renamed for _, full in pairs):
+            continue
+        text = context.text(place)
+        if "$" in text or any(names.resolve(text, node) != full for node, full in pairs):
+            raise RenameRefusedError(f"The name at {shown(context, place)} comes from a substitution")
+        if any(full not in renamed for _, full in pairs):
+            raise RenameRefusedError(f"The remap at {shown(context, place)} makes other names, too")
+        if new is None:
+            continue
+        choices = [new] if text == written else []
+        choices += dict.fromkeys(_below(renamed[full], node) for node, full in pairs) if text[:1] != "/" else ()
+        choices += dict.fromkeys(renamed[full] for _, full in pairs)
+        fits = (each for each in choices if all(names.resolve(each, node) == renamed[full] for node, full in pairs))
+        chosen = next(fits, None)
+        if chosen is None:
+            raise RenameRefusedError(f"No name at {shown(context, place)} means the same for all nodes of that remap")
+        yield place, chosen
+
+
+def _below(full: str, node: str) -> str:
+    """A full name as a node can write it: without its own namespace where that is in front."""
+    return full.removeprefix(names.parent(node))
+
+
+def shown(context: QueryContext, place: Location) -> str:
+    """A place for a message."""
+    document = context.document(place.file)
+    line = document.lines.position(place.span.start)[0] + 1 if document else 1
+    return f"{context.shown(place.file)}:{line}"
