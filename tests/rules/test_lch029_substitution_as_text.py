@@ -18,18 +18,20 @@ def test_what_looks_like_a_substitution_and_is_none() -> None:
             <param name="d" value="$(dirname"/>
                                    ^^^^^^^^^ warning[LCH029] '$(dirname)' is one
             <param name="e" value="$(arg port)"/>
+            <param name="f" value="(arg port)"/>
+                                   ^^^^^^^^^^ warning[LCH029] '(arg port)' is no substitution: roslaunch takes it
           </node>
         </launch>
     """
     meant = [edit.text for finding in check(fixture) for fix in finding.fixes for edit in fix.edits]
-    assert meant == ["$(arg port)", "$(arg port)", "$(arg port)", "$(dirname)"]
+    assert meant == ["$(arg port)", "$(arg port)", "$(arg port)", "$(dirname)", "$(arg port)"]
 
 
 @pytest.mark.silent
 def test_dollars_of_others_are_no_substitutions() -> None:
     check("""
         <launch>
-          <arg name="port" default="1"/>
+          <arg name="port" default="1" doc="that of the board (arg port)"/>
           <param name="a" value="costs 5$ (or less), ${HOME}, $(arg port), $argument(s), $(args"/>
           <node pkg="p" type="t" name="n" launch-prefix="bash -c 'sleep $0; $@'"/>
         </launch>

@@ -9,6 +9,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.below_packages import asked_below
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check, findings_of
@@ -43,6 +44,42 @@ def test_a_name_from_before_a_rename() -> None:
         <package/>
     """)
     assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' with 'ca_tools'", False)]
+
+
+@pytest.mark.parametrize(("file", "severity"), [("base.yaml", "warning"), ("other.yaml", "hint")])
+def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
+    tmp_path: Path, file: str, severity: str
+) -> None:
+    for name in ("robot", "beside"):
+        (tmp_path / "src" / name / "config").mkdir(parents=True)
+        (tmp_path / "src" / name / "package.xml").write_text(manifest(name, "catkin"))
+    (tmp_path / "src" / "robot" / "config" / "base.yaml").write_text("rate: 1")
+    launch = tmp_path / "src" / "robot" / "main.launch"
+    launch.write_text(
+        f'<launch><rosparam command="load" file="$(find vortex)/config/{file}"/>'
+        '<node pkg="stranger" type="t" name="n"/></launch>'
+    )
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = [f for f in workspace.static(str(launch), {}).findings if "'vortex'" in f.message and f.rule == "PKG001"]
+    assert [f.severity for f in findings] == [severity]
+    meant = "package 'robot' has 'config/base.yaml'; did you mean 'robot'?"
+    assert (meant in findings[0].message) == (severity == "warning")
+
+
+@pytest.mark.parametrize(
+    ("text", "paths"),
+    [
+        ('file="$(find old)/config/a.yaml $(find other)/b/c"', ["config/a.yaml"]),
+        ('file="$(find-pkg-share old)/config/a.yaml"', ["config/a.yaml"]),
+        ("share = join(get_package_share_directory('old'))\nx = join(share, 'config', 'a.yaml')", ["config/a.yaml"]),
+        ("PathJoinSubstitution([FindPackageShare('old'), 'config', 'a.yaml'])", ["config/a.yaml"]),
+        ("get_package_share_directory(\"old\") + '/config/a.yaml'", ["config/a.yaml"]),
+        ("share = get_package_share_directory('other')\nx = join(share, 'config', 'a.yaml')", []),
+        ("join(get_package_share_directory('old'), 'config')", []),
+    ],
+)
+def test_what_a_launch_file_asks_for_below_a_package(text: str, paths: list[str]) -> None:
+    assert list(asked_below(text, "old")) == paths
 
 
 def test_who_uses_several_packages_that_nobody_knows_has_them_elsewhere() -> None:

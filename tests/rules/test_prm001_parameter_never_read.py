@@ -367,9 +367,55 @@ _PARTLY = """
 
 def test_a_node_whose_source_tells_that_it_reads_the_name_elsewhere() -> None:
     told = [each for each in findings_of(_PARTLY % ("source", "")) if each.rule == "PRM001"]
-    assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")] * 2
+    assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")] * 3
     assert "'/bagger/stream_time'; did you mean '/stream_time'" in told[0].message
-    assert "'/bagger/tpics'; did you mean '/bagger/topics'" in told[1].message
+    assert "'/bagger/same_as_default'; did you mean '/same_as_default'" in told[1].message
+    assert "'/bagger/tpics'; did you mean '/bagger/topics'" in told[2].message
+
+
+_BESIDE = """
+    <launch>
+      <param name="fieldname" value="lab"/>
+      <param name="same_as_default" value="3"/>
+      <param name="of_both" value="1"/>
+      <node pkg="p" type="localization" name="localization"/>
+      <node pkg="p" type="map" name="map"/>
+    </launch>
+    //- interfaces
+    {"/localization": {"source": "source", "status": "crashed",
+                       "params": {"~fieldname": "", "~same_as_default": 3, "~of_both": 0}},
+     "/map": {"source": "%s", "status": "not-run", "publishers": {"map": "x/M"}, "params": {"~of_both": 0}}}
+"""
+
+
+def test_a_parameter_beside_the_node_that_its_source_tells_in_part() -> None:
+    told = [each for each in findings_of(_BESIDE % "source") if each.rule == "PRM001"]
+    assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")]
+    assert "'/fieldname'; /localization reads '/localization/fieldname', which is not set" in told[0].message
+
+
+@pytest.mark.silent
+def test_a_node_of_which_nothing_is_known_may_read_what_is_beside_it() -> None:
+    assert "PRM001" not in {each.rule for each in findings_of(_BESIDE % "none")}
+
+
+def test_the_only_parameter_that_is_left_over_on_either_side() -> None:
+    launch = """
+        <launch>
+          <node pkg="p" type="grasp" name="grasp">
+            <param name="load_threshold" value="0.01"/>
+            %s
+          </node>
+        </launch>
+        //- interfaces
+        {"/grasp": {"params": {"~position_threshold": 0.0, "~rate": 1%s}}}
+    """
+    told = [each for each in findings_of(launch % ('<param name="rate" value="2"/>', "")) if each.rule == "PRM001"]
+    assert [each.severity for each in told] == ["warning"]
+    assert "did you mean '/grasp/position_threshold'" in told[0].message
+    for more, reads in (("", ""), ('<param name="rate" value="2"/>', ', "~torque": 0')):
+        told = [each for each in findings_of(launch % (more, reads)) if each.rule == "PRM001"]
+        assert [each.severity for each in told] == ["hint"]
 
 
 @pytest.mark.silent

@@ -1,7 +1,7 @@
 """PRM019: a controller that its manager knows nothing of."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 
 _MANAGER = """<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager">
             <param from="/p/controllers.yaml"/>
@@ -111,3 +111,36 @@ def test_what_is_known_or_may_be() -> None:
         </launch>
         {_FILES}
     """)
+
+
+_ROS1 = """
+    <launch>
+      <group ns="arm">
+        <rosparam>
+          elbow_controller: {type: effort_controllers/JointPositionController, joint: elbow}
+          gripper: {type: position_controllers/GripperActionController}
+        </rosparam>
+        <node pkg="controller_manager" type="spawner" name="s" args="--timeout 5 gripper %s"/>
+      </group>
+      %s
+    </launch>
+    //- /controller_manager/package.xml
+    <package><name>controller_manager</name></package>
+"""
+
+
+@pytest.mark.parametrize(
+    ("args", "more", "said"),
+    [
+        ("elbowf_controller", "", "did you mean 'elbow_controller'?"),
+        ("wrist", "", "nothing sets '/arm/wrist/type'"),
+        ("elbowf_controller", '<include file="$(find elsewhere)/a.launch"/>', "did you mean 'elbow_controller'?"),
+        ("wrist", '<include file="$(find elsewhere)/a.launch"/>', None),
+        ("elbow_controller", "", None),
+        ("--namespace /other wrist", "", None),
+    ],
+)
+def test_a_controller_of_ros_1(args: str, more: str, said: str | None) -> None:
+    told = [each for each in findings_of(_ROS1 % (args, more)) if each.rule == "PRM019"]
+    assert [each.severity for each in told] == (["warning"] if said else [])
+    assert all(said is not None and said in each.message for each in told)

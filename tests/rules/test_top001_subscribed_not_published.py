@@ -44,6 +44,22 @@ def test_a_near_miss_of_a_topic_that_is_made_on_demand_is_no_warning() -> None:
     assert finding.confidence == "possible"
 
 
+@pytest.mark.parametrize(("other", "severity"), [("map", "warning"), ("odom", "info")])
+def test_a_near_miss_of_a_topic_that_may_not_be_made(other: str, severity: str) -> None:
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="base"/>
+          <node pkg="p" type="t" name="filter"/>
+          <node pkg="p" type="t" name="rviz"/>
+        </launch>
+        //- interfaces
+        {{"/base": {{"publishers": {{"odom": "x/O"}}}},
+         "/filter": {{"subscribers": {{"odoom": "x/O"}}, "similar": ["odoom"]}},
+         "/rviz": {{"subscribers": {{"{other}": "x/O"}}}}}}
+    """)
+    assert [each.severity for each in found if "odoom" in each.message] == [severity]
+
+
 def test_a_near_miss_through_the_publishers_remap_is_shown_there() -> None:
     text = """
         <launch>

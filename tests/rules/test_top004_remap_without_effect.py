@@ -174,10 +174,16 @@ def test_a_remap_of_an_actions_name_has_an_effect() -> None:
 
 
 @pytest.mark.parametrize(
-    ("args", "more"),
-    [("", {}), ("/in1", {}), ("", {"params": {"/": {"access": "list"}}})],
+    ("source", "args", "more", "severity"),
+    [
+        ("cmd_vel", "", {}, "info"),
+        ("/base/cmd_vel", "", {}, "warning"),
+        ("/robot/cmd_vel", "", {}, "info"),
+        ("/base/cmd_vel", "/in1", {}, None),
+        ("/base/cmd_vel", "", {"params": {"/": {"access": "list"}}}, None),
+    ],
 )
-def test_a_node_that_the_catalogue_has(args: str, more: dict[str, object]) -> None:
+def test_a_node_that_the_catalogue_has(source: str, args: str, more: dict[str, object], severity: str | None) -> None:
     interface = {
         "source": "catalogue",
         "status": "not-run",
@@ -186,10 +192,10 @@ def test_a_node_that_the_catalogue_has(args: str, more: dict[str, object]) -> No
     }
     found = findings_of(f"""
         <launch>
-          <node pkg="p" type="state" name="state" args="{args}"><remap from="/base/cmd_vel" to="/cmd_vel"/></node>
+          <node pkg="p" type="state" name="state" ns="robot" args="{args}"><remap from="{source}" to="/moves"/></node>
         </launch>
         //- interfaces
-        {json.dumps({"/state": interface})}
+        {json.dumps({"/robot/state": interface})}
     """)
     remaps = [each for each in found if each.rule == "TOP004"]
-    assert [(each.severity, each.confidence) for each in remaps] == ([] if args or more else [("info", "possible")])
+    assert [(each.severity, each.confidence) for each in remaps] == ([(severity, "possible")] if severity else [])

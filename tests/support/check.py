@@ -243,7 +243,8 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
     `answers`, `lacks`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`,
-    `speculative` and `on_demand`, lists of names; `nodes`, those that the process makes, with the fields of `MadeNode`.
+    `speculative`, `on_demand` and `similar`, lists of names; `nodes`, those that the process makes, with the fields of
+    `MadeNode`.
     """
     made = data.get("made", {})
     endpoints = [
@@ -258,6 +259,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
             builtin=name in data.get("builtin", ()),
             speculative=name in data.get("speculative", ()),
             on_demand=name in data.get("on_demand", ()),
+            similar=name in data.get("similar", ()),
         )
         for key, role in _ROLES.items()
         for name, type_ in data.get(key, {}).items()

@@ -28,6 +28,7 @@ _LOWER_CASED = ("node", "test", "include")
 """roslaunch compares the tags in these without regard to case, those elsewhere exactly."""
 
 _COMMANDS = "(?:" + "|".join(COMMANDS_ROS1) + ")"
+_BARE = re.compile(r"(?<![$\w])\((?:arg|find) [A-Za-z]\w*\)")
 _MEANT = re.compile(
     rf"\$(?:[{{\[](?P<braces>{_COMMANDS}(?: [^\]}}]*)?)[\]}}]"
     rf"|(?P<word>{_COMMANDS}\([^)]*)\)"
@@ -81,6 +82,16 @@ def _taken_as_text(value: Value) -> Iterator[LanguageProblem]:
                 yield LanguageProblem(SubstitutionAsText(found[0], f"$({inner})"), span)
 
 
+def _without_dollar(value: Value) -> Iterator[LanguageProblem]:
+    """What would be a substitution with a `$` before it."""
+    for part in value.parts:
+        for found in _BARE.finditer(part.text) if isinstance(part, Literal) else ():
+            exact = part.span.end - part.span.start == len(part.text)
+            start = part.span.start
+            span = Span(start + found.start(), start + found.end()) if exact else part.span
+            yield LanguageProblem(SubstitutionAsText(found[0], f"${found[0]}"), span)
+
+
 def _checked(action: Action) -> tuple[LanguageProblem, ...]:
     return tuple(_check(action))
 
@@ -95,6 +106,8 @@ def _check(action: Action, *, whole: bool = False) -> Iterator[LanguageProblem]:
             yield LanguageProblem(unknown, attribute.name_span)
         if "$" in attribute.value.text:
             yield from _taken_as_text(attribute.value)
+        if attribute.name != "doc" and ("(arg " in attribute.value.text or "(find " in attribute.value.text):
+            yield from _without_dollar(attribute.value)
     annotations = ANNOTATIONS if kind in ("node", "test") else ()
     for child in action.children:
         name = child.kind.lower() if kind in _LOWER_CASED else child.kind

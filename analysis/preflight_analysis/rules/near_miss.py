@@ -58,8 +58,7 @@ class NearMiss:
         """Whether the evidence will do for a change that is made for the user: like words are of other things as often
         as not (`pose`, `goal_pose`)."""
         if self.likeness == "words":
-            same_leaf = names.leaf(self.consumer.name) == names.leaf(self.provider.name)
-            return self.same_type and self.provider_dangles and same_leaf
+            return self.same_type and self.provider_dangles and _same_leaf(self)
         return self.same_type or self.provider_dangles
 
     @property
@@ -83,10 +82,16 @@ def weight(near: NearMiss, complete: bool, likely_complete: bool) -> tuple[Sever
     lone = near.provider_dangles and not _of_another_node(near)
     alike = near.likeness == "typo" or (lone and (likely_complete or is_word_more(*_both_names(near))))
     evidence = near.same_type and alike
-    severity: Severity = (
-        "info" if any(connection.assumed or connection.on_demand for connection in connections) else "warning"
-    )
+    on_demand = any(connection.on_demand for connection in connections)
+    # Two ends that nobody else has anything to do with speak for each other, be one of them but assumed.
+    both_lone = near.provider_dangles and (near.likeness == "typo" or _same_leaf(near))
+    doubtful = on_demand or (not both_lone and any(connection.assumed for connection in connections))
+    severity: Severity = "info" if doubtful else "warning"
     return severity if evidence else "hint", "likely" if sure else "possible"
+
+
+def _same_leaf(near: NearMiss) -> bool:
+    return names.leaf(near.consumer.name) == names.leaf(near.provider.name)
 
 
 def _both_names(near: NearMiss) -> tuple[str, str]:

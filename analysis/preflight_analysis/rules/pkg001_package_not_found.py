@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.below_packages import has_what_is_asked_of
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import debian_package_of, is_of_family, lack_of_package, near_package
 from preflight_analysis.rules.nearest import did_you_mean
@@ -89,6 +90,11 @@ def _not_here(
         text = f"package '{name}' is not installed here{which}"
     elif name in context.once(_named_by_manifests):
         text += ", and no distribution has released it"
+    elif (having_it := has_what_is_asked_of(context, location.file, name)) is not None:
+        other, path = having_it
+        text += f", and no distribution has released it; package '{other.name}' has '{path}'{did_you_mean(other.name)}"
+        fixes = rename(context, location, name, other.name, preferred=False)
+        lack, severity, confidence = None, "warning", "possible"
     else:
         text += f"; no distribution has released it, and no {MANIFEST} of the workspace names it"
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
@@ -156,7 +162,7 @@ RULE = Rule(
     "names a package whose folder has that name and whose `package.xml` has another. A package that is released, or "
     "that a `package.xml` names, may be missing on this machine only: this is a hint with the Debian package. An "
     "unknown package is information if it is the only one in the launch. It is a warning if the workspace has one "
-    "of a similar name.",
+    "of a similar name, or one with all files that the launch file asks for in the unknown package.",
     why="`roslaunch` stops at `$(find ...)` of a missing package, and does not start a node of one. `ros-preflight "
     "doctor` shows the folders that are searched.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

@@ -99,9 +99,32 @@ def _of_partly_known(context: Context, graph: Graph, explained: Collection[str])
                     yield Unread(param, node, wanted[near])
                 elif near is None and namespace == node.name:
                     alike = asked.astray.get(names.leaf(param.name), ())
-                    found = [each for each in alike if each.name not in given and would_change(param, each)]
+                    found = [each for each in alike if each.name not in given and fits(param.value, each)]
                     if len(found) == 1:
                         yield Unread(param, node, found[0])
+    yield from _beside_nodes(context, rows, read | set(explained))
+
+
+def _beside_nodes(context: Context, rows: Iterable[_Asked | None], explained: Collection[str]) -> Iterator[Unread]:
+    """Parameters that a tag sets beside the nodes, where one of these reads its private one of that name, which nothing
+    sets, and of each other one something is known, too: `mode` instead of `~mode`."""
+    graph = context.graph
+    if graph is None or any(interface.source == "none" for interface in graph.interfaces):
+        return
+    given = graph.tree.params
+    wanted: dict[str, list[ParamRead]] = {}
+    for node, asked in zip(graph.tree.nodes, rows, strict=True):
+        for name, each in asked.own.get(node.name, {}).items() if asked is not None and asked.by_source else ():
+            if name not in given and each.use.access == "get":
+                wanted.setdefault(names.leaf(name), []).append(each)
+    for param in graph.tree.all_params if wanted else ():
+        reads = wanted.get(names.leaf(param.name), ())
+        if len(reads) != 1 or param.owner is not None or param.name in explained or is_for_tools(param.name):
+            continue
+        beside = f"{names.parent(reads[0].node.name)}{names.leaf(param.name)}"
+        in_tag = param.name_location is not None and param.place.file in context.launch_files
+        if in_tag and param.name in (beside, f"/{names.leaf(param.name)}") and would_change(param, reads[0]):
+            yield Unread(param, None, reads[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +135,7 @@ class _Asked:
     """Below its own name, by namespace and name."""
     astray: Mapping[str, Sequence[ParamRead]]
     """Elsewhere, as its source says, by the last part of the name."""
+    by_source: bool
 
 
 def _asked_in_part(node: LaunchNode, interface: Interface, reads: Iterable[ParamRead]) -> _Asked | None:
@@ -128,7 +152,7 @@ def _asked_in_part(node: LaunchNode, interface: Interface, reads: Iterable[Param
             own.setdefault(namespace, {})[each.name] = each
         elif interface.source == "source" and each.use.access == "get":
             astray.setdefault(leaf, []).append(each)
-    return _Asked(own, astray)
+    return _Asked(own, astray, interface.source == "source")
 
 
 def _are_opposite(name: str, other: str) -> bool:

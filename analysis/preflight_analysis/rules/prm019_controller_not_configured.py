@@ -1,15 +1,17 @@
-"""PRM019: a controller that is to be loaded and that its manager has no type of (ROS 2).
+"""PRM019: a controller that is to be loaded and that its manager has no type of.
 
 https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html#helper-scripts
+http://wiki.ros.org/controller_manager#Helper_scripts
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
-from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_spawner, words_of
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
@@ -18,9 +20,58 @@ from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
+_LOADING = {"spawner": (), "controller_manager": ("load", "spawn"), "spawner.py": ()}
+"""ROS 1: the programs of `controller_manager` that load controllers, each with the words that say so."""
+_WITH_VALUE = ("--namespace", "--wait-for", "--timeout", "--shutdown-timeout")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from (_of_ros2 if context.tree.ros.ament else _of_ros1)(rule, context)
+
+
+def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
+    """The manager asks for `NAME/type` in its namespace, which the launch sets for others of that namespace. Where not
+    all is known that the launch sets, only a slip of one of these is told."""
+    params = context.tree.params
+    for node in context.tree.nodes:
+        if node.package != PACKAGE or node.executable not in _LOADING or node.unknowns:
+            continue
+        namespace, controllers = _loaded_by(node)
+        known = [
+            name.removeprefix(f"{namespace}/").removesuffix("/type")
+            for name, param in params.items()
+            if name.startswith(f"{namespace}/") and name.endswith("/type") and _is_plugin(param.value)
+        ]
+        for controller in controllers if known else ():
+            full = names.resolve(controller, f"{namespace}/{PACKAGE}")
+            if f"{full}/type" in params:
+                continue
+            if context.tree.complete or nearest(controller, known) is not None:
+                missing = f"nothing sets '{full}/type', which the controller manager asks for"
+                yield _finding(rule, node, missing, controller, known)
+
+
+def _loaded_by(node: LaunchNode) -> tuple[str, list[str]]:
+    """The namespace of the manager, without a slash at its end, and the controllers that are asked of it."""
+    words, namespace, found = iter(words_of(node.args)), node.namespace, list[str]()
+    verbs = _LOADING[node.executable]
+    if verbs and next(words, "") not in verbs:
+        return "", []
+    for word in words:
+        option, equals, value = word.partition("=")
+        if option in _WITH_VALUE:
+            value = value if equals else next(words, "")
+            namespace = names.resolve(value, node.name) if option == "--namespace" and value else namespace
+        elif names.is_legal(word) and word:
+            found.append(word)
+    return namespace.rstrip("/"), found
+
+
+def _is_plugin(value: object) -> bool:
+    return isinstance(value, str) and "/" in value
+
+
+def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
     asked = {at: each for at, node in enumerate(nodes) if is_spawner(node) and (each := asked_of(node)) and each.plain}
     managers = {name: _manager(context, name) for name in dict.fromkeys(each.manager for each in asked.values())}
@@ -31,22 +82,23 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         known = [param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type")]
         for controller in each.controllers if known else ():
             if controller not in known:
-                yield _finding(rule, nodes[at], controller, manager, known)
+                files = [source.origin[-1] for source in manager.param_sources if source.path is not None]
+                related = [Related(f"{manager.name} gets its parameters here", path) for path in files[:1]]
+                missing = f"{manager.name} has no parameter '{controller}.type'"
+                yield _finding(rule, nodes[at], missing, controller, known, related)
 
 
-def _finding(rule: Rule, spawner: LaunchNode, controller: str, manager: LaunchNode, known: list[str]) -> Finding:
+def _finding(
+    rule: Rule, spawner: LaunchNode, missing: str, controller: str, known: list[str], related: Iterable[Related] = ()
+) -> Finding:
     near = nearest(controller, known)
     some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
-    files = [source.origin[-1] for source in manager.param_sources if source.path is not None]
     return rule.finding(
-        f"{manager.name} has no parameter '{controller}.type': the controller is not loaded; "
+        f"{missing}: the controller is not loaded; "
         + (f"did you mean '{near}'?" if near is not None else f"it knows {some}"),
         spawner.location,
         confidence="likely",
-        related=(
-            *(Related(f"{manager.name} gets its parameters here", each) for each in files[:1]),
-            *include_chain(spawner.origin),
-        ),
+        related=(*related, *include_chain(spawner.origin)),
     )
 
 
@@ -74,13 +126,15 @@ RULE = Rule(
     what="Checks for a controller in the arguments of the `spawner` of ros2_control without a type in the "
     "parameters of the controller manager. The manager is a node of the launch, or the one that the robot "
     "description starts in Gazebo. There is no finding if the parameters of the manager are not all known, or if "
-    "the spawner has its own parameters.",
+    "the spawner has its own parameters. In ROS 1 the rule checks for `NAME/type` in the namespace of the manager, if "
+    "the launch sets the type of another controller there. If the launch is not known completely, only a misspelled "
+    "controller is reported.",
     why="The manager refuses to load the controller: `The 'type' param was not defined`. The spawner exits and the "
     "controller does not run.",
     example="arguments=['streaming_controller']  # the manager's file has twist_controller",
     instead="arguments=['twist_controller']",
     references=(CONTROLLER_MANAGER,),
-    generations=(2,),
+    generations=(1, 2),
     check=_check,
     in_branches=True,
 )

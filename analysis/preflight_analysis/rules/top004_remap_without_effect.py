@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps
@@ -34,7 +34,7 @@ def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
         return rule.finding(
             f"{message} {idle.known_by}",
             remap.source_location,
-            severity="info" if idle.known_by == BY_CATALOGUE else "hint",
+            severity=_lone_severity(idle),
             confidence="possible",
             related=include_chain(remap.origin),
         )
@@ -58,6 +58,17 @@ def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
     )
 
 
+def _lone_severity(idle: IdleRemap) -> Severity:
+    """By the catalogue's word a name below a namespace that the node has nothing in is that of another node: the remap
+    stands at the wrong one. A plain name is mostly there out of habit."""
+    if idle.known_by != BY_CATALOGUE:
+        return "hint"
+    node, source = idle.nodes[0].name, idle.remap.source
+    above = names.parent(names.resolve(source, node))
+    foreign = source.strip("/").count("/") > 0 and not source.startswith("~")
+    return "warning" if foreign and not node.startswith(above) else "info"
+
+
 def _given(connection: Connection) -> str:
     """A name as the node gave it: what a `from` in its tag would say."""
     return connection.endpoint.name
@@ -77,7 +88,8 @@ RULE = Rule(
     what="Checks for a remap whose `from` is no topic, service or parameter of its nodes. All of these nodes were "
     "run up to their event loop, or static analysis describes them completely. The finding is a warning if a node "
     "has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`. It is information "
-    "if only the catalogue knows the node and no argument decides what it does. Otherwise it is a hint, because the "
+    "if only the catalogue knows the node and no argument decides what it does, and a warning if `from` is also in a "
+    "namespace without any name of the node. Otherwise it is a hint, because the "
     "node or a library may use the name later. Namespaces of names in use, and names below one, count as used: "
     "actions, image transports and `dynamic_reconfigure` create such names.",
     why="A remap of an unused name is ignored without an error, and the node keeps its own name.",

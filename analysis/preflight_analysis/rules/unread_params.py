@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import chain, compress
 
 from rapidfuzz.distance import OSA
@@ -11,7 +12,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead
-from preflight_analysis.rules.nearest import likeness, nearest
+from preflight_analysis.rules.nearest import likeness, nearest, share_words
 from preflight_analysis.rules.param_matching import asked_by, matched, sought_leaf
 from preflight_analysis.rules.parameters import grouped, namespace_of
 from preflight_analysis.rules.rule import Context
@@ -105,11 +106,26 @@ def _leaves_and_spaces(params: tuple[Param, ...]) -> tuple[frozenset[str], froze
 
 def _of_holder(params: Iterable[Param], holder: LaunchNode, unset: tuple[ParamRead, ...]) -> tuple[Unread, ...]:
     """Of parameters of one node that nobody reads. `unset` is what it reads and nothing sets."""
-    return tuple(
+    found = [
         Unread(param, holder, _meant_of_holder(param, holder, unset))
         for param in params
         if not is_for_tools(param.name)
-    )
+    ]
+    lost = [each for each in found if each.meant is None]
+    if len(lost) == 1:
+        left = _only_one_left(lost[0].param, unset)
+        return tuple(replace(each, meant=left) if each is lost[0] else each for each in found)
+    return tuple(found)
+
+
+def _only_one_left(param: Param, unset: tuple[ParamRead, ...]) -> ParamRead | None:
+    """Of a node's only parameter that it does not read the only one in the same namespace that it reads without anybody
+    setting it, where the names have a word in common: `~load_threshold`, `~position_threshold`."""
+    namespace = namespace_of(param)
+    reads = [read for read in unset if read.use.access == "get" and read.name.rpartition("/")[0] == namespace]
+    if len(reads) != 1 or not share_words(names.leaf(reads[0].name), names.leaf(param.name)):
+        return None
+    return reads[0] if reads[0].use.has_default and would_change(param, reads[0]) else None
 
 
 def _meant_of_holder(param: Param, holder: LaunchNode, unset: tuple[ParamRead, ...]) -> ParamRead | None:
@@ -119,7 +135,8 @@ def _meant_of_holder(param: Param, holder: LaunchNode, unset: tuple[ParamRead, .
     # The node asks for it under this very name, but not as its own: `mode` or `/driver/mode` instead of `~mode`.
     leaf, relative = names.leaf(param.name), param.name[len(holder.name) :]
     elsewhere = [read for read in unset if names.leaf(read.name) == leaf and read.name.endswith(relative)]
-    found = [read for read in elsewhere if would_change(param, read)]
+    # That the default is what the launch file says hides it only until somebody gives another value.
+    found = [read for read in elsewhere if fits(param.value, read)]
     return found[0] if len(found) == 1 else None
 
 

@@ -1,0 +1,55 @@
+"""What a launch file asks for below a package that is not there, and who has just that."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.model import Package
+from preflight_analysis.rules.rule import Context
+
+_PATH = r"[\w.+-]+(?:/[\w.+-]+)+"
+_WORDS = r"(?:\s*,\s*['\"][\w./+-]+['\"])+"
+_WORD = re.compile(r"['\"]([\w./+-]+)['\"]")
+_SHARE = r"(?:FindPackageShare|get_package_share_(?:directory|path))\(\s*(?:package(?:_name)?\s*=\s*)?['\"]{}['\"]\s*\)"
+
+
+def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Package, str] | None:
+    """The one package of the workspace in which all paths are that `file` asks for below package `name`, and the first
+    of those paths; None where there is no such package, or no path that is written out."""
+    document = context.documents.get(file)
+    paths = sorted(set(asked_below(document.text, name))) if isinstance(document, Document) else []
+    # A launch file that hands over to another one mostly has its name.
+    paths = [path for path in paths if os.path.basename(path) != os.path.basename(file)]
+    if not paths:
+        return None
+    environment = context.environment
+    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
+    having = [
+        package
+        for package in environment.packages.values()
+        if not package.share.startswith(installed)
+        and all(context.disk.exists(os.path.join(package.share, path)) for path in paths)
+    ]
+    return (having[0], paths[0]) if len(having) == 1 else None
+
+
+def asked_below(text: str, name: str) -> Iterator[str]:
+    """Paths of two parts or more: in XML behind the substitution, in Python joined to the share folder, or to a
+    variable that has it."""
+    escaped = re.escape(name)
+    for found in re.finditer(rf"\$\(find(?:-pkg-share)?\s+{escaped}\s*\)/({_PATH})", text):
+        yield found[1]
+    share = _SHARE.format(escaped)
+    folders = [share]
+    for line in re.finditer(rf"^[ \t]*(\w+)[ \t]*=[^\n=]*{share}[ \t)]*$", text, re.MULTILINE):
+        folders.append(rf"\b{line[1]}\b")
+    for folder in folders:
+        for found in re.finditer(rf"{folder}\s*\)?({_WORDS})", text):
+            path = "/".join(word.strip("/") for word in _WORD.findall(found[1]))
+            if "/" in path:
+                yield path
+        for found in re.finditer(rf"{folder}\s*\+\s*['\"]/({_PATH})['\"]", text):
+            yield found[1]
