@@ -76,6 +76,43 @@ def test_the_filter_takes_namespaces_patterns_and_what_is_left_out(seen: Mapping
     assert seen["cleared"] == {"value": "", "all": seen["all"]}
 
 
+def test_the_search_marks_what_fits_and_goes_from_one_to_the_next(seen: Mapping[str, Any]) -> None:
+    search = seen["search"]
+    assert search["first"] == "1 of 2: topic /scan"
+    assert search["marked"] == ["topic /scan, warning", "topic /scann, warning"]
+    assert search["all"] == seen["all"], "nothing is hidden"
+    assert (search["second"], search["back"]) == ("2 of 2: topic /scann", "1 of 2: topic /scan")
+    assert (search["escaped"], search["left"]) == ("topic /scann, warning", 0)
+
+
+def test_a_namespace_is_a_box_that_folds(seen: Mapping[str, Any]) -> None:
+    fold = seen["fold"]
+    assert fold["open"] == {"label": "namespace /camera, 2 nodes", "state": "true"}
+    assert fold["inside"] == "driver", "the box says where"
+    assert (fold["folded"], fold["hidden"]) == ("false", False)
+    assert "/camera/detector" in fold["hint"]
+    assert fold["unfolded"] == "true"
+    assert fold["byAll"] == "true", "the search unfolds what it goes to"
+
+
+def test_a_neighbourhood_is_shown_alone(seen: Mapping[str, Any]) -> None:
+    focus = seen["focus"]
+    assert {label for label in focus["shown"] if label.startswith("topic")} == {
+        "topic /map",
+        "topic /odom, error",
+        "topic /scan, warning",
+        "topic /tf",
+    }
+    assert "node /teleop" not in focus["shown"]
+    assert "node /laser" in focus["shown"]
+    assert focus["button"] == "Only around node /slam ✕"
+    assert focus["all"] == seen["all"]
+
+
+def test_files_have_numbers_too_and_the_legend_folds(seen: Mapping[str, Any]) -> None:
+    assert seen["legend"] == {"numbers": ["1", "2", "3"], "onNode": "3", "folded": False, "open": True}
+
+
 def test_kinds_and_what_is_in_order_can_be_hidden(seen: Mapping[str, Any]) -> None:
     assert seen["kinds"] == []
     assert seen["problems"] == {
@@ -156,5 +193,7 @@ def test_names_stay_texts(seen: Mapping[str, Any]) -> None:
 
 def test_a_large_graph_is_shown_and_filtered(seen: Mapping[str, Any]) -> None:
     assert seen["large"]["all"] == 750
+    before, after = seen["large"]["map"]
+    assert before == 0 < after, "a click on the overview goes there"
     assert seen["large"]["shown"] == 60, "ten nodes and their topics"
     assert seen["large"]["status"].startswith("10 of 150 nodes, 0 of 600 topics")

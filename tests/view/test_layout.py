@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
 import pytest
+from preflight_analysis.tracing.interface import Role
 from preflight_analysis.view import engine
 from preflight_analysis.view.labels import columns, label
 from preflight_analysis.view.layout import Box, Layout, lay_out
-from preflight_analysis.view.model import GraphView
+from preflight_analysis.view.model import GraphView, ViewChannel, ViewEdge, ViewNode
+from preflight_analysis.view.packing import pack
 from support import sample_graphs
 
 EMPTY = GraphView("/empty.launch", 1, (), (), (), (), ())
@@ -53,6 +56,94 @@ def test_lines_begin_and_end_at_their_boxes_and_go_with_the_messages() -> None:
         for edge in (view.edges[i] for i in route.edges):
             out = edge.role in ("publisher", "client", "action_client")
             assert (layout.boxes[route.source].node == edge.node) is out
+
+
+def test_a_namespace_has_its_nodes_and_what_they_alone_use_in_it() -> None:
+    view = sample_graphs.robot().without_builtin()
+    layout = lay_out(view)
+    (frame,) = layout.frames
+    assert (frame.name, {view.nodes[i].name for i in frame.nodes}) == (
+        "/camera",
+        {"/camera/driver", "/camera/detector"},
+    )
+    for box in layout.boxes:
+        is_in = frame.x <= box.x and box.x + box.width <= frame.x + frame.width
+        is_in = is_in and frame.y <= box.y and box.y + box.height <= frame.y + frame.height
+        assert is_in is (box.namespace is not None)
+    (driver,) = (box for box in layout.boxes if box.node is not None and view.nodes[box.node].name == "/camera/driver")
+    assert driver.namespace == 0
+
+
+def fleet(robots: int, *, shared: bool) -> GraphView:
+    """Robots of two namespaces each, in which all publish to the inner one, and to one topic of all of them."""
+    nodes, channels, edges = list[ViewNode](), list[ViewChannel](), list[ViewEdge]()
+
+    def node(name: str) -> int:
+        nodes.append(ViewNode(name, "p", "x", "node", "/f.launch", (), "trace", "complete", None, ()))
+        return len(nodes) - 1
+
+    def topic(name: str, *ends: tuple[int, Role]) -> None:
+        channels.append(ViewChannel("topic", name, (), False, False, ()))
+        for end, role in ends:
+            edges.append(ViewEdge(end, len(channels) - 1, role, None, {}, None, (), False, False, ()))
+
+    base = node("/base")
+    told: list[tuple[int, Role]] = [(base, "subscriber")]
+    for robot in range(robots):
+        name = f"/robot{robot}"
+        left, right, plan = node(f"{name}/arms/left"), node(f"{name}/arms/right"), node(f"{name}/plan")
+        topic(f"{name}/arms/state", (left, "publisher"), (right, "subscriber"))
+        topic(f"{name}/goal", (plan, "publisher"), (left, "subscriber"))
+        node(f"{name}/alone")
+        told.append((plan, "publisher"))
+    if shared:
+        topic("/status", *told)
+    return GraphView("/f.launch", 1, tuple(nodes), tuple(channels), tuple(edges), (), ("/f.launch",))
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_namespaces_in_namespaces_hold_their_own_and_nothing_else(shared: bool) -> None:
+    view = fleet(3, shared=shared)
+    layout = lay_out(view)
+    assert [frame.name for frame in layout.frames] == [
+        name for robot in range(3) for name in (f"/robot{robot}", f"/robot{robot}/arms")
+    ]
+    assert overlapping(layout) == []
+    assert is_inside(layout)
+    for at, frame in enumerate(layout.frames):
+        for box in layout.boxes:
+            around = box.namespace
+            while around is not None and around != at:
+                around = layout.frames[around].parent
+            apart_x = box.x + box.width <= frame.x or frame.x + frame.width <= box.x
+            apart_y = box.y + box.height <= frame.y or frame.y + frame.height <= box.y
+            assert (apart_x or apart_y) is (around is None), (frame.name, box)
+        if frame.parent is not None:
+            outer = layout.frames[frame.parent]
+            assert outer.y + 14 < frame.y, "there is room for its name"
+
+
+def test_what_nothing_connects_stands_side_by_side() -> None:
+    layout = lay_out(fleet(9, shared=False))
+    assert layout.islands == 10
+    assert 0.8 < layout.width / layout.height < 3
+    assert lay_out(fleet(9, shared=True)).islands == 1
+
+
+def test_one_namespace_of_all_nodes_is_no_box() -> None:
+    view = fleet(1, shared=True)
+    nodes = tuple(replace(node, name=f"/all{node.name}") for node in view.nodes)
+    assert [frame.name for frame in lay_out(replace(view, nodes=nodes)).frames] == ["/all/robot0", "/all/robot0/arms"]
+
+
+@pytest.mark.parametrize("aspect", [0.5, 1.6, 3.0])
+def test_rectangles_are_packed_without_overlap_and_without_much_waste(aspect: float) -> None:
+    sizes = [(40.0 + 37 * i % 160, 20.0 + 53 * i % 90) for i in range(60)]
+    corners, (width, height) = pack(sizes, aspect, 10)
+    placed = [Box(x, y, *size, 0, None, None) for (x, y), size in zip(corners, sizes, strict=True)]
+    assert overlapping(Layout(width, height, tuple(placed), (), (), 1)) == []
+    assert aspect / 1.5 < width / height < aspect * 1.5
+    assert sum((w + 10) * (h + 10) for w, h in sizes) > 0.7 * (width + 10) * (height + 10)
 
 
 def test_channels_with_the_same_ends_share_a_box_unless_something_is_wrong_with_one() -> None:

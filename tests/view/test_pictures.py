@@ -37,7 +37,7 @@ def test_svg_is_well_formed_and_holds_nothing_that_runs(view: GraphView) -> None
     for element in found:
         assert set(element.attrib) <= {
             *("class", "role", "aria-label", "width", "height", "viewBox", "transform", "data-node", "data-channel"),
-            *("data-box", "data-route", "x", "y", "rx", "cx", "cy", "r", "d", "text-anchor"),
+            *("data-box", "data-route", "data-frame", "x", "y", "rx", "cx", "cy", "r", "d", "text-anchor"),
         }
 
 

@@ -8,28 +8,30 @@ after a while. It gets numbers only, no names.
 from __future__ import annotations
 
 import json
-import logging
 import os
 import subprocess
 import sys
 from collections.abc import Sequence
 from importlib.util import find_spec
+from threading import Timer
 from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 
-_log = logging.getLogger(__name__)
-
 PATIENCE = 30.0
 """Seconds after which a graph is too large for a careful layout."""
+PADDING = 24.0
+"""Pixels between the border of a box and the boxes in it: above them there is room for a name."""
 _CAREFUL = 160
 """Up to this many boxes the better, slower ways are taken."""
 _PROGRAM = """
 import json, sys
 sys.path.append(sys.argv[1])
 import graphlay
-given = json.load(sys.stdin)
-sys.stdout.write(graphlay.layout(given["graph"], options=given["options"]).to_json())
+for line in sys.stdin:
+    given = json.loads(line)
+    sys.stdout.write(graphlay.layout(given["graph"], options=given["options"]).to_json() + "\\n")
+    sys.stdout.flush()
 """
 _SPACING = {
     "layer_gap": 44.0,
@@ -39,76 +41,119 @@ _SPACING = {
     "stub": 9.0,
     "isolated_gap": 18.0,
     "isolated_max_columns": 6,
+    "compound_padding": PADDING,
+    # Where the first in a box is a box, the engine makes no room for a header.
+    "compound_header": 0.0,
 }
 Point = tuple[float, float]
+Size = tuple[float, float]
+
+
+class EngineError(Exception):
+    """The engine does not do it. The text says why."""
 
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """The upper left corner of each box, and the points of each line, none of them negative."""
+    """The upper left corner and the size of each box, and the points of each line, none of them negative."""
 
-    width: float
-    height: float
+    size: Size
     corners: tuple[Point, ...]
+    sizes: tuple[Size, ...]
     routes: tuple[tuple[Point, ...], ...]
 
 
-def place(sizes: Sequence[tuple[float, float]], lines: Sequence[tuple[int, int]]) -> Places:
-    """Boxes of these sizes, and lines between them by position, in the order in which they are given. Where the engine
-    does not do it, the boxes stand in columns and the lines are straight."""
-    if not sizes:
-        return Places(0, 0, (), ())
-    try:
-        return _read(_ask(sizes, lines), sizes, len(lines))
-    except (OSError, subprocess.SubprocessError, ValueError, KeyError, TypeError) as error:
-        why = f"it takes more than {PATIENCE:g} s" if isinstance(error, subprocess.TimeoutExpired) else error
-        _log.warning("the graph is laid out in columns only: %s", why)
-        return _columns(sizes, lines)
+class Engine:
+    """A process that lays out one graph after the other, started with the first of them."""
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[str] | None = None
+        self._timer: Timer | None = None
+        self._gave_up = False
+
+    def __enter__(self) -> Engine:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        if self._process is not None:
+            self._process.kill()
+            self._process.communicate()
+
+    def place(self, sizes: Sequence[Size], lines: Sequence[tuple[int, int]], parents: Sequence[int | None]) -> Places:
+        """Boxes of these sizes, with lines between them by position. A box that is the parent of others is as large as
+        they need it, and no end of a line. Raises `EngineError`."""
+        try:
+            return _read(self._ask(_request(sizes, lines, parents)), len(sizes), len(lines))
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise EngineError(f"it takes more than {PATIENCE:g} s" if self._gave_up else str(error)) from error
+
+    def _ask(self, request: str) -> Any:
+        if self._process is None:
+            self._process = _start()
+            self._timer = Timer(PATIENCE, self._give_up)
+            self._timer.daemon = True
+            self._timer.start()
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.write(request + "\n")
+        self._process.stdin.flush()
+        return json.loads(self._process.stdout.readline())
+
+    def _give_up(self) -> None:
+        self._gave_up = True
+        if self._process is not None:
+            self._process.kill()
 
 
-def _ask(sizes: Sequence[tuple[float, float]], lines: Sequence[tuple[int, int]]) -> Any:
-    careful = len(sizes) <= _CAREFUL
-    request = {
-        "graph": {
-            "nodes": [{"size": {"width": width, "height": height}, "shape": "box"} for width, height in sizes],
-            "edges": [{"source": source, "target": target, "weight": 1.0} for source, target in lines],
-        },
-        "options": {
-            "effort": "balanced" if careful else "fast",
-            "cycles": {"strategy": "follow_flow"},
-            "routing": {"style": "orthogonal"},
-            "spacing": _SPACING,
-        },
-    }
+def _start() -> subprocess.Popen[str]:
     # Isolated, so that nothing of the folder that we were started in is imported, and told where graphlay is: it may be
     # among the user's own packages.
     found = find_spec("graphlay")
     if found is None or found.origin is None:
         raise OSError("graphlay is not installed")
-    done = subprocess.run(
+    return subprocess.Popen(
         [sys.executable, "-I", "-c", _PROGRAM, os.path.dirname(os.path.dirname(found.origin))],
-        input=json.dumps(request),
-        capture_output=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
         text=True,
-        timeout=PATIENCE,
-        check=True,
     )
-    return json.loads(done.stdout)
 
 
-def _read(answer: Any, sizes: Sequence[tuple[float, float]], lines: int) -> Places:
+def _request(sizes: Sequence[Size], lines: Sequence[tuple[int, int]], parents: Sequence[int | None]) -> str:
+    nodes: list[dict[str, Any]] = [
+        {"size": {"width": width, "height": height}, "shape": "box"} for width, height in sizes
+    ]
+    for node, parent in zip(nodes, parents, strict=True):
+        if parent is not None:
+            node["parent"] = parent
+    return json.dumps(
+        {
+            "graph": {
+                "nodes": nodes,
+                "edges": [{"source": source, "target": target, "weight": 1.0} for source, target in lines],
+            },
+            "options": {
+                "effort": "balanced" if len(sizes) <= _CAREFUL else "fast",
+                "cycles": {"strategy": "follow_flow"},
+                "routing": {"style": "orthogonal"},
+                "spacing": _SPACING,
+            },
+        }
+    )
+
+
+def _read(answer: Any, boxes: int, lines: int) -> Places:
+    sizes = [(node["size"]["width"], node["size"]["height"]) for node in answer["nodes"]]
     corners = [
         (node["center"]["x"] - width / 2, node["center"]["y"] - height / 2)
         for node, (width, height) in zip(answer["nodes"], sizes, strict=True)
     ]
     routes = [[(point["x"], point["y"]) for point in edge["points"]] for edge in answer["edges"]]
-    if len(routes) != lines or not all(len(points) > 1 for points in routes):
-        raise ValueError("not every line has a route")
-    return _moved(corners, routes, sizes)
-
-
-def _moved(corners: Sequence[Point], routes: Sequence[Sequence[Point]], sizes: Sequence[tuple[float, float]]) -> Places:
-    """All of it moved to where nothing is negative."""
+    if len(corners) != boxes or len(routes) != lines or not all(len(points) > 1 for points in routes):
+        raise ValueError("not every box has a place, or not every line a route")
     ends = [(x + w, y + h) for (x, y), (w, h) in zip(corners, sizes, strict=True)]
     points = [*corners, *ends, *(point for route in routes for point in route)]
     left, top = min(x for x, _ in points), min(y for _, y in points)
@@ -118,23 +163,8 @@ def _moved(corners: Sequence[Point], routes: Sequence[Sequence[Point]], sizes: S
         return round(point[0] - left, 1), round(point[1] - top, 1)
 
     return Places(
-        round(right - left, 1),
-        round(bottom - top, 1),
+        (round(right - left, 1), round(bottom - top, 1)),
         tuple(map(at, corners)),
+        tuple(sizes),
         tuple(tuple(map(at, route)) for route in routes),
     )
-
-
-def _columns(sizes: Sequence[tuple[float, float]], lines: Sequence[tuple[int, int]]) -> Places:
-    """Without an engine: columns of boxes as they come, straight lines."""
-    rows = max(1, round(len(sizes) ** 0.5))
-    gap, corners = _SPACING["layer_gap"], list[Point]()
-    x = 0.0
-    for first in range(0, len(sizes), rows):
-        y = 0.0
-        for _, height in sizes[first : first + rows]:
-            corners.append((x, y))
-            y += height + gap
-        x += max(width for width, _ in sizes[first : first + rows]) + gap
-    centres = [(x + w / 2, y + h / 2) for (x, y), (w, h) in zip(corners, sizes, strict=True)]
-    return _moved(corners, [(centres[source], centres[target]) for source, target in lines], sizes)

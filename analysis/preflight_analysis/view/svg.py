@@ -15,6 +15,7 @@ from preflight_analysis.view.layout import (
     ROW_HEIGHT,
     STACK_PADDING,
     Box,
+    Frame,
     Layout,
     channel_text,
     node_texts,
@@ -41,9 +42,10 @@ def svg(view: GraphView, layout: Layout) -> str:
 
 def standalone_svg(view: GraphView, layout: Layout, base: str | None) -> str:
     """The picture as a file: with a legend and its style, light or dark as the reader's system is."""
-    lines, width = _legend(view, layout.height, base)
+    legend, height, width = _legend(view, layout.width, base)
+    foot = f'<g transform="translate(0 {layout.height:g})">{legend}</g>' if legend else ""
     style = f"<style>{part('drawing.css')}</style>"
-    return _document(view, layout, layout.height + 44 * bool(lines), max(layout.width, width), style, lines)
+    return _document(view, layout, layout.height + height, max(layout.width, width), style, foot)
 
 
 def _document(view: GraphView, layout: Layout, height: float, width: float, head: str, foot: str) -> str:
@@ -54,10 +56,12 @@ def _document(view: GraphView, layout: Layout, height: float, width: float, head
             f"aria-label={_attribute('the graph of ' + relative_name(view.root))} "
             f'width="{extent[0]}" height="{extent[1]}" viewBox="0 0 {extent[0]} {extent[1]}">',
             head,
-            '<rect class="paper" width="100%" height="100%"/><g class="routes">',
+            '<rect class="paper" width="100%" height="100%"/><g class="frames">',
+            *(_frame(view, i, frame) for i, frame in enumerate(layout.frames)),
+            '</g><g class="routes">',
             *(_route(view, i, route.points, route.edges) for i, route in enumerate(layout.routes)),
             '</g><g class="boxes">',
-            *_boxes(view, layout.boxes),
+            *_boxes(view, layout),
             "</g>",
             foot,
             "</svg>",
@@ -70,20 +74,37 @@ def relative_name(path: str) -> str:
     return path.rpartition("/")[2]
 
 
-def _boxes(view: GraphView, boxes: Sequence[Box]) -> Iterator[str]:
-    colours = {file: i % COLOURS for i, file in enumerate(view.files)}
+def _frame(view: GraphView, index: int, frame: Frame) -> str:
+    """A namespace. The page folds it; what is in it is not among its elements."""
+    nodes = f"{len(frame.nodes)} nodes"
+    severity = view.severity(finding for node in frame.nodes for finding in view.nodes[node].findings)
+    return (
+        f'<g class="{_classes("namespace", severity)}" data-frame="{index}" '
+        f'transform="translate({frame.x:g} {frame.y:g})" '
+        f"aria-label={_attribute(f'namespace {frame.name}, {nodes}')}>"
+        f'<rect class="frame" width="{frame.width:g}" height="{frame.height:g}" rx="8"/>'
+        f'<path class="fold" d="M8 7h8l-4 5z"/>'
+        f'<text class="name" x="21" y="14">{escape(label(frame.name))}</text>'
+        f'<text class="count" x="21" y="30">{nodes}</text></g>'
+    )
+
+
+def _boxes(view: GraphView, layout: Layout) -> Iterator[str]:
+    colours = {file: i for i, file in enumerate(view.files)}
     lone = _with_one_side(view)
-    for i, box in enumerate(boxes):
+    for i, box in enumerate(layout.boxes):
         place = f'data-box="{i}" transform="translate({box.x:g} {box.y:g})"'
+        frame = None if box.namespace is None else layout.frames[box.namespace]
         if box.node is not None:
             node = view.nodes[box.node]
-            yield _node(node, colours[node.file], box, place, view.severity(node.findings))
+            yield _node(node, colours[node.file], box, frame, place, view.severity(node.findings))
         else:
             yield f'<g class="stack" {place}>{_paper(box, 10)}'
             for row, channel in enumerate(box.channels):
                 found = view.channels[channel]
                 dangling = channel in lone and not found.external
-                yield _channel(channel, found, row, box.width, view.severity(found.findings), dangling=dangling)
+                severity = view.severity(found.findings)
+                yield _channel(channel, found, row, box.width, frame, severity, dangling=dangling)
             yield "</g>"
 
 
@@ -97,15 +118,16 @@ def _paper(box: Box, radius: int) -> str:
     return f'<rect class="box" width="{box.width:g}" height="{box.height:g}" rx="{radius}"/>'
 
 
-def _node(node: ViewNode, colour: int, box: Box, place: str, severity: Severity | None) -> str:
-    name, what = node_texts(node)
+def _node(node: ViewNode, file: int, box: Box, frame: Frame | None, place: str, severity: Severity | None) -> str:
+    name, what = node_texts(node, frame)
     known = "" if node.source != "none" else "unknown"
-    middle = box.width / 2 + 3
-    accent = f"M5 0h1v{NODE_HEIGHT:g}h-1a5 5 0 0 1-5-5v-{NODE_HEIGHT - 10:g}a5 5 0 0 1 5-5z"
+    middle = box.width / 2 + 8
+    accent = f"M5 0h11v{NODE_HEIGHT:g}h-11a5 5 0 0 1-5-5v-{NODE_HEIGHT - 10:g}a5 5 0 0 1 5-5z"
     return (
         f'<g class="{_classes("node", severity, known, f"state-{node.state}")}" data-node="{box.node}" {place} '
         f"aria-label={_attribute(_said('node ' + node.name, severity))}>{_paper(box, 5)}"
-        f'<path class="accent f{colour}" d="{accent}"/>'
+        f'<path class="accent f{file % COLOURS}" d="{accent}"/>'
+        f'<text class="file" x="8" y="24" text-anchor="middle">{file + 1}</text>'
         f'<text class="name" x="{middle:g}" y="17" text-anchor="middle">{escape(name)}</text>'
         f'<text class="what" x="{middle:g}" y="32" text-anchor="middle">{escape(what)}</text>'
         f"{_badge(severity, box.width)}</g>"
@@ -113,7 +135,14 @@ def _node(node: ViewNode, colour: int, box: Box, place: str, severity: Severity 
 
 
 def _channel(
-    index: int, channel: ViewChannel, row: int, width: float, severity: Severity | None, *, dangling: bool
+    index: int,
+    channel: ViewChannel,
+    row: int,
+    width: float,
+    frame: Frame | None,
+    severity: Severity | None,
+    *,
+    dangling: bool,
 ) -> str:
     marks = _classes("external" if channel.external else "", "dangling" if dangling else "")
     return (
@@ -121,7 +150,7 @@ def _channel(
         f'data-channel="{index}" transform="translate(0 {STACK_PADDING + row * ROW_HEIGHT:g})" '
         f"aria-label={_attribute(_said(f'{channel.kind} {channel.name}', severity))}>"
         f'<rect class="row" x="3" width="{width - 6:g}" height="{ROW_HEIGHT:g}" rx="7"/>{_ICONS[channel.kind]}'
-        f'<text x="25" y="14">{escape(channel_text(channel))}</text></g>'
+        f'<text x="25" y="14">{escape(channel_text(channel, frame))}</text></g>'
     )
 
 
@@ -175,29 +204,35 @@ def _at(point: Point) -> str:
     return f"{round(point[0], 1):g} {round(point[1], 1):g}"
 
 
-def _legend(view: GraphView, top: float, base: str | None) -> tuple[str, float]:
-    """What the colours stand for, below the picture; and how wide that is."""
-    parts: list[str] = []
-    x = MARGIN
+def _legend(view: GraphView, width: float, base: str | None) -> tuple[str, float, float]:
+    """What the signs and colours stand for, as wide as the picture where that is possible; how high and wide it is."""
+    signs: list[tuple[str, float, str]] = []
     for kind in dict.fromkeys(channel.kind for channel in view.channels):
-        parts.append(f'<g class="channel {kind}" transform="translate({x - 9:g} 0)">{_ICONS[kind]}</g>')
-        x = _caption(parts, kind, x + 16)
+        signs.append((f'<g class="channel {kind}" transform="translate(-9 0)">{_ICONS[kind]}</g>', 16, kind))
     starting = {node.file for node in view.nodes}
     for i, file in enumerate(view.files):
-        if file not in starting:
-            continue
-        parts.append(f'<rect class="accent f{i % COLOURS}" x="{x:g}" y="4" width="12" height="12" rx="3"/>')
-        x = _caption(parts, label(relative(file, base), 48), x + 18)
+        if file in starting:
+            accent = (
+                f'<rect class="accent f{i % COLOURS}" x="0" y="3" width="14" height="14" rx="3"/>'
+                f'<text class="file" x="7" y="14" text-anchor="middle">{i + 1}</text>'
+            )
+            signs.append((accent, 20, label(relative(file, base), 48)))
     for severity in ("error", "warning", "info"):
         if any(view.severity(edge.findings) == severity for edge in view.edges):
-            parts.append(f'<g class="route {severity}"><path class="line" d="M{x:g} 10h18"/></g>')
-            x = _caption(parts, severity, x + 24)
-    return (f'<g class="legend" transform="translate(0 {top:g})">{"".join(parts)}</g>' if parts else ""), x + MARGIN
-
-
-def _caption(parts: list[str], text: str, x: float) -> float:
-    parts.append(f'<text x="{x:g}" y="14">{escape(text)}</text>')
-    return x + columns(text) * 6.7 + 22
+            signs.append((f'<g class="route {severity}"><path class="line" d="M0 10h18"/></g>', 24, severity))
+    if not signs:
+        return "", 0, 0
+    parts: list[str] = []
+    x, y, right = MARGIN, 0.0, 0.0
+    for sign, before, text in signs:
+        taken = before + columns(text) * 6.7
+        if x > MARGIN and x + taken > width - MARGIN:
+            x, y = MARGIN, y + 22
+        caption = f'<text x="{before:g}" y="14">{escape(text)}</text>'
+        parts.append(f'<g transform="translate({x:g} {y:g})">{sign}{caption}</g>')
+        right = max(right, x + taken + MARGIN)
+        x += taken + 22
+    return f'<g class="legend">{"".join(parts)}</g>', y + 44, right
 
 
 def _classes(*names: str | None) -> str:

@@ -79,7 +79,8 @@ def view_json(view: GraphView, layout: Layout, base: str | None) -> dict[str, An
         "width": layout.width,
         "height": layout.height,
         "boxes": [
-            {"x": box.x, "y": box.y, "width": box.width, "height": box.height}
+            {"x": box.x, "y": box.y, "width": box.width, "height": box.height, "island": box.island}
+            | ({} if box.namespace is None else {"frame": box.namespace})
             | ({"node": box.node} if box.node is not None else {"channels": list(box.channels)})
             for box in layout.boxes
         ],
@@ -87,11 +88,26 @@ def view_json(view: GraphView, layout: Layout, base: str | None) -> dict[str, An
             {
                 "source": route.source,
                 "target": route.target,
+                "island": route.island,
                 "edges": list(route.edges),
                 "points": [list(point) for point in route.points],
             }
             for route in layout.routes
         ],
+        "frames": [
+            {
+                "name": frame.name,
+                "x": frame.x,
+                "y": frame.y,
+                "width": frame.width,
+                "height": frame.height,
+                "island": frame.island,
+                "parent": frame.parent,
+                "nodes": list(frame.nodes),
+            }
+            for frame in layout.frames
+        ],
+        "islands": layout.islands,
         "svg": svg(view, layout),
     }
 

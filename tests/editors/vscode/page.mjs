@@ -90,7 +90,55 @@ try {
   seen.all = (await shown()).length;
   seen.status = await page.locator("#status").innerText();
 
+  await step("search", async () => {
+    await page.keyboard.press("/");
+    await page.keyboard.type("scan");
+    const found = { first: await page.locator("#found").innerText(), all: (await shown()).length };
+    found.marked = await labels(page.locator(".match"));
+    found.second = await press("Enter").then(() => page.locator("#found").innerText());
+    found.back = await press("Shift+Enter").then(() => page.locator("#found").innerText());
+    await picture("graph-11-search");
+    await press("Enter");
+    found.escaped = await press("Escape");
+    return { ...found, left: await page.locator(".match, .found").count() };
+  });
+  await step("fold", async () => {
+    const space = page.locator("[data-frame]");
+    const open = { label: await space.getAttribute("aria-label"), state: await space.getAttribute("aria-expanded") };
+    const inside = await item("node /camera/driver").locator(".name").innerHTML();
+    await space.locator(".name").click();
+    const found = { open, inside, folded: await space.getAttribute("aria-expanded") };
+    found.hidden = (await shown()).some((label) => label.startsWith("node /camera/"));
+    await space.hover();
+    found.hint = await page.locator("#hint").innerText();
+    await picture("graph-12-folded");
+    await space.focus();
+    await press("Enter");
+    found.unfolded = await space.getAttribute("aria-expanded");
+    await page.locator("#fold").click();
+    await page.locator("#filter").fill("detector");
+    return { ...found, byAll: inside !== "" && (await space.getAttribute("aria-expanded")) };
+  });
+  await step("focus", async () => {
+    await page.locator("#filter").fill("");
+    await item("node /slam").focus();
+    await press("f");
+    const found = { shown: await shown(), button: await page.locator("#unfocus").innerText() };
+    await picture("graph-13-focus");
+    await press("Escape");
+    return { ...found, all: (await shown()).length };
+  });
+  await step("legend", async () => {
+    const legend = page.locator("#legend");
+    const numbers = await page.locator("#legend .file").allTextContents();
+    const onNode = await item("node /planner").locator(".file").innerHTML();
+    await page.locator("#show-legend").click();
+    const folded = await legend.isVisible();
+    await page.locator("#show-legend").click();
+    return { numbers, onNode, folded, open: await legend.isVisible() };
+  });
   await step("filter", async () => {
+    await page.locator("#only").check();
     await page.keyboard.press("/");
     await page.keyboard.type("ns:/camera");
     return { shown: await shown(), context: await context(), status: await page.locator("#status").innerText() };
@@ -229,8 +277,15 @@ try {
     await open("large");
     await picture("graph-8-large");
     const all = (await shown()).length;
+    const window_ = () => page.locator("#window").evaluate((rect) => Number(rect.getAttribute("y")));
+    const box = await page.locator("#map").boundingBox();
+    const map = [await window_()];
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height - 3);
+    await page.waitForFunction(() => document.querySelector("#canvas").scrollTop > 0);
+    map.push(await window_());
     await page.locator("#filter").fill("node:/subsystem_3/*");
-    const found = { all, shown: (await shown()).length, status: await page.locator("#status").innerText() };
+    await page.locator("#only").check();
+    const found = { all, map, shown: (await shown()).length, status: await page.locator("#status").innerText() };
     await page.locator("#fit").click();
     await picture("graph-9-large-filter");
     return found;

@@ -44,9 +44,11 @@ export type Edge = {
 export type Finding = { rule: string; severity: Severity; message: string; place: Place };
 export type Rectangle = { x: number; y: number; width: number; height: number };
 /** Stands for one node, or for channels. */
-export type Box = Rectangle & { node?: number; channels?: number[] };
+export type Box = Rectangle & { island: number; frame?: number; node?: number; channels?: number[] };
+/** The box around a namespace; `parent` is the one around it. */
+export type Frame = Rectangle & { name: string; island: number; parent: number | null; nodes: number[] };
 export type Point = [x: number, y: number];
-export type Route = { source: number; target: number; edges: number[]; points: Point[] };
+export type Route = { source: number; target: number; island: number; edges: number[]; points: Point[] };
 
 export type GraphData = {
   root: string;
@@ -60,6 +62,8 @@ export type GraphData = {
   height: number;
   boxes: Box[];
   routes: Route[];
+  frames: Frame[];
+  islands: number;
   svg: string;
 };
 
@@ -70,7 +74,11 @@ export type Graph = GraphData & {
   items: Map<string, SVGElement>;
   boxParts: SVGElement[];
   routeParts: SVGElement[];
+  frameParts: SVGElement[];
 };
+
+/** How much of each node and channel is shown: 2 is looked for, 1 is beside it, 0 is hidden. `matches` are keys. */
+export type Shown = { node: number[]; channel: number[]; all: boolean; matches: string[] };
 
 /** The message `live` of the server: how each is on the running robot, by name. Without `nodes` nothing is watched. */
 export type Live = {
@@ -81,8 +89,14 @@ export type Live = {
   issues?: { node: string; message: string }[];
 };
 
-/** How a coordinate of the layout becomes one of the picture, and how large that is. */
-export type Drawing = { x: (value: number) => number; y: (value: number) => number; width: number; height: number };
+/** How a place in a part of the layout becomes one of the picture, how large that is, and where each box is in it. */
+export type Drawing = {
+  at: (island: number, place: Point) => Point;
+  boxes: (Rectangle | undefined)[];
+  frames: Rectangle[];
+  width: number;
+  height: number;
+};
 
 /** What stays when an editor takes the page away and brings it back. */
 export type Saved = {
@@ -91,6 +105,9 @@ export type Saved = {
   boxes?: Record<string, boolean>;
   zoom?: number;
   selected?: string;
+  folded?: string[];
+  focus?: string;
+  legend?: boolean;
   left?: number;
   top?: number;
 };

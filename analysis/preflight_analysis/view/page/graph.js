@@ -20,6 +20,7 @@ export function index(data) {
     items: new Map(),
     boxParts: [],
     routeParts: [],
+    frameParts: [],
   };
   data.edges.forEach((edge, i) => {
     found.ofNode[edge.node].push(i);
@@ -34,12 +35,34 @@ export const nodeKey = (node) => `node ${state.graph.nodes[node].name}#${node}`;
 /** @param {number} channel */
 export const channelKey = (channel) => `${state.graph.channels[channel].kind} ${state.graph.channels[channel].name}`;
 
+/** @param {number} frame */
+export const frameKey = (frame) => `namespace ${state.graph.frames[frame].name}`;
+
+/** @param {SVGElement | HTMLElement} part */
+export const isFrame = (part) => part.dataset.frame !== undefined;
+
 /** @param {SVGElement | HTMLElement} part */
 export const isNode = (part) => part.dataset.node !== undefined;
 
 /** @param {SVGElement | HTMLElement} part */
 export const keyOf = (part) =>
-  isNode(part) ? nodeKey(Number(part.dataset.node)) : channelKey(Number(part.dataset.channel));
+  isFrame(part)
+    ? frameKey(Number(part.dataset.frame))
+    : isNode(part)
+      ? nodeKey(Number(part.dataset.node))
+      : channelKey(Number(part.dataset.channel));
+
+/** The nodes and channels, without the boxes of namespaces. */
+export const things = () => [...state.graph.items.values()].filter((part) => !isFrame(part));
+
+/**
+ * The innermost namespace that a node or channel stands in, by its position.
+ * @param {SVGElement} part
+ */
+export const frameOf = (part) => {
+  const box = part.closest("[data-box]");
+  return box instanceof SVGElement ? state.graph.boxes[Number(box.dataset.box)].frame : undefined;
+};
 
 /**
  * @param {SVGElement} part
@@ -60,11 +83,21 @@ export const channelOf = (part) => state.graph.channels[Number(part.dataset.chan
 export const routeOf = (part) => state.graph.routes[Number(part.dataset.route)];
 
 /**
+ * The positions of the edges that a line stands for: it may be drawn for others, too, that lead to the same folded box.
+ * @param {SVGElement} part
+ */
+export const edgesOfRoute = (part) => state.bundles.get(Number(part.dataset.route)) ?? routeOf(part).edges;
+
+/**
  * The positions of the edges of a node or channel.
  * @param {SVGElement} part
  */
 export const edgesAt = (part) =>
-  isNode(part) ? state.graph.ofNode[Number(part.dataset.node)] : state.graph.ofChannel[Number(part.dataset.channel)];
+  isFrame(part)
+    ? state.graph.frames[Number(part.dataset.frame)].nodes.flatMap((node) => state.graph.ofNode[node])
+    : isNode(part)
+      ? state.graph.ofNode[Number(part.dataset.node)]
+      : state.graph.ofChannel[Number(part.dataset.channel)];
 
 /**
  * @param {SVGElement} part

@@ -1,8 +1,10 @@
 // Keyboard and mouse.
 import { arrange } from "./arrange.js";
-import { keyOf } from "./graph.js";
+import { isFrame, keyOf, things } from "./graph.js";
 import { canvas, details, filter, hint, remember, state } from "./page.js";
-import { follow, isShown, light, select, step, tabbed, tabTo, walkable, walkTo } from "./walk.js";
+import { found, mark, next } from "./search.js";
+import { isShown, tabbed, tabTo, walkable } from "./tabs.js";
+import { focusOn, follow, light, select, step, walkTo } from "./walk.js";
 import { explain } from "./words.js";
 import { fit, magnification, zoomTo } from "./zoom.js";
 
@@ -17,10 +19,10 @@ function closest(event, selector) {
 }
 
 /** @param {Event} event */
-const itemAt = (event) => closest(event, "[data-node],[data-channel]");
+const itemAt = (event) => closest(event, "[data-node],[data-channel],[data-frame]");
 
 /** @param {Event} event */
-const partAt = (event) => closest(event, "[data-node],[data-channel],[data-route]");
+const partAt = (event) => closest(event, "[data-node],[data-channel],[data-route],[data-frame]");
 
 /** @param {boolean} isTyping */
 function leave(isTyping) {
@@ -30,9 +32,16 @@ function leave(isTyping) {
     select(undefined);
     back?.focus({ preventScroll: true });
   } else if (filter.value !== "") {
+    const last = found();
     filter.value = "";
     arrange();
+    mark();
+    if (isTyping) {
+      walkTo(last);
+    }
     remember();
+  } else if (state.focus !== undefined) {
+    focusOn(undefined);
   } else if (isTyping) {
     walkTo(tabbed());
   }
@@ -59,7 +68,9 @@ function press({ key }, item) {
   } else if (item && key === "Enter") {
     follow(item);
   } else if (item && key === " ") {
-    select(keyOf(item));
+    isFrame(item) ? follow(item) : select(keyOf(item));
+  } else if (item && key === "f" && !isFrame(item)) {
+    focusOn(keyOf(item));
   } else {
     return false;
   }
@@ -79,8 +90,11 @@ export function listen() {
       leave(isTyping);
       event.preventDefault();
     } else if (isTyping) {
-      if (event.key === "Enter" || event.key === "ArrowDown") {
-        walkTo([...state.graph.items.values()].find((each) => isShown(each) && !each.closest(".context")));
+      if (event.key === "Enter") {
+        next(event.shiftKey ? -1 : 1);
+        event.preventDefault();
+      } else if (event.key === "ArrowDown") {
+        walkTo(found() ?? things().find((each) => isShown(each) && !each.closest(".context")));
         event.preventDefault();
       }
     } else if (!event.ctrlKey && !event.metaKey && !event.altKey && press(event, itemAt(event))) {
@@ -111,7 +125,7 @@ export function listen() {
     const part = partAt(event);
     if (drag?.far) {
       drag = undefined;
-    } else if (part) {
+    } else if (part && (!isFrame(part) || isOnName(event, part))) {
       tabTo(part);
       walkable();
       follow(part);
@@ -121,7 +135,7 @@ export function listen() {
   });
   canvas.addEventListener("pointerover", (event) => {
     const part = drag?.far ? undefined : partAt(event);
-    if (part) {
+    if (part && (!isFrame(part) || part.classList.contains("folded"))) {
       light(part);
       explain(part, event.clientX, event.clientY);
     }
@@ -150,4 +164,17 @@ export function listen() {
     { passive: false },
   );
   canvas.addEventListener("scrollend", () => remember());
+}
+
+/**
+ * Of a namespace that is unfolded the name alone can be clicked: what is in it has no paper of its own.
+ * @param {MouseEvent} event
+ * @param {SVGElement} part
+ */
+function isOnName(event, part) {
+  const name = part.querySelector(".name")?.getBoundingClientRect();
+  return (
+    part.classList.contains("folded") ||
+    (name !== undefined && event.clientY <= name.bottom + 3 && event.clientX <= name.right + 3)
+  );
 }

@@ -9,6 +9,9 @@ const ICONS = {
   action: '<path class="icon" d="M10 5l9 5-9 5z"/>',
 };
 
+/** With more rows it is folded at first, to leave the room to the picture. */
+const FEW = 12;
+
 /** @type {Severity[]} */
 const SEVERITIES = ["error", "warning", "info"];
 
@@ -21,7 +24,12 @@ function row(inside, text) {
     `<svg xmlns="http://www.w3.org/2000/svg" class="graph" width="22" height="20" aria-hidden="true">${inside}</svg>`,
     "image/svg+xml",
   );
-  const made = make("span", {}, document.importNode(picture.documentElement, true), text);
+  const made = make(
+    "span",
+    {},
+    document.importNode(picture.documentElement, true),
+    make("bdi", { title: text }, make("bdi", { dir: "ltr" }, text)),
+  );
   made.setAttribute("role", "listitem");
   return made;
 }
@@ -48,8 +56,21 @@ export function legend() {
   const starting = new Set(graph.nodes.map((node) => node.file));
   graph.files.forEach((file, i) => {
     if (starting.has(i)) {
-      rows.push(row(`<rect class="accent f${i % 6}" x="6" y="4" width="12" height="12" rx="3"/>`, file.shown));
+      const number = `<text class="file" x="12" y="14" text-anchor="middle">${i + 1}</text>`;
+      rows.push(row(`<rect class="accent f${i % 6}" x="4" y="2" width="16" height="16" rx="3"/>${number}`, file.shown));
     }
   });
+  if (graph.nodes.some((node) => node.source === "none")) {
+    rows.push(
+      row('<g class="node unknown"><rect class="box" x="2" y="3" width="18" height="14" rx="3"/></g>', "nothing known"),
+    );
+  }
   element("legend").replaceChildren(...rows);
+  foldLegend(state.legend ?? rows.length <= FEW);
+}
+
+/** @param {boolean} isOpen */
+export function foldLegend(isOpen) {
+  element("legend").hidden = !isOpen;
+  element("show-legend").setAttribute("aria-expanded", String(isOpen));
 }

@@ -1,5 +1,5 @@
 // The running robot.
-import { channelOf, isNode, nodeOf } from "./graph.js";
+import { channelOf, isNode, nodeOf, things } from "./graph.js";
 import { element, make, state } from "./page.js";
 
 /** @type {Record<string, [state: string, words: string]>} */
@@ -27,7 +27,7 @@ function liveOf(part) {
 /** Marks what is not as launched. What runs and is not in the picture at all is told in words. */
 export function compare() {
   const { graph, live } = state;
-  for (const part of graph.items.values()) {
+  for (const part of things()) {
     const own = isNode(part) ? nodeOf(part).state : channelOf(part).state;
     part.classList.remove("state-normal", "state-missing", "state-extra", "state-wrong");
     part.classList.add(`state-${liveOf(part)?.[0] ?? own}`);

@@ -1,24 +1,24 @@
 // The geometry of the picture: what is left of it, drawn together, and lines.
-/** @import {Box, Drawing, Point, Route} from "./data.js" */
+/** @import {Point, Rectangle} from "./data.js" */
 
 const CORNER = 6;
 const ARROW = 7;
-const AIR = { box: 14, line: 5 };
+const AIR = { box: 10, line: 5 };
 
 /**
  * Takes the room out of the picture that nothing shown stands in, without changing any order.
- * @param {Box[]} boxes
- * @param {Route[]} routes
- * @returns {Drawing}
+ * @param {Rectangle[]} boxes
+ * @param {Point[]} points of lines
+ * @returns {{x: (value: number) => number, y: (value: number) => number, width: number, height: number}}
  */
-export function drawnTogether(boxes, routes) {
+export function drawnTogether(boxes, points) {
   /** @type {{x: Point[], y: Point[]}} */
   const taken = { x: [], y: [] };
   for (const box of boxes) {
     taken.x.push([box.x - AIR.box, box.x + box.width + AIR.box]);
     taken.y.push([box.y - AIR.box, box.y + box.height + AIR.box]);
   }
-  for (const [x, y] of routes.flatMap((route) => route.points)) {
+  for (const [x, y] of points) {
     taken.x.push([x - AIR.line, x + AIR.line]);
     taken.y.push([y - AIR.line, y + AIR.line]);
   }
@@ -42,7 +42,7 @@ function closedUp(intervals) {
       merged.push({ from, to, at: 0 });
     }
   }
-  let end = 10;
+  let end = 0;
   for (const each of merged) {
     each.at = end;
     end += each.to - each.from;
@@ -52,7 +52,7 @@ function closedUp(intervals) {
       const inside = merged.find((each) => value <= each.to);
       return inside === undefined ? end : Math.round((inside.at + Math.max(0, value - inside.from)) * 10) / 10;
     },
-    end + 10,
+    end,
   ];
 }
 

@@ -1,5 +1,5 @@
 // The parts of the page, the editor around it if there is one, and what is remembered for it.
-/** @import {Drawing, Editor, Graph, Live, Place, Saved} from "./data.js" */
+/** @import {Drawing, Editor, Graph, Live, Place, Saved, Shown} from "./data.js" */
 
 /** @param {string} id */
 export function element(id) {
@@ -36,12 +36,15 @@ const NOTHING = {
   height: 0,
   boxes: [],
   routes: [],
+  frames: [],
+  islands: 0,
   svg: "",
   ofNode: [],
   ofChannel: [],
   items: new Map(),
   boxParts: [],
   routeParts: [],
+  frameParts: [],
 };
 
 export const state = {
@@ -57,16 +60,37 @@ export const state = {
   /** @type {Live} What is the case on the running robot, while it is watched. */
   live: {},
   /** @type {Drawing} */
-  drawn: { x: (value) => value, y: (value) => value, width: 0, height: 0 },
+  drawn: { at: (_, place) => place, boxes: [], frames: [], width: 0, height: 0 },
+  /** @type {Map<number, number[]>} The edges of the lines that are drawn for others, too. */
+  bundles: new Map(),
+  shown: /** @type {Shown} */ ({ node: [], channel: [], all: true, matches: [] }),
+  /** The keys of the namespaces that are folded. */
+  folded: new Set(saved.folded ?? []),
+  /** @type {string | undefined} The key of what alone is shown, with its neighbours. */
+  focus: saved.focus,
+  /** @type {boolean | undefined} Whether the legend is seen, once the user said so. */
+  legend: saved.legend,
 };
 
 export function remember() {
   const boxes = Object.fromEntries(
-    ["show-topic", "show-service", "show-action", "problems", "builtin"].map((id) => [id, input(id).checked]),
+    ["show-topic", "show-service", "show-action", "problems", "builtin", "only"].map((id) => [id, input(id).checked]),
   );
-  const { zoom, selected } = state;
+  const { zoom, selected, focus, legend } = state;
+  const folded = [...state.folded];
   const { scrollLeft: left, scrollTop: top } = canvas;
-  editor?.setState({ ...editor.getState(), filter: filter.value, boxes, zoom, selected, left, top });
+  editor?.setState({
+    ...editor.getState(),
+    filter: filter.value,
+    boxes,
+    zoom,
+    selected,
+    folded,
+    focus,
+    legend,
+    left,
+    top,
+  });
 }
 
 /**

@@ -2,14 +2,17 @@
 // `ros-preflight graph --format html`, which holds its data, and in an editor, which sends it.
 /** @import {Editor, GraphData, Kind} from "./data.js" */
 import { arrange } from "./arrange.js";
-import { index, keyOf } from "./graph.js";
+import { fold } from "./folding.js";
+import { frameKey, index, keyOf } from "./graph.js";
 import { listen } from "./input.js";
-import { legend } from "./legend.js";
+import { foldLegend, legend } from "./legend.js";
 import { compare } from "./live.js";
+import { listenToMap } from "./minimap.js";
 import { canvas, editor, element, filter, input, make, remember, saved, state } from "./page.js";
 import { save } from "./save.js";
-import { select } from "./walk.js";
-import { fit, magnification, scale, zoomTo } from "./zoom.js";
+import { mark, searchAnew } from "./search.js";
+import { focusOn, nameFocus, select } from "./walk.js";
+import { fit, magnification, zoomTo } from "./zoom.js";
 
 /** @type {Kind[]} */
 const KINDS = ["topic", "service", "action"];
@@ -20,7 +23,7 @@ const partsOf = (selector) => [.../** @type {NodeListOf<SVGElement>} */ (state.s
 /** @param {GraphData} next */
 function show(next) {
   const isFirst = !state.isLoaded;
-  const focused = document.activeElement?.closest("[data-node],[data-channel]");
+  const focused = document.activeElement?.closest("[data-node],[data-channel],[data-frame]");
   const held = focused instanceof SVGElement && canvas.contains(focused) ? keyOf(focused) : undefined;
   const graph = index(next);
   state.graph = graph;
@@ -32,27 +35,32 @@ function show(next) {
   const parsed = new DOMParser().parseFromString(graph.svg, "image/svg+xml").documentElement;
   state.svg = /** @type {SVGElement} */ (/** @type {Element} */ (document.importNode(parsed, true)));
   canvas.replaceChildren(state.svg);
-  for (const item of partsOf("[data-node],[data-channel]")) {
+  for (const item of partsOf("[data-node],[data-channel],[data-frame]")) {
     item.setAttribute("tabindex", "-1");
     item.setAttribute("role", "button");
     graph.items.set(keyOf(item), item);
   }
   graph.boxParts = partsOf("[data-box]");
   graph.routeParts = partsOf("[data-route]");
+  graph.frameParts = partsOf("[data-frame]");
+  element("fold").hidden = graph.frames.length === 0;
+  if (state.focus !== undefined && !graph.items.has(state.focus)) {
+    state.focus = undefined;
+  }
   for (const kind of KINDS) {
     labelOf(`show-${kind}`).hidden = !graph.channels.some((channel) => channel.kind === kind);
   }
   legend();
   compare();
   arrange();
+  mark();
+  nameFocus();
   select(state.selected !== undefined && graph.items.has(state.selected) ? state.selected : undefined, false);
   if (held !== undefined) {
     graph.items.get(held)?.focus({ preventScroll: true });
   }
   if (isFirst) {
-    // At the left, where messages come from; above it there may be nothing.
-    const begin = graph.boxes.reduce((a, b) => (b.x < a.x ? b : a), graph.boxes[0]);
-    canvas.scrollTo(saved.left ?? 0, saved.top ?? (begin ? begin.y * magnification() - canvas.clientHeight / 2 : 0));
+    canvas.scrollTo(saved.left ?? 0, saved.top ?? 0);
   }
 }
 
@@ -104,10 +112,22 @@ function showWhatIsSent(editor) {
   editor.postMessage({ type: "ready", builtin: input("builtin").checked });
 }
 
-function filterAnew() {
+function searchIfLoaded() {
   if (state.isLoaded) {
-    arrange();
+    searchAnew();
+  } else {
+    remember();
   }
+}
+
+/** Folds all namespaces, or unfolds them where all are folded. */
+function foldAll() {
+  const { graph, folded } = state;
+  const isFolded = graph.frames.every((frame, i) => frame.parent !== null || folded.has(frameKey(i)));
+  graph.frames.forEach((_, i) => {
+    fold(i, !isFolded);
+  });
+  arrange();
   remember();
 }
 
@@ -116,16 +136,25 @@ for (const [id, checked] of Object.entries(saved.boxes ?? {})) {
   input(id).checked = checked;
 }
 listen();
-filter.addEventListener("input", filterAnew);
-for (const id of ["show-topic", "show-service", "show-action", "problems"]) {
-  element(id).addEventListener("change", filterAnew);
+filter.addEventListener("input", searchIfLoaded);
+for (const id of ["show-topic", "show-service", "show-action", "problems", "only"]) {
+  element(id).addEventListener("change", searchIfLoaded);
 }
 element("zoom-in").addEventListener("click", () => zoomTo(magnification() * 1.25));
 element("zoom-out").addEventListener("click", () => zoomTo(magnification() / 1.25));
 element("fit").addEventListener("click", fit);
+element("fold").addEventListener("click", foldAll);
+element("unfocus").addEventListener("click", () => focusOn(undefined));
+element("show-legend").addEventListener("click", () => {
+  const isOpen = !element("legend").hidden;
+  state.legend = !isOpen;
+  foldLegend(!isOpen);
+  remember();
+});
+listenToMap();
 addEventListener("resize", () => {
   if (state.isLoaded) {
-    scale();
+    arrange();
   }
 });
 element("save").addEventListener("click", save);

@@ -1,6 +1,21 @@
 // What is selected and lit, and walking from one thing to the next.
-import { channelKey, edgesAt, edgesOf, isNode, itemOf, keyOf, nodeKey, nodeOf, routeOf, TOWARDS } from "./graph.js";
-import { details, go, remember, state } from "./page.js";
+import { arrange } from "./arrange.js";
+import { fold } from "./folding.js";
+import {
+  channelKey,
+  edgesAt,
+  edgesOf,
+  edgesOfRoute,
+  isFrame,
+  isNode,
+  itemOf,
+  keyOf,
+  nodeKey,
+  nodeOf,
+  TOWARDS,
+} from "./graph.js";
+import { canvas, details, element, go, remember, state } from "./page.js";
+import { isShown, tabTo } from "./tabs.js";
 import { detail } from "./words.js";
 
 /**
@@ -18,7 +33,7 @@ export function light(part) {
   }
   part.classList.add("near");
   const isRoute = part.dataset.route !== undefined;
-  const edges = new Set(isRoute ? routeOf(part).edges : edgesAt(part));
+  const edges = new Set(isRoute ? edgesOfRoute(part) : edgesAt(part));
   for (const edge of edges) {
     itemOf(nodeKey(graph.edges[edge].node)).classList.add("near");
     itemOf(channelKey(graph.edges[edge].channel)).classList.add("near");
@@ -46,7 +61,11 @@ export function select(key, showsDetails = true) {
   if (item === undefined || showsDetails || !details.hidden) {
     details.hidden = item === undefined;
     if (item !== undefined) {
-      detail(item, { close: () => select(undefined), jump: (to) => walkTo(state.graph.items.get(to)) });
+      detail(item, {
+        close: () => select(undefined),
+        jump: (to) => walkTo(state.graph.items.get(to)),
+        focus: () => focusOn(key),
+      });
     }
   }
   remember();
@@ -58,8 +77,12 @@ export function select(key, showsDetails = true) {
  */
 export function follow(part) {
   const { graph } = state;
+  if (isFrame(part)) {
+    toggle(part);
+    return;
+  }
   if (part.dataset.route !== undefined) {
-    const edge = graph.edges[routeOf(part).edges[0]];
+    const edge = graph.edges[edgesOfRoute(part)[0]];
     select(channelKey(edge.channel));
     go(edge.places[0]);
     return;
@@ -74,23 +97,34 @@ export function follow(part) {
   go((edges.find((edge) => providers.includes(edge.role)) ?? edges[0]).places[0]);
 }
 
-/** @param {Element} item */
-export const isShown = (item) => item.closest(".off") === null;
-
-/** @param {SVGElement} [current] the only one in the order of Tab */
-export function tabTo(current) {
-  for (const item of state.graph.items.values()) {
-    item.setAttribute("tabindex", item === current ? "0" : "-1");
-  }
+/**
+ * Folds a namespace or unfolds it, and leaves its name where it is on the screen.
+ * @param {SVGElement} part
+ */
+export function toggle(part) {
+  const before = part.getBoundingClientRect();
+  fold(Number(part.dataset.frame));
+  arrange();
+  const after = part.getBoundingClientRect();
+  canvas.scrollBy(after.left - before.left, after.top - before.top);
+  remember();
 }
 
-/** The one that the tabulator leads to. */
-export const tabbed = () =>
-  [...state.graph.items.values()].find((item) => item.getAttribute("tabindex") === "0" && isShown(item));
+/** Shows the neighbourhood of what is looked at alone; all again, where it is shown alone already.
+ * @param {string | undefined} key
+ */
+export function focusOn(key) {
+  state.focus = key === state.focus ? undefined : key;
+  arrange();
+  nameFocus();
+  remember();
+}
 
-/** One thing of the picture is in the order of Tab; arrows lead on from there. */
-export function walkable() {
-  tabTo(tabbed() ?? [...state.graph.items.values()].find(isShown));
+/** Says what alone is shown, on the button that shows all again. */
+export function nameFocus() {
+  const button = element("unfocus");
+  button.hidden = state.focus === undefined;
+  button.textContent = `Only around ${(state.focus ?? "").replace(/#\d+$/, "")} ✕`;
 }
 
 /** @param {SVGElement | undefined} item */
@@ -102,14 +136,16 @@ export function walkTo(item) {
   item.focus({ preventScroll: true });
   item.scrollIntoView({ block: "nearest", inline: "nearest" });
   light(item);
-  if (!details.hidden) {
+  if (!details.hidden && !isFrame(item)) {
     select(keyOf(item));
   }
 }
 
 /** @param {Element} item */
 function middle(item) {
-  const box = (item.querySelector("rect") ?? item).getBoundingClientRect();
+  const box = (
+    item.querySelector(isFrame(/** @type {SVGElement} */ (item)) ? ".name" : "rect") ?? item
+  ).getBoundingClientRect();
   return { x: box.left + box.width / 2, y: box.top + box.height / 2 };
 }
 
@@ -122,13 +158,15 @@ export function step(item, key) {
   const here = middle(item);
   /** @type {[distance: number, to: SVGElement][]} */
   let ahead;
-  if (key === "ArrowLeft" || key === "ArrowRight") {
+  if ((key === "ArrowLeft" || key === "ArrowRight") && !isFrame(item)) {
     // Along the edges, with the messages or against them.
     ahead = edgesOf(item)
       .filter((edge) => (TOWARDS.has(edge.role) === isNode(item)) === (key === "ArrowRight"))
       .map((edge) => itemOf(isNode(item) ? channelKey(edge.channel) : nodeKey(edge.node)))
       .filter(isShown)
       .map((to) => [Math.abs(middle(to).y - here.y), to]);
+  } else if (key === "ArrowLeft" || key === "ArrowRight") {
+    return undefined;
   } else {
     const sign = key === "ArrowDown" ? 1 : -1;
     // The nearest ahead; what stands aside counts as farther away.

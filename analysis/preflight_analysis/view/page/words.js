@@ -1,6 +1,17 @@
 // What is said of nodes, channels and lines: in the hint, and at length beside the picture.
 /** @import {Edge, GraphNode, Place, Role} from "./data.js" */
-import { channelKey, channelOf, edgesOf, isNode, nodeKey, nodeOf, routeOf, TOWARDS } from "./graph.js";
+import {
+  channelKey,
+  channelOf,
+  edgesOf,
+  edgesOfRoute,
+  isFrame,
+  isNode,
+  nodeKey,
+  nodeOf,
+  TOWARDS,
+  worst,
+} from "./graph.js";
 import { liveShown } from "./live.js";
 import { details, editor, go, hint, make, state } from "./page.js";
 
@@ -72,6 +83,13 @@ const edgeShown = (edge) =>
 /** @param {SVGElement} part */
 function said(part) {
   const { graph } = state;
+  if (isFrame(part)) {
+    const { name, nodes } = graph.frames[Number(part.dataset.frame)];
+    const ranks = nodes.map((node) => worst(graph.nodes[node].findings)).filter((rank) => rank > 0);
+    const wrong = ranks.length === 0 ? [] : [make("p", {}, `${ranks.length} of them with findings`)];
+    const some = nodes.slice(0, 12).map((node) => make("p", { className: "dim" }, graph.nodes[node].name));
+    return [make("b", {}, `namespace ${name}`), make("p", {}, `${nodes.length} nodes`), ...wrong, ...some];
+  }
   if (isNode(part)) {
     const node = nodeOf(part);
     return [make("b", {}, node.name), ...liveShown(part), ...nodeShown(node), ...findingsShown(node.findings)];
@@ -87,18 +105,23 @@ function said(part) {
     const head = make("b", {}, `${channel.kind} ${channel.name}`);
     return [head, ...liveShown(part), ...lines, ...more, ...findingsShown(channel.findings)];
   }
-  const edges = routeOf(part).edges.map((i) => graph.edges[i]);
-  const lines = edges.map((edge) =>
-    make(
-      "p",
-      {},
-      make("b", {}, graph.nodes[edge.node].name),
-      ` ${DOES[edge.role]} `,
-      make("b", {}, graph.channels[edge.channel].name),
-      " ",
-      make("span", { className: "dim" }, edgeShown(edge)),
-    ),
-  );
+  const edges = edgesOfRoute(part).map((i) => graph.edges[i]);
+  const lines = edges
+    .slice(0, 10)
+    .map((edge) =>
+      make(
+        "p",
+        {},
+        make("b", {}, graph.nodes[edge.node].name),
+        ` ${DOES[edge.role]} `,
+        make("b", {}, graph.channels[edge.channel].name),
+        " ",
+        make("span", { className: "dim" }, edgeShown(edge)),
+      ),
+    );
+  if (edges.length > 10) {
+    lines.push(make("p", { className: "dim" }, `and ${edges.length - 10} more`));
+  }
   return [...lines, ...findingsShown([...new Set(edges.flatMap((edge) => edge.findings))])];
 }
 
@@ -144,17 +167,22 @@ function section(title, edges, other, onJump) {
 /**
  * Fills the details beside the picture.
  * @param {SVGElement} item
- * @param {{close: () => void, jump: (key: string) => void}} on
+ * @param {{close: () => void, jump: (key: string) => void, focus: () => void}} on
  */
 export function detail(item, on) {
   const close = make("button", { type: "button", className: "close", onclick: on.close }, "✕");
   close.setAttribute("aria-label", "Close the details");
   /** @type {HTMLElement[]} */
   const parts = [close];
+  const alone = make(
+    "button",
+    { type: "button", className: "alone", onclick: on.focus },
+    "Only this and its neighbours (f)",
+  );
   const edges = edgesOf(item);
   if (isNode(item)) {
     const node = nodeOf(item);
-    parts.push(make("h2", {}, node.name), ...nodeShown(node), ...findingsShown(node.findings));
+    parts.push(make("h2", {}, node.name), ...nodeShown(node), alone, ...findingsShown(node.findings));
     parts.push(make("h3", {}, "Launched at"), ...places(node.places));
     for (const [role, title] of SECTIONS) {
       const own = edges.filter((edge) => edge.role === role);
@@ -164,7 +192,7 @@ export function detail(item, on) {
     const channel = channelOf(item);
     const [first, second] = ENDPOINTS[channel.kind];
     const from = channel.external ? ", used from outside of the launch" : "";
-    parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${from}`));
+    parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${from}`), alone);
     parts.push(...channel.types.map((type) => make("p", {}, type)), ...findingsShown(channel.findings));
     for (const [title, isFirst] of /** @type {[string, boolean][]} */ ([
       [first, true],

@@ -1,4 +1,5 @@
 // How large the picture is.
+import { showWindow } from "./minimap.js";
 import { canvas, remember, state } from "./page.js";
 
 export const magnification = () =>
@@ -15,6 +16,7 @@ export function scale() {
   const by = magnification();
   state.svg.setAttribute("width", String(state.drawn.width * by));
   state.svg.setAttribute("height", String(state.drawn.height * by));
+  showWindow();
 }
 
 export function fit() {
