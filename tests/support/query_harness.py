@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.workspace.sources import Sources
@@ -48,6 +49,8 @@ class AtCursor:
     offset: int
     sources: Sources
     ahead_of_runs: Callable[[Analysis], Analysis]
+    evaluate: Callable[[Mapping[str, str]], LaunchTree]
+    """The root with other arguments."""
 
     @property
     def document(self) -> Document:
@@ -77,4 +80,8 @@ def at_cursor(text: str, variables: Mapping[str, str] | None = None, sources: So
     if fixture.interfaces is not None or annotated:
         interfaces = interfaces_of(analysis.tree, fixture.interfaces or {})
         analysis = workspace.with_interfaces(analysis, interfaces, None)
-    return AtCursor(analysis, file, offset, sources, lambda each: each)
+
+    def evaluate(args: Mapping[str, str]) -> LaunchTree:
+        return workspace.evaluated(fixture.root, args).tree
+
+    return AtCursor(analysis, file, offset, sources, lambda each: each, evaluate)

@@ -20,6 +20,8 @@ ORDERS = {
 PERIODS = ("deadline", "lease_duration")
 """In seconds: what is offered has to be as short as what is requested."""
 
+_MAIN = {"reliability", "durability"}
+
 Fit = Literal["compatible", "incompatible", "unknown"]
 
 
@@ -35,13 +37,14 @@ class Policy(NamedTuple):
 
 def policies(publisher: Endpoint, subscription: Endpoint) -> Iterator[Policy]:
     """Each policy that decides whether the two connect, as far as one of the two is known to set it."""
-    # Of a publisher whose settings are known, those that are not among them are the weakest.
-    known = {"reliability", "durability"} <= publisher.qos.keys()
+    # Of an endpoint whose settings are known, those that are not among them are the weakest.
+    known = _MAIN <= publisher.qos.keys()
+    requests_known = _MAIN <= subscription.qos.keys()
     for name, order in ORDERS.items():
-        offered = publisher.qos.get(name, order[0] if known else None)
-        requested = subscription.qos.get(name)
-        if offered is None and requested is None:
+        if name not in publisher.qos and name not in subscription.qos:
             continue
+        offered = publisher.qos.get(name, order[0] if known else None)
+        requested = subscription.qos.get(name, order[0] if requests_known else None)
         if offered in order and requested in order:
             weaker = order.index(offered) < order.index(requested)
             yield Policy(name, offered, requested, "incompatible" if weaker else "compatible")

@@ -17,6 +17,7 @@ from preflight_server.cli.output import LogFormatter, say
 VERBS = {
     "check": "what is wrong with launch files",
     "explain": "explain a rule or one finding",
+    "why": "explain why a node hears another one, or why it is started",
     "tree": "what a launch file would start",
     "graph": "who talks to whom after the launch",
     "trace": "run the nodes of a launch file in the sandbox and show what they do",
@@ -30,8 +31,8 @@ VERBS = {
     "lsp": "serve an editor over standard input and output",
 }
 """The verbs with their help. The module of one is imported only if the command line has its name."""
-_SEVERAL_FILES = ("check", "diff", "explain")
-"""The verbs whose positional arguments are files too, in `launch_args`."""
+_SEVERAL_FILES = ("check", "diff", "explain", "why")
+"""The verbs whose positional arguments are files or names too, in `launch_args`."""
 _COMPLETING = "_ARGCOMPLETE"
 """The variable that a shell sets when it asks argcomplete for words."""
 _EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"

@@ -1,0 +1,353 @@
+"""Why one node hears another, or does not: a chain of links from the publisher to the subscriber.
+
+Each link names one thing that has to be so: both nodes are started, both endpoints exist, the names are equal after
+namespaces and remaps, types and QoS fit, both nodes are in one domain of one middleware. The first broken link is the
+answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Literal
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.graph.model import ChannelKind, Connection, Graph
+from preflight_analysis.graph.qos import policies
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.places import attribute_location, connection_location
+from preflight_analysis.tracing.interface import DOES, Interface
+from preflight_analysis.workspace.workspace import Analysis
+
+State = Literal["ok", "broken", "unknown"]
+
+KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
+_NOUN: Mapping[ChannelKind, str] = {"topics": "topic", "services": "service", "actions": "action"}
+_SEPARATING = {
+    1: ("ROS_MASTER_URI",),
+    2: (
+        "ROS_DOMAIN_ID",
+        "RMW_IMPLEMENTATION",
+        "ROS_AUTOMATIC_DISCOVERY_RANGE",
+        "ROS_LOCALHOST_ONLY",
+        "ROS_STATIC_PEERS",
+    ),
+}
+"""By generation the variables that keep nodes apart where they differ: the master of ROS 1; domain, middleware and
+discovery of ROS 2 (https://docs.ros.org/en/rolling/Tutorials/Advanced/Improved-Dynamic-Discovery.html)."""
+_LIFECYCLE = "LCH035"
+_LISTED = 8
+"""Names in one text."""
+
+
+class NoSuchNodeError(Exception):
+    """The launch starts no node of that name. `near` are those that may be meant."""
+
+    def __init__(self, name: str, near: Sequence[str]) -> None:
+        super().__init__(name)
+        self.name, self.near = name, tuple(near)
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """One link of a chain; `about` says which kind: `started`, `interface`, `endpoint`, `name`, `type`, `qos`,
+    `environment`, `lifecycle`, `clock`."""
+
+    about: str
+    state: State
+    text: str
+    location: Location | None = None
+    fixes: tuple[Fix, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """From `provider` to `consumer` (full names of nodes), over one topic, service or action. `channel` is its final
+    name where both ends have the same one."""
+
+    kind: ChannelKind
+    channel: str | None
+    provider: str
+    consumer: str
+    links: tuple[Link, ...]
+
+    @property
+    def broken(self) -> Link | None:
+        """The first link that breaks."""
+        return next((link for link in self.links if link.state == "broken"), None)
+
+    @property
+    def unknown(self) -> int:
+        """How many links are not known."""
+        return sum(link.state == "unknown" for link in self.links)
+
+    @property
+    def noun(self) -> str:
+        """`topic`, `service` or `action`."""
+        return _NOUN[self.kind]
+
+
+def node_named(nodes: Iterable[LaunchNode], name: str) -> LaunchNode:
+    """The node of a full name, or of a last part that only one has. Raises `NoSuchNodeError`."""
+    by_name = {node.name: node for node in nodes}
+    found = by_name.get(name) or by_name.get(f"/{name}")
+    if found is not None:
+        return found
+    alike = [node for full, node in by_name.items() if names.leaf(full) == name]
+    if len(alike) == 1:
+        return alike[0]
+    if alike:
+        raise NoSuchNodeError(name, [node.name for node in alike])
+    near = nearest(names.leaf(name), map(names.leaf, by_name))
+    raise NoSuchNodeError(name, [full for full in by_name if names.leaf(full) == near])
+
+
+def chains(analysis: Analysis, graph: Graph, first: str, second: str, channel: str | None = None) -> tuple[Chain, ...]:
+    """The chains between two nodes, one for each topic, service or action that they share, or for the ends that may be
+    meant for each other; over `channel` alone if given: a final name, or one as the nodes' code has it.
+
+    From `first` to `second`; the other way round where nothing leads there. Raises `NoSuchNodeError`.
+    """
+    a, b = node_named(graph.tree.nodes, first), node_named(graph.tree.nodes, second)
+    for provider, consumer in ((a, b), (b, a)):
+        found = [
+            chain
+            for kind in KINDS
+            for pair in _pairs(graph, kind, provider, consumer, channel)
+            for chain in [_chain(analysis, graph, kind, *pair)]
+        ]
+        if found:
+            return tuple(found)
+    return (_no_pair(analysis, graph, a, b, channel),)
+
+
+def _ends(graph: Graph, kind: ChannelKind, node: LaunchNode) -> tuple[list[Connection], list[Connection]]:
+    """What a node provides and what it consumes."""
+    channels = graph.channels(kind).values()
+    return (
+        [each for channel in channels for each in channel.providers if each.node is node and _counts(each)],
+        [each for channel in channels for each in channel.consumers if each.node is node and _counts(each)],
+    )
+
+
+def _counts(connection: Connection) -> bool:
+    return not connection.endpoint.builtin and connection.action is None
+
+
+def _pairs(
+    graph: Graph, kind: ChannelKind, provider: LaunchNode, consumer: LaunchNode, channel: str | None
+) -> list[tuple[Connection, Connection]]:
+    provided, _ = _ends(graph, kind, provider)
+    _, consumed = _ends(graph, kind, consumer)
+    if channel is not None:
+        provided = [each for each in provided if _is_called(each, channel)] or provided
+        consumed = [each for each in consumed if _is_called(each, channel)] or consumed
+        if not any(_is_called(each, channel) for each in (*provided, *consumed)):
+            return []
+    by_name = {each.name: each for each in consumed}
+    same = [(each, by_name[each.name]) for each in provided if each.name in by_name]
+    return same or _likely_pairs(provided, consumed)
+
+
+def _is_called(connection: Connection, name: str) -> bool:
+    written = connection.endpoint.name
+    return name in (connection.name, written) or connection.name == f"/{name}" or names.leaf(connection.name) == name
+
+
+def _likely_pairs(
+    provided: Sequence[Connection], consumed: Sequence[Connection]
+) -> list[tuple[Connection, Connection]]:
+    """For each that is consumed what may be meant for it: of the same last name, of a near one, of the same type if it
+    is the only one."""
+    found = []
+    for consumer in consumed:
+        leaf = names.leaf(consumer.name)
+        by_leaf = {names.leaf(each.name): each for each in provided}
+        near = leaf if leaf in by_leaf else nearest(leaf, by_leaf)
+        of_type = [each for each in provided if each.endpoint.type and each.endpoint.type == consumer.endpoint.type]
+        if near is not None:
+            found.append((by_leaf[near], consumer))
+        elif len(of_type) == 1:
+            found.append((of_type[0], consumer))
+    return found
+
+
+def _no_pair(analysis: Analysis, graph: Graph, a: LaunchNode, b: LaunchNode, channel: str | None) -> Chain:
+    """The chain where no ends fit: what each of the two is known to do."""
+    kind: ChannelKind = "topics"
+    over = f"'{channel}'" if channel is not None else "the other"
+    links = [
+        *_of_node(analysis, graph, a),
+        *_of_node(analysis, graph, b),
+        _ends_known(graph, kind, a, over),
+        _ends_known(graph, kind, b, over),
+    ]
+    return Chain(kind, None, a.name, b.name, tuple(links))
+
+
+def _ends_known(graph: Graph, kind: ChannelKind, node: LaunchNode, over: str) -> Link:
+    provided, consumed = (sorted({each.name for each in side}) for side in _ends(graph, kind, node))
+    does = [f"{verb} {_listed(ends)}" for verb, ends in (("publishes", provided), ("subscribes to", consumed)) if ends]
+    text = f"no endpoint of {node.name} fits {over}; it {' and '.join(does) or 'has no topic'}"
+    interface = _interface(graph, node)
+    if not interface.complete:
+        return Link("endpoint", "unknown", f"{text}; its interface is not completely known", node.location)
+    return Link("endpoint", "broken", text, node.location)
+
+
+def _listed(found: Sequence[str]) -> str:
+    more = f" and {len(found) - _LISTED} more" if len(found) > _LISTED else ""
+    return ", ".join(found[:_LISTED]) + more
+
+
+def _interface(graph: Graph, node: LaunchNode) -> Interface:
+    return next(interface for each, interface in zip(graph.tree.nodes, graph.interfaces, strict=True) if each is node)
+
+
+def _chain(analysis: Analysis, graph: Graph, kind: ChannelKind, provider: Connection, consumer: Connection) -> Chain:
+    links = (
+        *_of_node(analysis, graph, provider.node),
+        _endpoint(provider),
+        *_of_node(analysis, graph, consumer.node),
+        _endpoint(consumer),
+        _name(analysis, kind, provider, consumer),
+        _type(provider, consumer),
+        *(_qos(provider, consumer) if kind == "topics" and graph.tree.generation == 2 else ()),
+        *_environment(analysis, provider.node, consumer.node),
+        *_clock(graph, consumer.node),
+    )
+    channel = consumer.name if provider.name == consumer.name else None
+    return Chain(kind, channel, provider.node.name, consumer.node.name, links)
+
+
+def _of_node(analysis: Analysis, graph: Graph, node: LaunchNode) -> Iterator[Link]:
+    when = " after a timer or an event" if node.deferred else ""
+    yield Link("started", "ok", f"{node.name} is started{when}", node.location)
+    interface = _interface(graph, node)
+    outcome = interface.outcome
+    if outcome.status == "crashed" and not interface.complete:
+        yield Link("interface", "broken", f"{node.name} crashes on start: {outcome.reason}", node.location)
+    elif interface.source == "none":
+        reason = f": {outcome.reason}" if outcome.reason else ""
+        yield Link("interface", "unknown", f"the interface of {node.name} is not known{reason}", node.location)
+    place = attribute_location(analysis.context, node, "exec")
+    for finding in analysis.findings:
+        if finding.rule == _LIFECYCLE and finding.location == place:
+            yield Link("lifecycle", "broken", finding.message, finding.location, finding.fixes)
+
+
+def _endpoint(connection: Connection) -> Link:
+    end, node = connection.endpoint, connection.node
+    written = names.canonicalize(end.name)
+    text = f"{node.name} {DOES[end.role]} '{written}'"
+    remap = connection.remap
+    if remap is not None:
+        text += f", remapped to '{connection.name}'"
+    elif connection.name != written:
+        text += f", which resolves to '{connection.name}'"
+    if end.source_file is not None and end.source_line is not None:
+        text += f" ({names.leaf(end.source_file)}:{end.source_line})"
+    text += _evidence(connection)
+    state: State = "unknown" if end.uncertain else "ok"
+    return Link("endpoint", state, text, connection_location(connection))
+
+
+def _evidence(connection: Connection) -> str:
+    end = connection.endpoint
+    if end.similar:
+        return "; seen in a run with another configuration"
+    if end.catalogued:
+        return f"; from {end.catalogued}"
+    if end.inferred:
+        return "; from its source, under a condition" if end.conditional else "; from its source"
+    return ""
+
+
+def _name(analysis: Analysis, kind: ChannelKind, provider: Connection, consumer: Connection) -> Link:
+    decides = next((each for each in (consumer, provider) if each.remap is not None), consumer)
+    place = connection_location(decides)
+    if provider.name == consumer.name:
+        return Link("name", "ok", f"both use the {_NOUN[kind]} '{consumer.name}'", place)
+    text = f"'{provider.name}' and '{consumer.name}' are different {_NOUN[kind]} names"
+    return Link("name", "broken", text, place, _fixes(analysis, provider, consumer))
+
+
+def _fixes(analysis: Analysis, *connections: Connection) -> tuple[Fix, ...]:
+    """Those of the findings that speak of these ends, the ones that speak of both first."""
+    wanted = {(each.name, each.node.name) for each in connections}
+
+    def both(finding: Finding) -> int:
+        return -len(wanted & {(ref.channel, ref.node) for ref in finding.endpoints})
+
+    found: dict[tuple[object, ...], Fix] = {}
+    for finding in sorted(analysis.findings, key=both):
+        if both(finding):
+            for fix in finding.fixes:
+                found.setdefault(fix.edits, fix)
+    return tuple(found.values())
+
+
+def _type(provider: Connection, consumer: Connection) -> Link:
+    mine, theirs = consumer.endpoint.type, provider.endpoint.type
+    if "*" in (mine, theirs):
+        return Link("type", "ok", f"any type fits ({theirs if mine == '*' else mine})")
+    if mine is None or theirs is None:
+        who = consumer if mine is None else provider
+        return Link("type", "unknown", f"the type that {who.node.name} uses is not known")
+    if mine != theirs:
+        text = f"types differ: {provider.node.name} uses {theirs}, {consumer.node.name} uses {mine}"
+        return Link("type", "broken", text, consumer.node.location)
+    return Link("type", "ok", f"both use the type {mine}")
+
+
+def _qos(provider: Connection, consumer: Connection) -> Iterator[Link]:
+    states: Mapping[str, State] = {"compatible": "ok", "incompatible": "broken", "unknown": "unknown"}
+    found = False
+    for policy in policies(provider.endpoint, consumer.endpoint):
+        found = True
+        offered, requested = (
+            "none" if value is None else f"{value} s" if isinstance(value, (int, float)) else value.replace("_", " ")
+            for value in (policy.offered, policy.requested)
+        )
+        if policy.fit == "unknown":
+            offered = "unknown" if policy.offered is None else offered
+            requested = "unknown" if policy.requested is None else requested
+        text = (
+            f"QoS {policy.name.replace('_', ' ')}: {provider.node.name} offers {offered}, "
+            f"{consumer.node.name} requests {requested}"
+        )
+        yield Link("qos", states[policy.fit], text, consumer.node.location)
+    if not found:
+        yield Link("qos", "unknown", "the QoS of both ends is not known")
+
+
+def _environment(analysis: Analysis, provider: LaunchNode, consumer: LaunchNode) -> Iterator[Link]:
+    for name in _SEPARATING[analysis.tree.generation]:
+        mine, theirs = (
+            dict(node.env).get(name, analysis.environment.variables.get(name)) for node in (consumer, provider)
+        )
+        if mine != theirs:
+            text = (
+                f"{name} differs: {provider.name} has {theirs or 'the default'}, "
+                f"{consumer.name} has {mine or 'the default'}"
+            )
+            yield Link("environment", "broken", text, consumer.location)
+
+
+def _clock(graph: Graph, consumer: LaunchNode) -> Iterator[Link]:
+    if graph.tree.generation == 1:
+        param = graph.tree.params.get("/use_sim_time")
+    else:
+        param = next((each for each in consumer.params if each.name == "use_sim_time"), None)
+    clock = graph.topics.get("/clock")
+    if param is None or param.value is not True or graph.is_external("/clock"):
+        return
+    if clock is not None and clock.providers:
+        publishers = _listed(sorted({each.node.name for each in clock.providers}))
+        yield Link("clock", "ok", f"{consumer.name} uses simulated time; /clock is published by {publishers}")
+    else:
+        text = f"{consumer.name} uses simulated time, and no node of this launch publishes /clock"
+        yield Link("clock", "unknown", text, param.place)

@@ -1,0 +1,60 @@
+"""`why`: the connection of two nodes, or the start of one, on the demo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.editor_harness import Harness
+
+pytestmark = pytest.mark.ros
+Run = Callable[..., Any]
+FILE = "launch/talker_listener.launch"
+
+
+def test_a_connection_that_breaks(harness: Harness, preflight: Run) -> None:
+    done = preflight("why", FILE, "talker", "listener")
+    assert (done.code, done.err) == (1, "")
+    verdict, *links = done.out.splitlines()
+    assert verdict == "/talker -> /listener: not connected: '/chatter' and '/chater' are different topic names"
+    assert [line.split()[0] for line in links] == ["ok", "ok", "ok", "ok", "BROKEN", "fix:", "ok"]
+    assert links[4].endswith(f"[{FILE}:7:31]")
+
+
+def test_the_same_as_json(harness: Harness, preflight: Run) -> None:
+    done = preflight("why", FILE, "talker", "listener", "/chatter", "--format", "json", "--paths", "relative")
+    (chain,) = done.json["chains"]
+    assert (done.json["schema"], done.code, chain["connected"]) == ("ros-preflight/why/1", 1, False)
+    (broken,) = (link for link in chain["links"] if link["state"] == "broken")
+    assert (broken["about"], broken["file"], broken["line"]) == ("name", FILE, 7)
+    assert broken["fixes"]
+
+
+def test_without_the_mistake(harness: Harness, preflight: Run) -> None:
+    path = Path(harness.workspace, FILE)
+    path.write_text(path.read_text().replace('to="chater"', 'to="chatter"'))
+    done = preflight("why", FILE, "talker", "listener")
+    assert (done.code, done.err) == (0, "")
+    assert done.out.startswith("/talker -> /listener over the topic '/chatter': connected\n")
+
+
+def test_the_start_of_one_node(harness: Harness, preflight: Run) -> None:
+    done = preflight("why", FILE, "talker")
+    assert (done.code, done.out.splitlines()[0]) == (0, "/talker is started")
+    assert harness.sandbox_starts() == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (("talkr",), "no node 'talkr' in this launch; did you mean /talker?"),
+        (("a", "b", "c", "d"), "name one node, or two nodes"),
+        (("rate:=3",), "name one node, or two nodes"),
+    ],
+)
+def test_what_cannot_be_answered(harness: Harness, preflight: Run, words: tuple[str, ...], text: str) -> None:
+    done = preflight("why", FILE, *words, "--no-run")
+    assert (done.code, done.out) == (2, "")
+    assert text in done.err
