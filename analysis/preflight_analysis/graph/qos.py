@@ -38,8 +38,8 @@ class Policy(NamedTuple):
 def policies(publisher: Endpoint, subscription: Endpoint) -> Iterator[Policy]:
     """Each policy that decides whether the two connect, as far as one of the two is known to set it."""
     # Of an endpoint whose settings are known, those that are not among them are the weakest.
-    known = _MAIN <= publisher.qos.keys()
-    requests_known = _MAIN <= subscription.qos.keys()
+    known = publisher.qos.keys() >= _MAIN
+    requests_known = subscription.qos.keys() >= _MAIN
     for name, order in ORDERS.items():
         if name not in publisher.qos and name not in subscription.qos:
             continue
