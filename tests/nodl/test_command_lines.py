@@ -95,6 +95,13 @@ def test_bridges_of_a_command_line(tmp_path: Path) -> None:
     }
 
 
+def test_a_bridge_of_ros1_has_the_types_of_ros1(tmp_path: Path) -> None:
+    node = '<node pkg="ros_ign_bridge" type="parameter_bridge" name="b" args="/clock@rosgraph_msgs/Clock[ignition.C"/>'
+    analysis = package_elsewhere.analysed(tmp_path, f"<launch>{node}</launch>", distro="noetic")
+    assert analysis.graph is not None
+    assert analysis.graph.topics["/clock"].types == ("rosgraph_msgs/Clock",)
+
+
 @pytest.mark.parametrize(
     "given",
     [

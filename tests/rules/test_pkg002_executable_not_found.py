@@ -30,6 +30,14 @@ def test_an_executable_without_a_near_name(launch: Path) -> None:
 def test_a_file_without_the_permission_to_be_executed(launch: Path) -> None:
     (finding,) = judge(launch, "plain.py")
     assert "is not executable; chmod +x" in finding.message
+    assert (finding.severity, finding.confidence) == ("error", "certain")
+
+
+def test_a_file_that_only_the_installed_package_may_execute(launch: Path) -> None:
+    (launch.parent / "CMakeLists.txt").write_text("install(PROGRAMS nodes/plain.py DESTINATION lib/demo)\n")
+    (finding,) = judge(launch, "plain.py")
+    assert "it starts from the install space alone" in finding.message
+    assert (finding.severity, finding.confidence) == ("warning", "likely")
 
 
 @pytest.mark.silent

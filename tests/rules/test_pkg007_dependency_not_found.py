@@ -62,3 +62,13 @@ def test_a_family_of_packages_that_is_not_here() -> None:
         //- /mir_arm/package.xml
         <package/>
     """)
+
+
+@pytest.mark.silent
+def test_a_package_of_another_repository_of_the_same_project() -> None:
+    check("""
+        //- /smarc_scenarios/tutorial/launch/all.launch
+        <launch/>
+        //- /smarc_scenarios/tutorial/package.xml
+        <package format="2"><name>tutorial</name><depend>smarc_msgs</depend></package>
+    """)

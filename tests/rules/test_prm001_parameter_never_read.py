@@ -245,6 +245,25 @@ def test_the_right_name_in_the_wrong_namespace() -> None:
     assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
 
 
+def test_the_section_of_a_controller_is_read_by_whoever_loads_it() -> None:
+    """Joints have the same names in it as in what another node reads of them."""
+    text = """
+        <launch>
+          <rosparam>
+            arm_controller: {TYPE, gains: {joint1: 1, joint2: 1, joint3: 1}}
+          </rosparam>
+          <node pkg="p" type="t" name="gui"/>
+          <node pkg="p" type="unknown" name="robot"/>
+        </launch>
+        //- interfaces
+        {"/gui": {"params": {"~zeros/joint1": 0, "~zeros/joint2": 0, "~zeros/joint3": 0}}}
+    """
+    warned = [f.rule for f in findings_of(text.replace("TYPE", "limit: 3")) if f.severity == "warning"]
+    assert warned == ["PRM001"] * 3
+    of_plugin = findings_of(text.replace("TYPE", "type: effort_controllers/JointTrajectoryController"))
+    assert [f.rule for f in of_plugin] == ["TRC004"]
+
+
 def test_a_misspelt_mandatory_parameter_is_told_once_where_it_is_written() -> None:
     (finding,) = check("""
         <launch>

@@ -3,7 +3,10 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import check, findings_of
 
 
@@ -28,6 +31,21 @@ def test_parameter_files_that_are_not_there() -> None:
           </node_container>
         </launch>
     """)
+
+
+def test_a_file_that_another_package_of_the_same_name_has(tmp_path: Path) -> None:
+    """Which of the two is found depends on the package path."""
+    for folder in ("new", "old"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "old" / "board.yaml").write_text("a: 1")
+    new, old = (Package("p", str(tmp_path / each), str(tmp_path / each / "package.xml")) for each in ("new", "old"))
+    launch = tmp_path / "main.launch"
+    launch.write_text('<launch><rosparam file="$(find p)/board.yaml"/><rosparam file="$(find p)/no.yaml"/></launch>')
+    environment = Environment(1, "noetic", {}, (), {"p": new}, {"p": (old,)}, (), (), None)
+    findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    said = {finding.severity: finding.message for finding in findings if finding.rule == "PRM002"}
+    assert said["warning"].endswith(f"another package of that name has it, in '{old.share}'")
+    assert "no.yaml" in said["error"]
 
 
 def test_a_name_that_says_that_it_has_to_be_given() -> None:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import check
@@ -152,6 +153,63 @@ def test_files_of_ros2_that_are_installed_elsewhere_or_made(tmp_path: Path) -> N
     environment = Environment(2, "jazzy", {}, (), packages, {}, (), (), None)
     findings = Workspace(environment, Sources(), str(share)).static(str(launch)).findings
     assert not [finding for finding in findings if finding.rule == "PRM005"]
+
+
+def of_package(folder: Path, text: str, *others: str) -> list[Finding]:
+    """What PRM005 says of a launch file in a package `robot`, beside the packages `others`."""
+    packages = {}
+    for name in ("robot", *others):
+        share = folder / name
+        share.mkdir(exist_ok=True)
+        packages[name] = Package(name, str(share), f"{share}/package.xml")
+    launch = folder / "robot" / "robot.launch"
+    launch.write_text(f"<launch>{text}<node pkg='p' type='t' name='n'/></launch>")
+    environment = Environment(1, "noetic", {}, (), packages, {}, (), (), None)
+    findings = Workspace(environment, Sources(), str(folder)).static(str(launch)).findings
+    return [finding for finding in findings if finding.rule == "PRM005"]
+
+
+def test_a_file_that_the_build_makes_of_one_beside_it(tmp_path: Path) -> None:
+    worlds = tmp_path / "robot" / "worlds"
+    worlds.mkdir(parents=True)
+    (worlds / "hall.world.xacro").touch()
+    (tmp_path / "robot" / "CMakeLists.txt").write_text("xacro_add_files(worlds/hall.world.xacro INSTALL)")
+    text = '<param name="world" value="$(find robot)/worlds/hall.world"/>'
+    assert of_package(tmp_path, text) == []
+    (tmp_path / "robot" / "CMakeLists.txt").write_text("")
+    (finding,) = of_package(tmp_path, text)
+    assert finding.severity == "warning"
+    assert finding.message.endswith("did you mean 'robot/worlds/hall.world.xacro'?")
+
+
+def test_files_that_no_package_has_for_the_same_argument(tmp_path: Path) -> None:
+    """A planner writes them."""
+    names = ("kitchen", "office", "garage")
+    for name in ("robot", *names):
+        (tmp_path / name / "config").mkdir(parents=True)
+        (tmp_path / name / "a.launch").write_text(
+            f'<launch><arg name="plan" default="$(find {name})/config/plan.txt"/></launch>'
+        )
+    text = '<param name="plan" value="$(find robot)/config/plan.txt"/>'
+    (finding,) = of_package(tmp_path, text, *names)
+    assert (finding.severity, finding.message.partition("; ")[2]) == (
+        "info",
+        "nor do those that 3 other packages give for it: a node may write it",
+    )
+    for name in names:
+        (tmp_path / name / "config" / "plan.txt").touch()
+    (finding,) = of_package(tmp_path, text, *names)
+    assert finding.severity == "warning"
+
+
+def test_the_calibration_of_a_camera_is_written_when_that_is_calibrated() -> None:
+    check("""
+        <launch>
+          <param name="camera_info_url" value="package://p/calibration/left.ini"/>
+                                               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] a calibration of the camera
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+    """)
 
 
 def test_a_file_that_git_ignores_may_be_made_on_each_machine() -> None:

@@ -34,6 +34,18 @@ def test_a_parameter_for_a_node_that_is_called_otherwise() -> None:
 
 
 @pytest.mark.silent
+def test_the_section_of_a_node_that_a_condition_leaves_out() -> None:
+    check("""
+        <launch>
+          <arg name="mesh" default="false"/>
+          <rosparam>{obj_to_cloud: {frame_id: map}}</rosparam>
+          <node pkg="p" type="t" name="obj_to_cloud" if="$(arg mesh)"/>
+          <node pkg="p" type="t" name="pcd_to_cloud"/>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
 def test_parameters_that_need_no_node() -> None:
     check("""
         <launch>

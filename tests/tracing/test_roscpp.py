@@ -135,6 +135,12 @@ def test_a_crash_is_the_nodes_own(node: Path) -> None:
     assert trace(node, args=("leave",)).outcome.exit_code == 3
 
 
+def test_a_node_whose_name_is_not_known_is_not_run_if_that_ends_it(node: Path) -> None:
+    """`$(arg robot)` without a default stays in a namespace as it is written, and roscpp refuses it."""
+    outcome = trace(node, "/$(arg robot)/n").outcome
+    assert (outcome.status, outcome.reason) == ("not-run", "its name is not known: '/$(arg robot)/n'")
+
+
 def test_traced_interfaces_equal_the_real_masters_view(package: Path, tmp_path: Path) -> None:
     launch_file = tmp_path / "compiled.launch"
     launch_file.write_text(

@@ -32,15 +32,17 @@ _ROLES: dict[str, tuple[Role, ...]] = {
 _NAMES = ("ros_topic_name", "topic_name", "gz_topic_name", "ign_topic_name")
 
 
-def bridged(node: LaunchNode, config: Document | None) -> Iterator[Endpoint]:
-    """The ends of the bridge on the side of ROS; none of other nodes. `config` is its file."""
+def bridged(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> Iterator[Endpoint]:
+    """The ends of the bridge on the side of ROS; none of other nodes. `config` is its file. `kinds_in_types`: whether
+    that ROS writes `package/msg/Name` for `package/Name`."""
     if not is_bridge(node):
         return
     rows = [(found[1], found[2], found[3]) for word in split_args(node.args) if (found := _ARGUMENT.match(word))]
     for name, type_, direction in (*rows, *_configured(config)):
         package, _, rest = type_.partition("/")
+        kind = "msg/" if kinds_in_types else ""
         for role in _ROLES.get(direction, ()) if names.is_legal(name) else ():
-            yield Endpoint(role, name, f"{package}/msg/{rest.removeprefix('msg/')}")
+            yield Endpoint(role, name, f"{package}/{kind}{rest.removeprefix('msg/')}")
 
 
 def _configured(config: Document | None) -> Iterator[tuple[str, str, str]]:

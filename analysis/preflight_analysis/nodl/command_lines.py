@@ -29,7 +29,7 @@ def with_command_lines(
 ) -> Sequence[Interface]:
     """The interfaces of the nodes of `tree`, in order, with what their command lines name, and the files of bridges."""
     files = [documents.get(config_file_of(node) or "") if is_bridge(node) else None for node in tree.nodes]
-    found = kept.each_row(_endpoints, (tree.nodes, files))
+    found = kept.each_row(_endpoints, (tree.nodes, files), tree.ros.kinds_in_types)
     if not any(found):
         return interfaces
     whole = list(interfaces)
@@ -41,9 +41,9 @@ def with_command_lines(
     return whole
 
 
-def _endpoints(node: LaunchNode, config: Document | None) -> tuple[Endpoint, ...]:
+def _endpoints(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> tuple[Endpoint, ...]:
     if is_bridge(node):
-        return tuple(bridged(node, config))
+        return tuple(bridged(node, config, kinds_in_types))
     if node.package != "topic_tools" or node.unknowns:
         return ()
     return tuple(Endpoint(role, name, _ANY) for role, name in dict.fromkeys(_of_tool(node)) if _TOPIC.fullmatch(name))

@@ -10,9 +10,15 @@ from preflight_analysis.rules.rule import Context
 
 _MISSING = re.compile(
     r"(?i)no such file|file ?not ?found|(?<!command )not found|does(?: not|n't) exist|bad file|error opening|"
-    r"(?:can(?:not|'t)|could not|failed to|unable to) (?:be )?(?:open|read|find|load)"
+    r"(?:can(?:not|'t)|could not|failed to|unable to) (?:be )?(?:open|read|find|load)|"
+    r"invalid (?:\w+ )?(?:directory|folder|file|path)"
 )
 _PATH = re.compile(r"(?<![\w/.:~$})-])(/[\w.+-]+)/[\w.+/-]+")
+_OF_OTHERS = re.compile(r"(/(?:home|Users|mnt|media)/[\w.+-]+)(?=/)")
+"""Folders that are of one user, and where disks are mounted."""
+_SCRIPT = re.compile(r"(?<!\S)/[^\s:]+: (?=(?:line )?\d+: )")
+"""How a shell begins what it says: with the script, which is there."""
+_RECORDING = re.compile(r"[\w+-]\.(?:bag|db3|mcap)(?:\.active)?\b")
 _WORKING_FOLDER = re.compile(r"\bPWD\b|\bgetcwd\(|\bcwd\(\)")
 
 
@@ -24,14 +30,26 @@ def absent_top(disk: Disk, path: str) -> str | None:
 
 
 def absent_top_said(disk: Disk, said: str) -> str | None:
-    """Likewise of a file that a program did not find, as it said."""
-    tops = [absent_top(disk, path) for path in paths_said(said)]
+    """Likewise of a file that a program did not find, as it said, and of the folder of a user or of a disk that is not
+    here (`/home/somebody`)."""
+    tops = [absent_top(disk, path) or _absent_folder_of_others(disk, path) for path in paths_said(said)]
     return tops[0] if tops and all(tops) else None
+
+
+def _absent_folder_of_others(disk: Disk, path: str) -> str | None:
+    found = _OF_OTHERS.match(path)
+    return found[1] if found is not None and not disk.exists(found[1]) else None
 
 
 def paths_said(said: str) -> tuple[str, ...]:
     """The absolute paths of files that a program did not find, as it said."""
+    said = _SCRIPT.sub("", said)
     return tuple(found[0] for found in _PATH.finditer(said)) if _MISSING.search(said) is not None else ()
+
+
+def lacks_recording(said: str) -> bool:
+    """Whether a program says that it did not find a recording, which nobody keeps with the sources."""
+    return _MISSING.search(said) is not None and _RECORDING.search(said) is not None
 
 
 def depends_on_working_folder(context: Context, location: Location) -> bool:

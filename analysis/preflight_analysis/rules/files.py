@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 
 from preflight_analysis.documents.disk import Disk
@@ -41,7 +42,9 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
-            if says_not_set(path):
+            if (other := _in_namesake(context, path)) is not None:
+                severity, message = "warning", f"{message}; another package of that name has it, in '{other}'"
+            elif says_not_set(path):
                 severity, message = "info", f"{message}: a part of it has to be given"
             elif near is None and is_ignored(context.disk, path):
                 severity, message = "info", f"{message}; git ignores it, so it may be made on each machine"
@@ -55,6 +58,18 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check
+
+
+def _in_namesake(context: Context, path: str) -> str | None:
+    """The folder of another package of the same name, where that has the file: which of them is found depends on the
+    package path."""
+    share = package_folder(path, context.environment)
+    if share is None:
+        return None
+    below = os.path.relpath(path, share)
+    named = (each for each, package in context.environment.packages.items() if package.share == str(share))
+    others = chain.from_iterable(context.environment.shadowed.get(each, ()) for each in named)
+    return next((each.share for each in others if context.disk.exists(os.path.join(each.share, below))), None)
 
 
 def _empty_arguments(context: Context, path: str, place: Location, near: str | None) -> list[str]:

@@ -5,6 +5,7 @@ This is the one place that decides that: a rule asks here, and gives its finding
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable
 
@@ -32,9 +33,13 @@ _NO_PACKAGE = re.compile(
 """How rospkg, roslib, xacro and ament_index say that a package is not there."""
 _NO_PROGRAM = re.compile(
     r"there is no '([\w.+-]+)'(?: on the PATH)?, which its first line names\Z|line \d+: ([\w.+-]+): command not found\Z"
+    r"|: \d+: (?:/(?:usr|opt|snap)/(?:[\w.+-]+/)*)?([\w.+-]+): not found\Z"
     r"|cannot locate (rospack)\b"
 )
 """How `env`, shells and roslib say it of a program."""
+_BETWEEN = re.compile(r"[/_.-]")
+_TEMPLATES = (".xacro", ".in", ".em", ".erb", ".jinja", ".jinja2", ".template")
+"""What the name of a file has more of which a build makes the one without it."""
 _NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
 _NO_LIBRARY = re.compile(r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]+?)(?:\.so)?' actually exists")
 """How pluginlib says it of a package that has not been built, where a plugin has its package's name, and where not."""
@@ -92,10 +97,19 @@ def near_package(context: Context, name: str) -> str | None:
 
 def is_of_family(context: Context, name: str, near: str) -> bool:
     """Whether the word by which a package's name differs from another's is in the name of a further package that the
-    workspace needs and nobody knows: those are of a repository that is not here. Nobody makes the same slip twice."""
+    workspace needs and nobody knows, or of a folder around a package (`smarc_msgs` in `smarc_scenarios`): those are of
+    a repository that is not here. Nobody makes the same slip twice."""
     words = set(name.split("_")) - set(near.split("_"))
     others = context.once(_unknown_dependencies) - {name}
-    return any(not words.isdisjoint(other.split("_")) for other in others)
+    in_other = any(not words.isdisjoint(other.split("_")) for other in others)
+    return in_other or not words.isdisjoint(context.once(_words_of_folders))
+
+
+def _words_of_folders(context: Context) -> frozenset[str]:
+    """The words in the names of the folders that packages of the workspace are in."""
+    own = (package.share for package in context.environment.packages.values() if not is_installed(context, package))
+    folders = {os.path.dirname(share) for share in own}
+    return frozenset(word for folder in folders for word in _BETWEEN.split(folder) if word)
 
 
 def _unknown_dependencies(context: Context) -> frozenset[str]:
@@ -127,9 +141,20 @@ def lack_of_made(context: Context, path: str) -> Lack | None:
     """A file that is there once its package is built: the build makes it, or installs it from another folder; None for
     any other."""
     package = made_by_build(context.disk, context.environment, path)
-    if package is None and located(context.disk, context.environment, path) != path:
+    moved = located(context.disk, context.environment, path) != path
+    if package is None and (moved or is_made_of_template(context, path)):
         package = package_around(context.environment, path)
     return lack_of_build(context, package.name) if package is not None else None
+
+
+def is_made_of_template(context: Context, path: str) -> bool:
+    """Whether the build makes the file of one beside it, which a `CMakeLists.txt` of the package names
+    (`worlds/hall.world` by `xacro_add_files(worlds/hall.world.xacro)`)."""
+    package = package_around(context.environment, path)
+    if package is None or not any(context.disk.exists(path + ending) for ending in _TEMPLATES):
+        return False
+    below = os.path.relpath(path, package.share)
+    return any(context.executables.is_build_target(package.name, below + ending) for ending in _TEMPLATES)
 
 
 def lack_of_variable(context: Context, name: str) -> Lack | None:

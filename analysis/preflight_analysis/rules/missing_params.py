@@ -11,7 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.parameters import namespaces_around
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.rules.well_known import describes_robot, is_for_tools
 from preflight_analysis.tracing.interface import Interface, without_stamp
 
 _COMPLAINT = re.compile(r"KeyError|param|not set|missing|required|mandatory|not (found|given|specified|defined)", re.I)
@@ -45,6 +45,8 @@ def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
     unset = [read for read in maybe_missing if read.name not in params]
     if not unset:
         return {}
+    leaves = {names.leaf(name) for name in params}
+    unset = [read for read in unset if not describes_robot(read.name) or names.leaf(read.name) in leaves]
     known = context.once(namespaces_around) | {command.param for command in graph.tree.commands}
     known |= {name for found in kept.each(_found_elsewhere, graph.reads_of_nodes) for name in found}
     with_default = {key for keys in kept.each(_defaulted, graph.reads_of_nodes) for key in keys}

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import lack_of_build, lack_of_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
@@ -45,7 +45,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         chain = include_chain(node.origin)
         if is_no_program:
             path = found.not_executable[0]
-            yield rule.finding(f"'{path}' is not executable; chmod +x {path}", location, related=chain)
+            message = f"'{path}' is not executable; chmod +x {path}"
+            if made_of is not None:
+                message += ", or it starts from the install space alone: CMakeLists.txt installs it as a program"
+            sure: Confidence = "certain" if made_of is None else "likely"
+            severity: Severity | None = None if made_of is None else "warning"
+            yield rule.finding(message, location, severity=severity, confidence=sure, related=chain)
             continue
         if is_build_target:
             message = _unbuilt(node.executable, node.package, made_of, found.package_path)
@@ -141,8 +146,8 @@ RULE = Rule(
     severity="error",
     what="Checks for a node whose `type` (ROS 2: `exec`) is no executable file of its package. The finding names "
     "the nearest executable, or the package of the launch that has it. It also checks for a file without the "
-    "permission to execute it. An executable that a `CMakeLists.txt` of the package names is not built yet: this is "
-    "a hint.",
+    "permission to execute it: a warning, if `install(PROGRAMS)` installs the file with it. An executable that a "
+    "`CMakeLists.txt` of the package names is not built yet: this is a hint.",
     why="`roslaunch` prints an error among the output of the other nodes and continues without this one. `ros2 "
     "launch` stops.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',

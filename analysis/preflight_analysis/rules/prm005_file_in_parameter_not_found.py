@@ -21,6 +21,8 @@ from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.elsewhere import depends_on_working_folder
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_PARAM
+from preflight_analysis.rules.given_in_vain import others_in_vain
+from preflight_analysis.rules.installed import is_made_of_template
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -54,6 +56,9 @@ _FETCHED = frozenset(
 )
 """Models, recordings and the like, which are mostly fetched when the package is built or on first use."""
 _FETCHED_FOLDERS = frozenset(("dataset", "datasets", "trained_data", "weights"))
+_CALIBRATION = "camera_info_url"
+"""What drivers call the file with a camera's calibration, which they go on without, and camera_info_manager writes
+(http://wiki.ros.org/camera_info_manager)."""
 _MOST_STEPS = 20
 _VERBS = 3
 """Words of a command line that say what it does (`ros2 run nav2_map_server map_saver_cli`)."""
@@ -89,6 +94,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity, hint = "info", "; git ignores it, so it may be made on each machine"
             elif near is None and depends_on_working_folder(context, location):
                 severity, hint = "info", "; it depends on the folder where the launch is started"
+            elif near is None and _CALIBRATION in named.what:
+                severity, hint = "info", "; a calibration of the camera writes it"
+            elif near is None and (others := others_in_vain(context, location, path)):
+                severity, hint = "info", f"; nor do those that {others} other packages give for it: a node may write it"
             elif near is None and _may_be_made(path, context):
                 severity, hint = "hint", "; building the package may make it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
@@ -189,7 +198,7 @@ def _missing(text: str, context: Context) -> Iterator[str]:
         if inside is None or not normal.startswith(inside.rstrip("/") + "/"):
             continue
         below = normal[len(inside) :]
-        made = _made_when_run(below) or _is_built(below, inside, context)
+        made = _made_when_run(below) or _is_built(below, inside, context) or is_made_of_template(context, normal)
         if not made and made_by_build(context.disk, context.environment, normal) is None:
             yield normal
 
@@ -273,12 +282,13 @@ RULE = Rule(
     what="Checks for a file that does not exist in the value of a parameter, the arguments of a node or a command. "
     "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. The "
     "finding names the nearest file. Names of files that are written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are not reported. A model or recording, a file that git ignores, or a file in "
-    "`$(env PWD)` is information if no similar file exists.",
+    "files that the package builds are not reported. A model or recording, a file that git ignores, a file in "
+    "`$(env PWD)`, the calibration of a camera, and a file that several packages name for the same argument and do not "
+    "have are information if no similar file exists.",
     why="The launcher does not check the value. The node exits when it opens the file, or continues without it: a "
-    "camera without its calibration, a planner without its limits.",
-    example='<param name="camera_info_url" value="file://$(find camera)/config/left.yaml"/>',
-    instead='<param name="camera_info_url" value="file://$(find camera)/config/calibration/left.yaml"/>',
+    "planner without its limits.",
+    example='<param name="limits_file" value="$(find arm)/config/limits.yaml"/>',
+    instead='<param name="limits_file" value="$(find arm)/config/planner/limits.yaml"/>',
     references=(
         ROSLAUNCH_PARAM,
         PARAMETERS,

@@ -10,6 +10,8 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER
 from preflight_analysis.rules.name_tally import NO_NAMES, NameTally
 from preflight_analysis.rules.nearest import nearest
@@ -50,6 +52,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=include_chain(params[0].origin),
             )
             continue
+        if leaf in context.once(_left_out):
+            continue  # the section of a node that a condition leaves out
         meant = f"{parent}/{near}"
         if meant in context.once(_known):
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
@@ -62,6 +66,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=(*related, *include_chain(params[0].origin)),
             fixes=_fixes(context, places, leaf, near),
         )
+
+
+def _left_out(context: Context) -> frozenset[str]:
+    """The names that nodes have in the launch files, and none in the launch: conditions leave these out."""
+    written = {name for launch_file in context.launch_files.values() for name in _names_of_nodes(launch_file)}
+    return frozenset(written - {names.leaf(node.name) for node in context.tree.nodes})
+
+
+@memoize_by_file
+def _names_of_nodes(launch_file: LaunchFile) -> tuple[str, ...]:
+    return tuple(launch_file.root.gather(_name_of_node)) if launch_file.root is not None else ()
+
+
+def _name_of_node(action: Action) -> tuple[str, ...]:
+    name = action.value("name") if action.kind == "node" else None
+    return (name.text,) if name is not None else ()
 
 
 def _homes(nodes: tuple[str, ...]) -> Mapping[str, set[str]]:

@@ -10,13 +10,13 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.elsewhere import absent_top_said, paths_said
+from preflight_analysis.rules.elsewhere import absent_top_said, lacks_recording, paths_said
 from preflight_analysis.rules.further_reading import RUNS, SECURITY
 from preflight_analysis.rules.installed import lack_of_made, lack_of_own_file, lack_of_python, lack_said
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.rules.well_known import describes_robot, is_for_tools
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 from preflight_analysis.tracing.request import split_args
 
@@ -53,7 +53,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
         absent = absent_top_said(context.disk, told)
-        made = any(is_ignored(context.disk, path) for path in paths_said(told))
+        made = lacks_recording(told) or any(is_ignored(context.disk, path) for path in paths_said(told))
         message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
         yield rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
@@ -133,7 +133,7 @@ class _LostParams:
         description of the robot."""
         if read.name in self._set or read.use.has_default:
             return None
-        beside = is_for_tools(read.name) and names.leaf(read.name) not in self._leaves
+        beside = (is_for_tools(read.name) or describes_robot(read.name)) and names.leaf(read.name) not in self._leaves
         if self._complete and not beside:
             return None
         leaf = re.compile(rf"(?<!\w){re.escape(names.leaf(read.name))}(?!\w)")
@@ -179,10 +179,10 @@ RULE = Rule(
     "standard error that gives the cause. It is information if the cause may be outside of the launch file. Such "
     "causes are: a made-up answer that the node received, a parameter that PRM001, PRM010, PRM014 or PRM017 "
     "reports, a value that is an error of its own, and a missing `robot_description`. Other such causes are a top "
-    "folder that this machine lacks (`/ws/src/...` of a container), and what only the sandbox lacks. The sandbox "
-    "may lack a device, a network, a display, a browser's own sandbox, a folder to write to, a topic of another "
-    "node, or a file that git ignores. A `<test>`, and a program that a signal kills in a shell script, are "
-    "information too.",
+    "folder that this machine lacks (`/ws/src/...` of a container), the home folder of another user, a disk that is "
+    "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "
+    "browser's own sandbox, a folder to write to, a topic of another node, or a file that git ignores. A `<test>`, "
+    "and a program that a signal kills in a shell script, are information too.",
     why="With these parameters and arguments the node most likely exits on the robot too. Only what it did before "
     "is known.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, compress
@@ -18,6 +19,8 @@ from preflight_analysis.rules.parameters import grouped, namespace_of
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
+
+_CLASS = re.compile(r"\w+(?:/|::)\w+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,12 +228,17 @@ def _misplaced(params: Iterable[Param], unset: Iterable[ParamRead]) -> Iterator[
     for read in unset:
         namespace, _, leaf = read.name.rpartition("/")
         by_namespace.setdefault(namespace, {})[leaf] = read
-    for namespace, group in grouped(params).items():
+    groups = grouped(params)
+    plugins = {namespace for namespace, group in groups.items() if any(map(_names_a_class, group))}
+    for namespace, group in groups.items():
         leaves = {names.leaf(param.name): param for param in group}
         for leaf, param in leaves.items():
             near = nearest(leaf, by_namespace.get(namespace, ()))
             if near is not None and likeness(leaf, near) is not None:
                 yield param, by_namespace[namespace][near]
+        # Whoever loads the plugin reads them: joints have the same names in every section that is about them.
+        if plugins and any(f"{namespace}/".startswith(f"{each}/") for each in plugins):
+            continue
         best: tuple[int, str] | None = None
         for other, there in by_namespace.items():
             if other == namespace:
@@ -246,6 +254,12 @@ def _misplaced(params: Iterable[Param], unset: Iterable[ParamRead]) -> Iterator[
         if best is not None:
             there = by_namespace[best[1]]
             yield from ((param, there[leaf]) for leaf, param in leaves.items() if leaf in there)
+
+
+def _names_a_class(param: Param) -> bool:
+    """Whether it is the `type: package/Class` of a controller or another plugin, whose section is around it."""
+    value = param.value
+    return names.leaf(param.name) == "type" and isinstance(value, str) and _CLASS.fullmatch(value) is not None
 
 
 def _alike_namespaces(namespace: str, other: str) -> bool:

@@ -64,6 +64,12 @@ def may_dangle(name: str, endpoint: Endpoint) -> bool:
     return kind.endswith((*_TO_ACTION_SERVER, *_FROM_ACTION_SERVER))
 
 
+def describes_robot(parameter: str) -> bool:
+    """Whether a parameter, of whatever namespace, has the description of a robot, which is mostly set once for several
+    launches."""
+    return names.leaf(parameter) in ("robot_description", "robot_description_semantic")
+
+
 def is_transform(name: str) -> bool:
     """Whether it is one of tf's topics, which a listener that is made later on uses."""
     return names.leaf(name) in ("tf", "tf_static", "tf2")

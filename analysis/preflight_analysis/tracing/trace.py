@@ -14,6 +14,7 @@ from dataclasses import replace
 
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import compiled, interior, limits, nodelets, run, sandbox, stand_ins, x_server
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
@@ -109,6 +110,7 @@ class Tracer(KeptTraces):
         observed = replace(observed, interface=limits.explained(observed, visible))
         unbuilt = _unbuilt(observed.interface, self.environment, request.generation)
         unbuilt = unbuilt or nodelets.why_not_there(observed.interface, request, self.environment)
+        unbuilt = unbuilt or _unnamed(observed.interface, request)
         if unbuilt is not None:
             return _not_run(unbuilt)
         if built.reason is not None:
@@ -145,6 +147,14 @@ def _unbuilt(found: Interface, environment: Environment, generation: int) -> str
     if not catkin_python.generates_modules(package):
         return None
     return f"it imports {missing[1]}, which is not built yet: package '{package.name}' of the workspace makes it"
+
+
+def _unnamed(found: Interface, request: TraceRequest) -> str | None:
+    """Why it is as if a node had not been run that ended under a name with a value that is not known (`$(arg name)`),
+    which ROS refuses; None for any other."""
+    if found.outcome.status != "crashed" or names.is_legal(request.node):
+        return None
+    return f"its name is not known: '{request.node}'"
 
 
 def _identities(request: TraceRequest) -> tuple[str, str]:
