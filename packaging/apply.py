@@ -136,8 +136,7 @@ def _lua(known: Project) -> str:
 
 
 def _readme(known: Project) -> str:
-    lines = known.install.split(" && ") if known.published else [" && ".join(_FROM_CLONE.split(" && ")[:2]), _LINK]
-    return "".join(f"    {line}\n" for line in lines)
+    return f"    {known.install}\n"
 
 
 def _install_page(known: Project) -> str:
@@ -146,13 +145,13 @@ def _install_page(known: Project) -> str:
             "```text\n$ pipx install ros-preflight\n$ ros-preflight --version\n"
             f"ros-preflight {known.version}\n```\n"
             "[uv](https://docs.astral.sh/uv/) does the same with `uv tool install ros-preflight`.\n"
-            "Use a virtual environment of its own, as pipx and uv do, and\n"
+            "Use a separate virtual environment, as pipx and uv do, and\n"
         )
     return (
         f"```console\n$ python3 -m venv {_VENV}\n$ {_VENV}/bin/python -m pip install --quiet ./ros-preflight\n...\n"
         f"$ {_VENV}/bin/ros-preflight --version\nros-preflight {known.version}\n```\n"
         "`./ros-preflight` is a clone of the repository. Put the command on your `PATH`, for instance with\n"
-        f"`{_LINK}`. Use a virtual environment of its own (or pipx), and\n"
+        f"`{_LINK}`. Use a separate virtual environment (or pipx), and\n"
     )
 
 

@@ -149,7 +149,7 @@ def test_a_list_that_is_none_is_exit_code_2(workspace: Path, preflight: Run, con
     (workspace / "known.json").write_text(content)
     done = preflight("check", "--no-run", "--baseline", "known.json", cwd=workspace)
     assert (done.code, done.out) == (2, "")
-    assert "known.json is no list of known findings" in done.err
+    assert "known.json is not a list of findings" in done.err
 
 
 @pytest.fixture

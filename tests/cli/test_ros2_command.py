@@ -59,7 +59,7 @@ def test_help_lists_the_verbs(capsys: pytest.CaptureFixture[str]) -> None:
         assert ended.value.code == 0
         out = capsys.readouterr().out
         assert "usage: ros2 preflight" in out
-        assert "what is wrong with launch files" in out
+        assert "find problems in launch files" in out
 
 
 def test_help_of_a_verb(capsys: pytest.CaptureFixture[str]) -> None:

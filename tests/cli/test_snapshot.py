@@ -18,7 +18,7 @@ pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
 
 DEMO = """\
-# What this launch configuration is expected to start, and who talks to whom then.
+# The expected nodes and connections of a launch configuration.
 # Written by `ros-preflight snapshot`, compared by `ros-preflight diff`.
 schema: ros-preflight/snapshot/1
 launch: $(find preflight_demo)/launch/talker_listener.launch
@@ -237,7 +237,7 @@ def test_a_node_that_crashes_is_a_difference_and_not_the_loss_of_all_it_does(har
     ("sides", "said"),
     [
         (["nowhere.launch", "launch/fixed.launch"], "nowhere.launch does not exist"),
-        (["launch/fixed.launch"], "two sides are compared, and 1 given"),
+        (["launch/fixed.launch"], "diff compares two operands, 1 given"),
         (["x:=1", "launch/fixed.launch"], "x:=1 stands before the launch file"),
         (["launch", "launch/fixed.launch"], "is a folder"),
         (["HEAD:launch/nowhere.launch", "launch/fixed.launch"], "launch/nowhere.launch is not in HEAD"),

@@ -112,10 +112,10 @@ def test_untrusted_workspace_runs_nothing_and_says_why(neovim: Neovim, untrusted
 def test_the_user_chooses_in_whose_context_a_file_is_shown(neovim: Neovim, untrusted_harness: Harness) -> None:
     seen = drive(neovim, untrusted_harness, "root")
 
-    assert seen["before"] == ["0 includers", "2 nodes", "launched by this file"]
+    assert seen["before"] == ["not included by any file", "2 nodes", "launched by this file"]
     assert seen["offered"] == ["launch/talker_listener.launch"]
     assert seen["default"] == ""
-    assert seen["after"] == ["0 includers", "2 nodes", "launched by this file speed:=3"]
+    assert seen["after"] == ["not included by any file", "2 nodes", "launched by this file speed:=3"]
 
 
 ROS2 = {
@@ -269,7 +269,7 @@ def test_maintenance(neovim: Neovim, trusted_harness: Harness) -> None:
 
     assert seen["one"] == "ros-preflight: running /talker"
     assert seen["all"] == "ros-preflight: running /talker, /listener"
-    assert seen["none"] == "ros-preflight: no node is started here"
+    assert seen["none"] == "ros-preflight: no node starts on this line"
     assert seen["tree"] == "ros-preflight: running /listener"
     assert re.fullmatch(r"ros-preflight: [0-9]+ kept results? of runs \(\d+ kB\) removed", seen["cleared"])
     assert any(line.startswith("sandbox        works") for line in seen["doctor"])
@@ -279,7 +279,7 @@ def test_maintenance(neovim: Neovim, trusted_harness: Harness) -> None:
 def test_tree_and_graph_where_nothing_may_be_run(neovim: Neovim, untrusted_harness: Harness) -> None:
     seen = drive(neovim, untrusted_harness, "views_untrusted")
 
-    refused = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
+    refused = "the workspace is not trusted; trust it to run its nodes in the sandbox"
     for shown in (seen["tree"], seen["graph"]):
         assert shown[1] == f"Nodes are not run: {refused}"
         assert sum("not trusted" in line for line in shown) == 1, "said once, not for every node"

@@ -75,7 +75,7 @@ def test_the_annotation_of_a_running_node_is_what_it_does(system: Ros1System) ->
     known = preflight(system.environment, "watch", file, "--no-run", "--once", "--timeout", "60")
     assert known.out == "no differences, 2 nodes as expected\n"
     again = captured(system.environment, file, "--no-run", "--node", "/robot/n", "--write")
-    assert "has an annotation already" in again.err
+    assert "is annotated already" in again.err
 
 
 def test_those_that_cannot_be_run_are_captured_as_settings(system: Ros1System) -> None:

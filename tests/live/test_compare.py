@@ -53,8 +53,8 @@ def test_what_may_be_missing_is_for_information() -> None:
     on_demand = node("/a", replace(endpoint("publisher", "/x", certain=False), on_demand=True))
     assert told([on_demand], live({"/a": []})) == []
     assert told([on_demand], live({"/a": [("publisher", "/x", STRING)]})) == []
-    assert told([replace(node("/a"), certain=False)], live({})) == ["(/a is not running, which may be right)"]
-    assert told([replace(node("/a"), exits=True)], live({})) == ["(/a is not running, which may be right)"]
+    assert told([replace(node("/a"), certain=False)], live({})) == ["(/a is not running, which may be intended)"]
+    assert told([replace(node("/a"), exits=True)], live({})) == ["(/a is not running, which may be intended)"]
 
 
 def test_why_a_node_that_is_missing_ended_in_the_sandbox_is_told() -> None:
@@ -97,13 +97,13 @@ def test_a_lifecycle_node_that_is_not_active_need_not_have_its_ends() -> None:
 def test_tools_and_infrastructure_do_not_count() -> None:
     tools = ["/rviz_1700000000000", "/rqt_gui_py_node_123", "/rostopic_4_17000", "/ns/rqt_graph", "/record_1700000"]
     assert told([], live({name: [] for name in tools})) == [
-        f"({name} runs and is not in the launch file)" for name in sorted(tools)
+        f"({name} is running but is not in the launch file)" for name in sorted(tools)
     ]
     assert told([], live({"/rosout": []})) == []
     ros2 = ["/_ros2cli_daemon_0_ab", "/launch_ros_123", "/transform_listener_impl_5f3a"]
     assert told([], live({name: [] for name in ros2}, 2)) == []
-    assert told([], live({"/other": []})) == ["/other runs and is not in the launch file"]
-    assert told([], live({"/other": []}), complete=False) == ["(/other runs and is not in the launch file)"]
+    assert told([], live({"/other": []})) == ["/other is running but is not in the launch file"]
+    assert told([], live({"/other": []}), complete=False) == ["(/other is running but is not in the launch file)"]
     stale = Observation(1, {"/other": LiveNode("/other", dead="connection refused")}, ())
     assert told([], stale) == ["(/other is registered and does not answer: connection refused)"]
 
@@ -177,11 +177,11 @@ def test_actions_of_ros1_are_one_thing() -> None:
     assert told([expected], running("/go", types | own)) == []
     assert told([expected], running("/goo", types | own)) == [
         "/a does not use the action /go (pkg/GoAction); it uses the action /goo",
-        "(/a uses the action /goo (pkg/GoAction), which was not expected)",
+        "(/a uses the action /goo (pkg/GoAction), which is unexpected)",
     ]
     other = {t: kind.replace("Go", "Come", 1) for t, kind in own.items()}
     assert told([expected], running("/go", types | other)) == [
-        "/a uses the action /go with the type pkg/ComeAction; pkg/GoAction was expected"
+        "/a uses the action /go with the type pkg/ComeAction; expected pkg/GoAction"
     ]
 
 
@@ -198,7 +198,7 @@ def test_types_of_ros2_are_those_of_each_end() -> None:
     right["/b"][0] = ("subscriber", "/x", "std_msgs/msg/Int32")
     assert compare(Expected(2, tuple(expected)), live(right, 2)).nodes == {"/a": "present", "/b": "wrong-type"}  # type: ignore[arg-type]
     assert told(expected, live(right, 2)) == [  # type: ignore[arg-type]
-        "/b subscribes to /x with the type std_msgs/msg/Int32; std_msgs/String was expected"
+        "/b subscribes to /x with the type std_msgs/msg/Int32; expected std_msgs/String"
     ]
 
 
@@ -211,7 +211,7 @@ def test_qos_and_nodes_of_one_name_are_compared() -> None:
     )
     assert told([expected], found) == [
         "/a runs 2 times",
-        "/a publishes /x with reliability best_effort; reliability reliable was expected",
+        "/a publishes /x with reliability best_effort; expected reliability reliable",
     ]
 
 

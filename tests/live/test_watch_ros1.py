@@ -75,22 +75,22 @@ def test_each_kind_of_difference_is_told_with_its_line(system: Ros1System, watch
         "expected.launch",
     )
     watching(file, "--settle", "0").until_told(
-        "/talker publishes /chatter with the type std_msgs/Int32; std_msgs/String was expected",
-        "/talker offers the service /talker/reset with the type std_srvs/Empty; std_srvs/Trigger was expected",
+        "/talker publishes /chatter with the type std_msgs/Int32; expected std_msgs/String",
+        "/talker offers the service /talker/reset with the type std_srvs/Empty; expected std_srvs/Trigger",
         "/listener does not subscribe to /chatter (std_msgs/String); it subscribes to /chater",
         "/gone is not running",
-        "/more runs and is not in the launch file",
+        "/more is running but is not in the launch file",
     )
     expected = [
         f"{file}:2: wrong-type: /talker publishes /chatter with the type std_msgs/Int32; "
-        f"std_msgs/String was expected (made at {system.package / 'talker.py'}:6)",
+        f"expected std_msgs/String (made at {system.package / 'talker.py'}:6)",
         f"{file}:2: wrong-type: /talker offers the service /talker/reset with the type std_srvs/Empty; "
-        f"std_srvs/Trigger was expected (made at {system.package / 'talker.py'}:7)",
+        f"expected std_srvs/Trigger (made at {system.package / 'talker.py'}:7)",
         f"{file}:3: missing: /listener does not subscribe to /chatter (std_msgs/String); it subscribes to /chater "
         f"(made at {system.package / 'listener.py'}:6)",
-        f"{file}:3: extra (info): /listener subscribes to /chater (std_msgs/String), which was not expected",
+        f"{file}:3: extra (info): /listener subscribes to /chater (std_msgs/String), which is unexpected",
         f"{file}:4: missing: /gone is not running",
-        "extra: /more runs and is not in the launch file",
+        "extra: /more is running but is not in the launch file",
         "5 differences, 0 nodes as expected",
     ]
 
@@ -136,7 +136,7 @@ def test_the_stream_tells_of_a_start_a_death_an_extra_node_and_a_new_master(
     system.start(system.package / "talker.py", "__name:=other")
     watch.until_told(
         "/robot/talker is registered and does not answer: connection refused",
-        "/other runs and is not in the launch file",
+        "/other is running but is not in the launch file",
     )
     system.shut_down("/other")
     watch.until_told("/robot/talker is registered and does not answer: connection refused")

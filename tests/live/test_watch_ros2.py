@@ -153,7 +153,7 @@ def test_the_stream_tells_of_a_start_a_death_and_extra_nodes(system: System, wat
     system.start("talker", "__node:=talker", "__ns:=/robot")
     watch.until_told()
     extra = system.start("talker", "__node:=more")
-    watch.until_told("/more runs and is not in the launch file")
+    watch.until_told("/more is running but is not in the launch file")
     extra.send_signal(signal.SIGINT)
     watch.until_told()
 
@@ -169,7 +169,7 @@ def test_a_wrong_type_and_a_misspelt_topic_are_told(system: System, watch: Watch
     found = (
         "/own does not subscribe to /robot/chatter (std_msgs/msg/String); it subscribes to /robot/chater",
         "/robot/talker does not offer the service /robot/talker/reset (std_srvs/srv/Trigger)",
-        "/robot/talker publishes /robot/chatter with the type std_msgs/msg/Int32; std_msgs/msg/String was expected",
+        "/robot/talker publishes /robot/chatter with the type std_msgs/msg/Int32; expected std_msgs/msg/String",
     )
     watch.until_told(*found)
     system.start("other", "__node:=talker", "__ns:=/robot")
@@ -178,7 +178,7 @@ def test_a_wrong_type_and_a_misspelt_topic_are_told(system: System, watch: Watch
 
 def test_clients_are_seen(system: System, watch: Watching) -> None:
     system.start("caller", "__node:=own")
-    watch.until(told("/own calls the service /talker/reset (std_srvs/srv/Trigger), which was not expected"))
+    watch.until(told("/own calls the service /talker/reset (std_srvs/srv/Trigger), which is unexpected"))
 
 
 def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
@@ -193,7 +193,7 @@ def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
     )
     system.harness.write("pkg/acting.py", parts)
     system.start("acting")
-    watch.until(told("/own offers the action /go (std_msgs/msg/String), which was not expected"))
+    watch.until(told("/own offers the action /go (std_msgs/msg/String), which is unexpected"))
     assert watch.seen[-1]["actions"] == {"/go": "extra"}
 
 

@@ -104,7 +104,7 @@ def test_hover_of_the_node_says_what_it_gets_and_from_where() -> None:
     found = hover([there.analysis], "/main.launch.xml", there.offset)
     assert found is not None
     assert "- `rate` = `2.5` from [main.launch.xml:5]" in found.markdown
-    assert ", in place of `5.0` (double, default `10.0`)" in found.markdown
+    assert ", overrides `5.0` (double, default `10.0`)" in found.markdown
     assert "- `on` = `True` from [p.yaml:4]" in found.markdown
 
 

@@ -110,20 +110,20 @@ def test_one_include_of_several_files(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("new", ["", "a b", "1x", "a-b", "~x", "a/b", "ä", "_x", "true", "lambda", "pi"])
 def test_names_that_are_none_for_an_argument(tmp_path: Path, new: str) -> None:
-    assert f"'{new}' is no name for an argument" in refused(tmp_path, '<launch><arg name="$0x"/></launch>', new)
+    assert f"'{new}' is not a valid argument name" in refused(tmp_path, '<launch><arg name="$0x"/></launch>', new)
 
 
 def test_arguments_that_are_there_already(tmp_path: Path) -> None:
     text = ARGUMENTS % ("", "", "$0", "")
     here = text.replace('name="$0rate"/>', 'name="$0rate"/><arg name="speed" default="1"/>')
-    assert refused(tmp_path / "a", here, "speed") == "There is an argument 'speed' already, at inc.launch:2"
+    assert refused(tmp_path / "a", here, "speed") == "Duplicate argument 'speed', declared at inc.launch:2"
     there = text.replace('value="$(arg rate)"/></include>', 'value="1"/><arg name="speed" value="2"/></include>')
-    assert refused(tmp_path / "b", there, "speed") == "There is an argument 'speed' already, at main.launch:3"
+    assert refused(tmp_path / "b", there, "speed") == "Duplicate argument 'speed', declared at main.launch:3"
 
 
 def test_arguments_that_cannot_be_renamed(tmp_path: Path) -> None:
     unknown = '<launch><include file="$(arg nothing)"><arg name="$0x" value="1"/></include></launch>'
-    assert "the included file is not known" in refused(tmp_path / "a", unknown)
+    assert "the include is unresolved" in refused(tmp_path / "a", unknown)
     missing = '<launch><include file="/none.launch"><arg name="$0x" value="1"/></include></launch>'
     assert "/none.launch cannot be read" in refused(tmp_path / "b", missing)
     assert "has no name yet" in refused(tmp_path / "e", '<launch><arg name="$0"/></launch>')
@@ -248,11 +248,11 @@ def test_roots_that_were_not_analysed_are_looked_at(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("new", ["", "a b", "1x", "a/b", "~a", "/a", "a-b"])
 def test_names_that_are_none_for_a_node(tmp_path: Path, new: str) -> None:
-    assert f"'{new}' is no name for a node" in refused(tmp_path, NODES, new)
+    assert f"'{new}' is not a valid node name" in refused(tmp_path, NODES, new)
 
 
 def test_nodes_that_are_there_already(tmp_path: Path) -> None:
-    assert refused(tmp_path, NODES, "listener") == "There is a node '/lab/listener' already, at inc.launch:2"
+    assert refused(tmp_path, NODES, "listener") == "Duplicate node name '/lab/listener', used at inc.launch:2"
 
 
 @pytest.mark.parametrize(
@@ -261,7 +261,10 @@ def test_nodes_that_are_there_already(tmp_path: Path) -> None:
         ('<arg name="n" default="x"/><node pkg="p" type="t" name="$0$(arg n)"/>', "a substitution is part of its name"),
         ('<node pkg="p" type="t" name="$0"/>', "has no name yet"),
         ('<node pkg="p" type="t" name="$0a"/><node pkg="p" type="t" name="b" ns="a"/>', "namespace of '/a/b'"),
-        ('<node pkg="p" type="t" name="$0a"/><group ns="a"><param name="b" value="1"/></group>', "not written there"),
+        (
+            '<node pkg="p" type="t" name="$0a"/><group ns="a"><param name="b" value="1"/></group>',
+            "node's name by a substitution",
+        ),
         (
             '<arg name="n" default="a"/><node pkg="p" type="t" name="$0a"/><param name="$(arg n)/x" value="1"/>',
             "by hand",
@@ -269,7 +272,7 @@ def test_nodes_that_are_there_already(tmp_path: Path) -> None:
         (
             '<remap from="x" to="a/x"/><node pkg="p" type="t" name="$0a"/><node pkg="p" type="t" name="b" ns="c"/>'
             '<node pkg="p" type="t" name="a" ns="c"/>',
-            "is part of what is set at",
+            "node's name by a substitution",
         ),
     ],
 )
@@ -294,7 +297,7 @@ def test_a_node_that_another_root_starts_from_another_file(tmp_path: Path) -> No
         //- false.xml
         <launch><node pkg="p" type="t" name="talker"/></launch>
         """
-    assert "which one is meant is not sure" in refused(tmp_path, text)
+    assert "the name is ambiguous" in refused(tmp_path, text)
 
 
 def test_in_a_file_that_does_not_parse(tmp_path: Path) -> None:

@@ -124,7 +124,7 @@ async def test_while_it_runs_nothing_is_said_and_it_can_be_cancelled(harness: Ha
     async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot, slow(robot))
         token = await editor.until(lambda: next(iter(editor.progress_of(title)), None))
-        assert "has yet to be run" in await hovered(editor, robot, "<param")
+        assert "is not run yet" in await hovered(editor, robot, "<param")
         assert not {"LCH018", "TRC004"} & set(editor.rules(robot) or ())
         editor.client.window_work_done_progress_cancel(types.WorkDoneProgressCancelParams(token))
         assert "cancelled" in (await editor.having(robot, "LCH018")).message

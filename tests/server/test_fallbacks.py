@@ -37,7 +37,7 @@ async def test_what_an_executable_did_elsewhere_is_shown_where_it_cannot_be_run(
             shown = hover.contents.value
             assert "from a run of the same executable elsewhere, that of `/talker` in `" in shown
             assert f"{harness.launch_file.name}`; not run: the workspace is not trusted" in shown
-            assert "- `/chatter` `std_msgs/String`, seen elsewhere" in shown
+            assert "- `/chatter` `std_msgs/String`, seen in another run" in shown
         assert harness.sandbox_starts() == starts, "nothing was run to know it"
 
 
@@ -89,8 +89,8 @@ async def test_annotations_can_be_made_of_whatever_is_known(harness: Harness) ->
     other = harness.launch_file.with_name("other.launch")
     other.write_text(OTHER)
     template = "Annotate '/lone' with an empty template"
-    from_source = "Annotate '/lone' with what its source says"
-    from_elsewhere = "Annotate '/lone' with what its executable did elsewhere"
+    from_source = "Annotate '/lone' with the interface in its source"
+    from_elsewhere = "Annotate '/lone' with the interface of another run"
     async with editing(harness) as editor:
         editor.open(other)
         await editor.having(other, "TRC004")

@@ -92,7 +92,10 @@ async def test_lenses_and_their_commands(harness: Harness, files: tuple[Path, Pa
         await reached(editor, outer)
         includers, nodes, root = await editor.lenses(inner)
         assert includers.command is not None
-        assert (includers.command.title, includers.command.command) == ("2 includers", "rosPreflight.showReferences")
+        assert (includers.command.title, includers.command.command) == (
+            "included by 2 files",
+            "rosPreflight.showReferences",
+        )
         assert len((includers.command.arguments or [])[2]) == 2
         assert nodes.command is not None
         assert (nodes.command.title, nodes.command.command) == ("2 of 3 nodes", "")
@@ -111,7 +114,7 @@ async def test_lenses_for_a_client_without_our_commands(
         editor.open(outer, OUTER.replace("</launch>", "<node "))
         found = await editor.lenses(outer)
         assert [lens.command.command for lens in found if lens.command] == ["", "", ""]
-        assert await titles(editor, outer) == ["0 includers", "3 nodes", "launched by this file"]
+        assert await titles(editor, outer) == ["not included by any file", "3 nodes", "launched by this file"]
 
 
 async def test_lenses_are_asked_for_again_when_another_file_changed_them(

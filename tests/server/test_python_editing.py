@@ -282,7 +282,7 @@ async def indexed(editor: Editor, path: Path) -> None:
     """Wait until both includers of the file are known."""
     await editor.once(
         lambda: editor.lenses(path),
-        lambda found: "2 includers" in [lens.command.title for lens in found if lens.command],
+        lambda found: "included by 2 files" in [lens.command.title for lens in found if lens.command],
     )
 
 
@@ -373,7 +373,7 @@ async def test_a_container_of_a_python_file_is_renamed_where_it_is_named(harness
     async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(path, text, language="python")
         where = editor.at(path, "name='box'", 7)
-        with pytest.raises(JsonRpcException, match="not known as long as it is not run"):
+        with pytest.raises(JsonRpcException, match="was not run: the place of the node's name is unknown"):
             await editor.rename(path, where, "crate")
         editor.trust()
 

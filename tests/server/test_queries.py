@@ -65,10 +65,10 @@ async def test_hover_on_a_node_shows_its_interface_and_where_it_comes_from(harne
         assert "[talker.py:10](file://" in talker
         assert "`/talker/rate` = `5`, default `10`" in talker
         listener = await hovered(editor, harness.launch_file, 'name="listener"')
-        assert "- `/chater` `std_msgs/String`, called `chatter` by the node and remapped" in listener
+        assert "- `/chater` `std_msgs/String`, remapped from `chatter`" in listener
         remap = await hovered(editor, harness.launch_file, "<remap", 2)
         assert "`/chatter` → `/chater` for `/listener`" in remap
-        assert "topic `/chater` published by nobody" in remap
+        assert "topic `/chater`: no publisher" in remap
 
 
 async def test_hover_on_an_annotated_node_says_so(harness: Harness) -> None:
@@ -218,6 +218,6 @@ async def test_hover_on_a_node_shows_an_action_as_one_thing_and_frames(harness: 
         editor.open(path)
         await editor.having(path, "ACT001")
         home = await hovered(editor, path, 'name="home"')
-        assert "Calls actions\n- `/go` `m/GoAction`" in home
-        assert "Publishes" not in home
+        assert "Action clients\n- `/go` `m/GoAction`" in home
+        assert "Publishers" not in home
         assert "Broadcasts\n- frame `laser` in `base`, static" in await hovered(editor, path, 'name="mount"')

@@ -130,7 +130,7 @@ async def test_a_yaml_file(harness: Harness, package: Path) -> None:
     async with editing(harness, folder=package.parents[1]) as editor:
         editor.open(inner, language="yaml")
         await editor.having(package / "params.yaml", "PRM013", 60)  # seen in the root that includes the file
-        assert "1 includer" in [lens.command.title for lens in await editor.lenses(inner) if lens.command]
+        assert "included by 1 file" in [lens.command.title for lens in await editor.lenses(inner) if lens.command]
         node = text_of(await editor.hover(inner, editor.at(inner, "node:")))
         assert "**/ns/talker** `robot/talker`" in node
         assert "Starts a node." in node

@@ -96,7 +96,7 @@ async def test_nodes_are_run_anew(harness: Harness) -> None:
             await editor.until(lambda ended=done + 2: batches(editor) == ended)
             assert harness.sandbox_starts() == starts
         answer = await ask(editor, "trace", {"uri": uri, "position": {"line": 0, "character": 0}})
-        assert (list(answer.nodes), answer.message) == ([], "no node is started here")
+        assert (list(answer.nodes), answer.message) == ([], "no node starts on this line")
 
 
 def batches(editor: Editor) -> int:

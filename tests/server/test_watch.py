@@ -89,7 +89,7 @@ async def test_without_trust_nothing_is_watched(harness: Harness, system: Ros1Sy
 async def test_what_is_no_launch_file_is_not_watched(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         answer = await watch(editor, harness.workspace / "nothing.launch")
-        assert (answer.watching, answer.message) == (False, "this is no launch file, or it cannot be read")
+        assert (answer.watching, answer.message) == (False, "not a launch file, or unreadable")
         assert (await watch(editor, harness.workspace / "nothing.launch", on=False)).watching is False
 
 

@@ -202,7 +202,7 @@ export class GraphView implements Disposable {
     const folders = workspace.workspaceFolders?.map((folder) => folder.uri.fsPath) ?? [];
     const belongs = this.places.belongs(place.file, folders);
     if (belongs === "nowhere") {
-      void window.showWarningMessage(notice(`${place.file} cannot be shown: there is no such file.`));
+      void window.showWarningMessage(notice(`${place.file} does not exist.`));
     } else if (belongs === "workspace" || (await isWanted(place.file))) {
       await open(place);
     }

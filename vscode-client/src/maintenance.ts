@@ -54,7 +54,7 @@ export async function clearCache(client: LanguageClient): Promise<void> {
   const size = bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
   void window.showInformationMessage(
     notice(
-      `${entries} kept result${entries === 1 ? "" : "s"} of runs (${size}) ${entries === 1 ? "was" : "were"} removed; nodes are run anew.`,
+      `${entries} kept result${entries === 1 ? "" : "s"} of runs (${size}) ${entries === 1 ? "was" : "were"} removed; nodes run again.`,
     ),
   );
 }

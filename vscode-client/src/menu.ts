@@ -11,17 +11,17 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
     [
       {
         label: "$(play) Trace This Node",
-        description: "run the node at the cursor anew",
+        description: "run the node at the cursor again",
         command: "rosPreflight.traceNode",
       },
       {
         label: "$(run-all) Trace All Nodes",
-        description: "run all nodes of the launch anew",
+        description: "run all nodes of the launch again",
         command: "rosPreflight.traceAll",
       },
       {
         label: "$(trash) Clear Cache",
-        description: "forget what runs of nodes told",
+        description: "delete the results of runs",
         command: "rosPreflight.clearCache",
       },
     ],
@@ -31,20 +31,20 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
     [
       {
         label: "$(list-selection) Select Root and Arguments",
-        description: "in whose context the file is shown",
+        description: "choose the launch that the file is analysed in",
         command: "rosPreflight.selectRoot",
       },
       {
         label: "$(list-tree) Show Node Tree",
-        description: "what the launch starts",
+        description: "list what the launch starts",
         command: "rosPreflight.showNodeTree",
       },
       {
         label: "$(eye) Watch Running System",
-        description: "compare it with the launch",
+        description: "compare it with the launch file",
         command: "rosPreflight.watch",
       },
-      { label: "$(type-hierarchy) Show Graph", description: "who talks to whom", command: "rosPreflight.showGraph" },
+      { label: "$(type-hierarchy) Show Graph", description: "topics, services and actions between nodes", command: "rosPreflight.showGraph" },
     ],
   ],
   [
@@ -52,7 +52,7 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
     [
       {
         label: "$(pulse) Doctor",
-        description: "ROS, the sandbox, and what is missing",
+        description: "report ROS, the sandbox and what is missing",
         command: "rosPreflight.doctor",
       },
       { label: "$(output) Show Log", command: "rosPreflight.showOutput" },
@@ -63,7 +63,7 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
 
 const TRUST: Entry = {
   label: "$(shield) Manage Workspace Trust",
-  description: "nodes are not run before the workspace is trusted",
+  description: "nodes run only in a trusted workspace",
   command: "workbench.trust.manage",
 };
 

@@ -28,7 +28,7 @@ export async function selectRoot(client: LanguageClient, uri: string): Promise<v
   const found = await client.sendRequest<Roots>("rosPreflight/roots", { uri });
   const shownPath = (of: string) => workspace.asRelativePath(Uri.parse(of));
   const choice = await window.showQuickPick<Choice>(choices(found, uri, shownPath), {
-    title: plain(`Show ${shownPath(uri)} as launched by`),
+    title: plain(`Analyse ${shownPath(uri)} as launched by`),
   });
   if (choice === undefined) {
     return;

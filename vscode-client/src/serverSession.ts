@@ -230,7 +230,7 @@ export class ServerSession {
     const candidates = pythons();
     const abort = new AbortController();
     this.installing = abort;
-    this.notify({ state: "installing", reason: "The server is being installed in an environment of its own." });
+    this.notify({ state: "installing", reason: "Installing the server in its own environment." });
     const options = { location: ProgressLocation.Notification, title: "ROS Preflight", cancellable: true };
     return window.withProgress(options, (progress, token) => {
       token.onCancellationRequested(() => abort.abort());
@@ -281,7 +281,7 @@ export class ServerSession {
         this.saidThatItDied = true;
         const show = "Show Log";
         void window
-          .showWarningMessage(notice("the server stopped unexpectedly and is started again."), show)
+          .showWarningMessage(notice("the server stopped unexpectedly and restarts."), show)
           .then((choice) => (choice === show ? this.log.show() : undefined));
       }
       void this.enqueue(() => this.replaceClient());

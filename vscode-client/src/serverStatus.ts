@@ -45,7 +45,7 @@ export function shown(life: Life, status: ServerStatus | undefined): Shown {
       return { text: `$(debug-disconnect) ${NAME}: stopped`, tooltip: "The server is not running.", severity: "error" };
     case "running": // Of what it finds nothing is known before its first word.
       return status === undefined
-        ? { text: `$(sync~spin) ${NAME}`, tooltip: "The server has just been started.", severity: "none" }
+        ? { text: `$(sync~spin) ${NAME}`, tooltip: "The server has started.", severity: "none" }
         : running(status);
   }
 }
@@ -54,7 +54,7 @@ function running(status: ServerStatus): Shown {
   if (status.state !== "idle") {
     const share = status.total > 0 ? ` ${status.done} of ${status.total}` : "";
     const what =
-      status.state === "tracing" ? "Running nodes in the sandbox." : "Looking at the launch files of the workspace.";
+      status.state === "tracing" ? "Running nodes in the sandbox." : "Indexing the launch files of the workspace.";
     return { text: `$(sync~spin) ${NAME}: ${status.state}${share}`, tooltip: what, severity: "none" };
   }
   const notRun = status.notRun;
@@ -86,7 +86,7 @@ function broken(files: readonly string[]): Shown {
   const more = names.length > 1 ? ` and ${names.length - 1} more` : "";
   return {
     text: `$(warning) ${NAME}: syntax error in ${names[0]}${more}`,
-    tooltip: `Syntax error in ${names.join(", ")}: what it touches is not run.`,
+    tooltip: `Syntax error in ${names.join(", ")}: nodes that it affects are not run.`,
     severity: "warning",
   };
 }

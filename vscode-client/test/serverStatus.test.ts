@@ -34,7 +34,7 @@ describe("the status bar", () => {
     const one = shown(running, { ...idle, broken: ["file:///w/my%20robot.launch"] });
     assert.deepEqual(one, {
       text: "$(warning) ROS Preflight: syntax error in my robot.launch",
-      tooltip: "Syntax error in my robot.launch: what it touches is not run.",
+      tooltip: "Syntax error in my robot.launch: nodes that it affects are not run.",
       severity: "warning",
     });
     assert.match(

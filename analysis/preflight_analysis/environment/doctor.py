@@ -20,10 +20,10 @@ def describe(environment: Environment) -> tuple[tuple[str, str], ...]:
     counts = _counts(environment)
     rows += [("package path", f"{folder} ({_packages(counts[folder])})") for folder in environment.package_path]
     if not environment.package_path:
-        rows.append(("package path", "empty: no package can be found"))
+        rows.append(("package path", "empty: no packages found"))
     for name, others in sorted(environment.shadowed.items()):
         hidden = ", ".join(package.share for package in others)
-        rows.append(("shadowed package", f"{name}: {environment.packages[name].share} is used, not {hidden}"))
+        rows.append(("shadowed package", f"{name}: {environment.packages[name].share} hides {hidden}"))
     rows += [("devel space", space) for space in environment.devel_spaces or (none,)]
     rows += [("system prefix", prefix) for prefix in environment.system_prefixes or (none,)]
     rows.append(("interpreter", environment.python or none))

@@ -53,12 +53,12 @@ def _captured(
     live: Observation,
 ) -> Captured:
     if name is None:
-        unnamed = "" if node.named else "; the launch file gives it no name, and it may have another one"
+        unnamed = "" if node.named else "; the launch file does not name it, so its name may differ"
         return Captured(node, None, f"it is not running{unnamed}")
     if (dead := live.nodes[name].dead) is not None:
-        return Captured(node, None, f"it is registered and does not answer: {dead}")
+        return Captured(node, None, f"it is registered but does not answer: {dead}")
     if live.nodes[name].count > 1:
-        return Captured(node, None, "there are several nodes of this name")
+        return Captured(node, None, "several nodes have this name")
     if ros(live.generation).has_nodelets and (reason := _of_nodelets(node, nodes)) is not None:
         return Captured(node, None, reason)
     sources = {target: source for source, (_, target) in effective_remaps(node, live.generation).items()}
@@ -73,11 +73,11 @@ def _of_nodelets(node: LaunchNode, nodes: Sequence[LaunchNode]) -> str | None:
     """Why the ends of a nodelet, or of the manager of some, cannot be told apart."""
     of = nodelet_of(node.package, node.executable, split_args(node.args))
     if of is not None and of.manager is not None:
-        return "the master shows the ends of a nodelet as those of its manager"
+        return "the master lists the endpoints of a nodelet under its manager"
     for other in nodes:
         loaded = nodelet_of(other.package, other.executable, split_args(other.args))
         if loaded is not None and loaded.manager is not None and names.resolve(loaded.manager, other.name) == node.name:
-            return f"the master shows the ends of {other.name} as its own"
+            return f"the master lists the endpoints of {other.name} under this node"
     return None
 
 

@@ -34,8 +34,8 @@ def check_number(place: str, nodes: Sized, endpoints: Sized) -> None:
     """Raises `CannotObserveError` where there are more than can be compared in a reasonable time."""
     if len(nodes) > MOST_NODES or len(endpoints) > MOST_ENDPOINTS:
         raise CannotObserveError(
-            f"{place} has {len(nodes)} nodes with {len(endpoints)} ends; "
-            f"up to {MOST_NODES} nodes and {MOST_ENDPOINTS} ends are compared"
+            f"{place} has {len(nodes)} nodes with {len(endpoints)} endpoints; "
+            f"up to {MOST_NODES} nodes and {MOST_ENDPOINTS} endpoints are compared"
         )
 
 

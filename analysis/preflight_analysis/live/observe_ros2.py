@@ -58,7 +58,7 @@ class Ros2Observer:
         """The system as it was last told; only the first time it is waited for. Raises `CannotObserveError`."""
         with self._starting:
             if self._closed:
-                raise CannotObserveError(f"{self.place} is not watched any more", final=True)
+                raise CannotObserveError(f"{self.place} is no longer watched", final=True)
             if self._process is None:
                 self._start()
         with self._news:
@@ -68,7 +68,7 @@ class Ros2Observer:
             if self._error is not None:
                 raise CannotObserveError(self._error, final=True)
             if self._latest is None:
-                raise CannotObserveError(f"rclpy tells nothing of {self.place}")
+                raise CannotObserveError(f"rclpy reports nothing about {self.place}")
             return self._latest
 
     def _start(self) -> None:
@@ -98,7 +98,7 @@ class Ros2Observer:
         while line := process.stdout.readline(_MAX_LINE):
             if len(line) == _MAX_LINE and not line.endswith("\n"):
                 process.kill()
-                self._report(None, f"{self.place} shows more names than can be looked at")
+                self._report(None, f"{self.place} has more names than the limit")
                 break
             try:
                 self._report(said(line, self.place), None)
@@ -108,7 +108,7 @@ class Ros2Observer:
                 continue  # a library that prints
         code = process.wait()
         if self._error is None:
-            self._report(None, f"the process that asks rclpy ended with {code}")
+            self._report(None, f"the process that queries rclpy exited with code {code}")
 
     def _report(self, observation: Observation | None, error: str | None) -> None:
         with self._news:
@@ -138,10 +138,10 @@ def _lacking(of_workspace: str | None) -> str:
     how = "source its set-up script, such as `source /opt/ros/jazzy/setup.bash`"
     if of_workspace is not None:
         return (
-            f"rclpy was found by way of the workspace only ({of_workspace}), whose programs are run in the sandbox and "
-            f"nowhere else: {how}, or the workspace's own if you trust it"
+            f"rclpy was found only in the workspace ({of_workspace}), whose programs run only in "
+            f"the sandbox: {how}, or the workspace's own if you trust it"
         )
-    return f"rclpy was not found, which a running ROS 2 system is asked with: {how}"
+    return f"rclpy was not found, but a running ROS 2 system is queried with it: {how}"
 
 
 def _python_path(own: Mapping[str, str], prefixes: Sequence[str]) -> list[str]:

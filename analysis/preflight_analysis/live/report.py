@@ -29,21 +29,21 @@ def message(issue: Issue) -> str:
     if issue.what == "node":
         sandbox = f"; in the sandbox {issue.actual}" if issue.actual else ""
         return {
-            "missing": f"{node} is not running{sandbox if issue.counts else ', which may be right'}",
-            "extra": f"{node} runs and is not in the launch file",
+            "missing": f"{node} is not running{sandbox if issue.counts else ', which may be intended'}",
+            "extra": f"{node} is running but is not in the launch file",
             "dead": f"{node} is registered and does not answer: {issue.actual}",
             "twice": f"{node} runs {issue.actual} times",
         }[issue.kind]
     kind = f" ({known})" if (known := issue.expected or issue.actual) else ""
     if issue.kind == "missing":
-        why = f"the lifecycle node is {issue.inactive}" if issue.inactive else "it may not do so in each case"
+        why = f"the lifecycle node is {issue.inactive}" if issue.inactive else "it may not do so in every run"
         unsure = "" if issue.counts else f"; {why}"
         instead = f"; it {DOES[issue.what]} {issue.similar}" if issue.similar else unsure
         return f"{node} {_DOES_NOT[issue.what]} {name}{kind}{instead}"
     if issue.kind == "extra":
-        return f"{node} {DOES[issue.what]} {name}{kind}, which was not expected"
+        return f"{node} {DOES[issue.what]} {name}{kind}, which is unexpected"
     what = "with the type " if issue.kind == "wrong-type" else "with "
-    return f"{node} {DOES[issue.what]} {name} {what}{issue.actual}; {issue.expected} was expected"
+    return f"{node} {DOES[issue.what]} {name} {what}{issue.actual}; expected {issue.expected}"
 
 
 def line(issue: Issue, base: str | None) -> str:

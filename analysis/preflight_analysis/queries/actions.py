@@ -76,11 +76,11 @@ def _overlap(one: Location, other: Location) -> bool:
 
 _FROM = {
     "trace": "its traced interface",
-    "similar": "what its executable did elsewhere",
-    "source": "what its source says",
-    "settings": "what the settings say",
+    "similar": "the interface of another run",
+    "source": "the interface in its source",
+    "settings": "the interface in the settings",
     "nodl": "its NoDL document",
-    "catalogue": "what the catalogue says",
+    "catalogue": "the interface in the catalogue",
 }
 
 

@@ -68,12 +68,12 @@ _OUTCOMES = {
     "not-run": "was not run",
 }
 _SIDES = (
-    ("Publishes", "topics", "providers"),
-    ("Subscribes to", "topics", "consumers"),
-    ("Offers services", "services", "providers"),
-    ("Calls services", "services", "consumers"),
-    ("Offers actions", "actions", "providers"),
-    ("Calls actions", "actions", "consumers"),
+    ("Publishers", "topics", "providers"),
+    ("Subscribers", "topics", "consumers"),
+    ("Service servers", "services", "providers"),
+    ("Service clients", "services", "consumers"),
+    ("Action servers", "actions", "providers"),
+    ("Action clients", "actions", "consumers"),
 )
 
 
@@ -261,7 +261,7 @@ def _command(command: Command) -> str:
     """What a command printed, or why that is not known."""
     result = command.result
     if result is None:
-        return f"{code(command.line)} has yet to be run"
+        return f"{code(command.line)} is not run yet"
     if result.status == "not-run":
         return f"{code(command.line)} was not run: {escaped(result.reason or '')}"
     if result.status == "done":
@@ -306,15 +306,15 @@ def _connections(graph: Graph, name: str) -> Iterator[str]:
         channel = channels.get(name)
         if channel is None:
             continue
-        verbs = ("published by", "subscribed by") if kind == "topic" else ("offered by", "called by")
-        for verb, connections in zip(verbs, (channel.providers, channel.consumers), strict=True):
+        ends = ("publisher", "subscriber") if kind == "topic" else ("server", "client")
+        for end, connections in zip(ends, (channel.providers, channel.consumers), strict=True):
             if not connections:
-                yield f"- {kind} {code(name)} {verb} nobody"
+                yield f"- {kind} {code(name)}: no {end}"
             for connection in sorted(connections, key=lambda each: each.node.name)[:_SHOWN_ENDPOINTS]:
                 endpoint = connection.endpoint
                 kind_of = f" {code(endpoint.type)}" if endpoint.type else ""
                 more = f"{kind_of}{_quality(endpoint)}{_made_at(endpoint)}"
-                yield f"- {kind} {code(name)} {verb} {code(connection.node.name)}{more}"
+                yield f"- {kind} {code(name)}: {end} {code(connection.node.name)}{more}"
             if len(connections) > _SHOWN_ENDPOINTS:
                 yield f"- … and {len(connections) - _SHOWN_ENDPOINTS} more"
 
@@ -327,7 +327,7 @@ def _quality(endpoint: Endpoint) -> str:
 
 
 def _use(analysis: Analysis, use: Use) -> str:
-    value = "not known" if use.value is None else code(use.value)
+    value = "unresolved" if use.value is None else code(use.value)
     if use.kind == "arg":
         text = f"argument {code(use.name)} = {value}"
     elif use.kind == "find":
@@ -335,7 +335,7 @@ def _use(analysis: Analysis, use: Use) -> str:
     elif use.kind == "env":
         text = f"environment variable {code(use.name)} = {value}"
     elif use.kind == "clear_params":
-        text = f"parameters below {value} are deleted before the launch sets any"
+        text = f"deletes the parameters below {value} before the launch sets parameters"
     else:
         text = f"{code(use.name)} = {value}" if use.name else value
     chain = _chain(analysis, use.origin)
@@ -388,7 +388,7 @@ def _node_body(analysis: Analysis, index: int, node: LaunchNode) -> str:
         if len(frames) > _SHOWN_FRAMES:
             lines.append(f"- … and {len(frames) - _SHOWN_FRAMES} more")
     for unknown in node.unknowns:
-        lines += ["", f"Not known: {escaped(unknown.what)} ({escaped(unknown.reason)})"]
+        lines += ["", f"Unresolved: {escaped(unknown.what)} ({escaped(unknown.reason)})"]
     return "\n".join(lines)
 
 
@@ -396,7 +396,7 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
     if interface is None or interface.source == "none":
         reason = interface.outcome.reason if interface is not None else None
         reason = reason or analysis.why_not_run
-        return f"Its interface is not known{f': {escaped(reason)}' if reason else ' yet'}"
+        return f"Unknown interface: {escaped(reason)}" if reason else "Interface not analysed yet"
     source = _SOURCES.get(interface.source, interface.source) + _elsewhere(analysis, interface)
     outcome = interface.outcome
     if outcome.status == "not-run":
@@ -404,7 +404,7 @@ def _outcome(analysis: Analysis, interface: Interface | None) -> str:
     ending = f" with exit code {outcome.exit_code}" if outcome.exit_code else ""
     ending += f" ({outcome.signal})" if outcome.signal else ""
     how = f"{_OUTCOMES[outcome.status].capitalize()}{ending}"
-    cached = ", kept from an earlier run" if interface.cached else ""
+    cached = ", cached" if interface.cached else ""
     lines = [f"Interface {source}{cached}. {how} after {outcome.seconds:.2f} s."]
     if outcome.status != "spinning" and outcome.reason:
         lines.append(escaped(outcome.reason))
@@ -437,14 +437,14 @@ def _connection(connection: Connection, interface: Interface) -> str:
     if endpoint.type:
         text += f" {code(endpoint.type)}"
     if connection.remap is not None:
-        text += f", called {code(endpoint.name)} by the node and remapped"
+        text += f", remapped from {code(endpoint.name)}"
     text += _quality(endpoint)
     if endpoint.speculative:
-        text += ", after a made-up answer"
+        text += ", after a mock reply"
     if endpoint.on_demand:
         text += ", on demand"
     if endpoint.similar:
-        text += ", seen elsewhere"
+        text += ", seen in another run"
     return text + _made_at(endpoint)
 
 
@@ -456,7 +456,7 @@ def _own_params(analysis: Analysis, node: LaunchNode, interface: Interface) -> l
         use = declared.pop(param.name, None)
         text = f"- {code(param.name)} = {value_text(param.value)} from {place(analysis, param.origin[-1])}"
         if param.overrides:
-            text += f", in place of {value_text(param.overrides[-1].value)}"
+            text += f", overrides {value_text(param.overrides[-1].value)}"
         if use is not None and (default := default_text(use)):
             text += f" ({default})"
         lines.append(text)

@@ -151,9 +151,9 @@ def _node(
 def _known(node: LaunchNode, interface: Interface | None, why_not_run: str | None) -> str:
     """How much is known of what it does, where that is less than all."""
     if node.unknowns:
-        return f"{node.unknowns[0].what} is not known: {node.unknowns[0].reason}"
+        return f"{node.unknowns[0].what} is unresolved: {node.unknowns[0].reason}"
     if interface is None:
-        return why_not_run or "it has yet to be run"
+        return why_not_run or "not run yet"
     outcome = interface.outcome
     return "" if outcome.status == "spinning" or interface.declared else (outcome.reason or why_not_run or "")
 
@@ -189,10 +189,10 @@ def _listed(params: Sequence[Param], owner: str) -> tuple[Item, ...]:
 def _value(param: Param) -> str:
     value = param.value
     if isinstance(value, CommandValue):
-        return f"what {value.command} prints"[:_LENGTH]
+        return f"output of {value.command}"[:_LENGTH]
     if isinstance(value, bytes):
         return f"{len(value)} bytes"
-    text = " ".join(str(value)[: 2 * _LENGTH].split()) if value is not None else "not known"
+    text = " ".join(str(value)[: 2 * _LENGTH].split()) if value is not None else "unresolved"
     return f"{text[:_LENGTH]}…" if len(text) > _LENGTH else text
 
 
@@ -228,7 +228,7 @@ def _includes(analysis: Analysis) -> Iterator[Item]:
         count = last - bisect_left(found, before[at])
         given = " ".join(f"{name}:={value}" for name, value in include.args.items() if value is not None)
         nodes = f"{count} node{'' if count == 1 else 's'}"
-        label = shown_path(include.path, folder) if include.path is not None else "a file that is not known"
+        label = shown_path(include.path, folder) if include.path is not None else "unresolved include"
         inside = tuple(map(item, below.get(at, ())))
         place = include.origin[-1]
         return Item("include", label, f"{nodes}  {given}".rstrip(), location=place, file=include.path, children=inside)

@@ -12,11 +12,11 @@ _LENGTH = 200
 def value_text(value: ParamValue) -> str:
     """The value of a parameter on one line."""
     if isinstance(value, CommandValue):
-        return f"what {code(value.command)} prints" + (f" ({escaped(value.reason)})" if value.reason else "")
+        return f"output of {code(value.command)}" + (f" ({escaped(value.reason)})" if value.reason else "")
     if isinstance(value, bytes):
         return f"{len(value)} bytes"
     if value is None:
-        return "not known"
+        return "unresolved"
     text = " ".join(str(value).split())
     return code(f"{text[:_LENGTH]}…" if len(text) > _LENGTH else text)
 

@@ -26,7 +26,7 @@ _WHAT = {
     "file": "a launch file",
     "package": "a package",
     "executable": "an executable",
-    "component": "a component, whose name its source has too",
+    "component": "a component; its name is also in its source",
     "env": "an environment variable",
     "machine": "a machine",
 }
@@ -107,7 +107,7 @@ def _argument_places(context: QueryContext, symbol: NamedSymbol, name: str) -> f
     if not name.strip():
         raise RenameRefusedError("The argument has no name yet")
     if "$" in name or not symbol.files:
-        reason = "a substitution is part of its name" if "$" in name else "the included file is not known"
+        reason = "a substitution is part of its name" if "$" in name else "the include is unresolved"
         raise RenameRefusedError(f"The argument '{name}' cannot be renamed: {reason}")
     index = context.current
     files = shared_arguments.sharing(index, symbol.files, name, by_tag=True)
@@ -131,16 +131,18 @@ def _argument_places(context: QueryContext, symbol: NamedSymbol, name: str) -> f
 
 def _check_argument(context: QueryContext, symbol: NamedSymbol, name: str, new: str) -> None:
     if not _ARGUMENT.match(new):
-        raise RenameRefusedError(f"'{new}' is no name for an argument: a letter, then letters, digits and underscores")
+        raise RenameRefusedError(
+            f"'{new}' is not a valid argument name: use a letter, then letters, digits and underscores"
+        )
     if new in NOT_ARGUMENTS or keyword.iskeyword(new):
-        raise RenameRefusedError(f"'{new}' is no name for an argument: it means something else in $(eval ...)")
+        raise RenameRefusedError(f"'{new}' is not a valid argument name: it has another meaning in $(eval ...)")
     index = context.current
     files = shared_arguments.sharing(index, symbol.files, name, by_tag=True)
     taken = (*shared_arguments.declared_at(context, files, new), *shared_arguments.used_at(context, files, new))
     same_tag = {tag for place in shared_arguments.given_at(context, files, name) for tag in _tags(context, place, name)}
     given = (p for p in shared_arguments.given_at(context, files, new) if same_tag.intersection(_tags(context, p, new)))
     for place in (*taken, *given):
-        raise RenameRefusedError(f"There is an argument '{new}' already, at {shown(context, place)}")
+        raise RenameRefusedError(f"Duplicate argument '{new}', declared at {shown(context, place)}")
 
 
 def _tags(context: QueryContext, place: Location, name: str) -> Iterator[Location]:
@@ -161,7 +163,7 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
         c for tree in context.trees for c in tree.commands if c.launch_file and context.path.endswith(PYTHON_SUFFIX)
     ]
     if any(run.result is None or run.result.status != "done" for run in runs):
-        raise RenameRefusedError("Where a Python launch file names its nodes is not known as long as it is not run")
+        raise RenameRefusedError("The Python launch file was not run: the place of the node's name is unknown")
     if not own:
         raise RenameRefusedError("This is the name of a test, not that of its node")
     places = {place for place in tags_of(context, own) if context.text(place) == name}
@@ -170,9 +172,7 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
         for node in tree.nodes:
             if node.name in wanted and node.location not in own:
                 where = shown(context, node.location)
-                raise RenameRefusedError(
-                    f"The tag at {where} makes a node '{node.name}' too: which one is meant is not sure"
-                )
+                raise RenameRefusedError(f"The tag at {where} also starts a node '{node.name}': the name is ambiguous")
             for full in wanted:
                 if node.name != full and _is_below(node.name, full):
                     raise RenameRefusedError(f"'{full}' is also the namespace of '{node.name}': rename it by hand")
@@ -188,7 +188,7 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
         if span is None or spans:
             where = shown(context, value)
             raise RenameRefusedError(
-                f"The node's name is part of what is set at {where}, but not written there: rename it by hand"
+                f"The value at {where} contains the node's name by a substitution: rename it by hand"
             )
         places.add(context.location(value.file, span))
     return frozenset(places)
@@ -228,9 +228,11 @@ def _text(action: Action, attribute: str) -> str | None:
 
 def _check_node(context: QueryContext, symbol: NamedSymbol, new: str) -> None:
     if not new or not names.is_legal(new) or "/" in new or "~" in new:
-        raise RenameRefusedError(f"'{new}' is no name for a node: a letter, then letters, digits and underscores")
+        raise RenameRefusedError(
+            f"'{new}' is not a valid node name: use a letter, then letters, digits and underscores"
+        )
     wanted = {names.parent(full) + new for full in symbol.names}
     for tree in context.all_trees:
         for node in tree.nodes:
             if node.name in wanted:
-                raise RenameRefusedError(f"There is a node '{node.name}' already, at {shown(context, node.location)}")
+                raise RenameRefusedError(f"Duplicate node name '{node.name}', used at {shown(context, node.location)}")

@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.snapshot.model import GROUPS, SCHEMA, EndpointSnapshot, NodeSnapshot, Snapshot
 
 _INTRODUCTION = """\
-# What this launch configuration is expected to start, and who talks to whom then.
+# The expected nodes and connections of a launch configuration.
 # Written by `ros-preflight snapshot`, compared by `ros-preflight diff`.
 """
 _BREAKS = frozenset("\x85\u2028\u2029\ufeff")

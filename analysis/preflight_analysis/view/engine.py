@@ -87,7 +87,7 @@ class Engine:
         try:
             return _read(self._ask(_request(sizes, lines, parents)), len(sizes), len(lines))
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise EngineError(f"it takes more than {PATIENCE:g} s" if self._gave_up else str(error)) from error
+            raise EngineError(f"it took more than {PATIENCE:g} s" if self._gave_up else str(error)) from error
 
     def _ask(self, request: str) -> Any:
         if self._process is None:

@@ -24,12 +24,12 @@ def schema() -> dict[str, Any]:
     """The schema; `project_settings` reads what it describes."""
     properties = {
         "roots": _list(
-            "What is launched, beside the files that nothing includes.",
+            "The launch files that are launched, in addition to those that no other file includes.",
             {
                 "oneOf": [
                     {"type": "string", "description": "A launch file, relative to this file."},
                     _object(
-                        "A launch file with arguments; as many of them as there are profiles.",
+                        "A launch file with arguments; one entry for each profile.",
                         {
                             "file": _text("A launch file, relative to this file."),
                             "args": {
@@ -44,14 +44,14 @@ def schema() -> dict[str, Any]:
             },
         ),
         "external": _object(
-            "What something that no launch file starts offers or uses.",
-            {"topics": _list("Full names; * stands for anything, slashes among it.", {"type": "string"})},
+            "What programs outside of the launch files publish or subscribe to.",
+            {"topics": _list("Full names; * matches any text, including slashes.", {"type": "string"})},
         ),
         "nodes": _list(
-            "What nodes do that cannot be run, in the words of the annotations of launch files.",
+            "The interfaces of nodes that cannot run, as in the annotations of launch files.",
             {
                 **_object(
-                    "Each node of an executable, or the one of a name.",
+                    "The nodes of an executable, or the node of one name.",
                     {
                         "package": _text("The package of the executable."),
                         "executable": _text("The executable, `type` in ROS 1."),
@@ -64,11 +64,11 @@ def schema() -> dict[str, Any]:
         ),
         "severities": _SEVERITIES,
         "paths": _list(
-            "Severities in some files; the last entry that matches counts.",
+            "Severities for some files; the last matching entry applies.",
             _object(
-                "The severities of rules in some files.",
+                "The severities of rules for some files.",
                 {
-                    "path": _text("A folder, or a pattern in which * stands for anything, relative to this file."),
+                    "path": _text("A folder or a pattern, relative to this file; * matches any text."),
                     "severities": _SEVERITIES,
                 },
                 ["path"],
@@ -78,7 +78,7 @@ def schema() -> dict[str, Any]:
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "The settings of ros-preflight for a workspace, .ros-preflight.yaml",
-        **_object("What ros-preflight cannot find out by itself.", properties),
+        **_object("What ros-preflight cannot find out itself.", properties),
         "type": ["object", "null"],
         "definitions": {"severities": _severities()},
     }
@@ -101,12 +101,12 @@ def main(arguments: Sequence[str]) -> int:
 def _severities() -> dict[str, Any]:
     choice = {"enum": list(CHOICES)}
     rules = {rule.id: {**choice, "description": rule.name} for rule in all_rules()}
-    every = {ALL: {**choice, "description": "Each rule that is not named beside it."}}
-    return _object("Severities of rules, instead of their own.", {**every, **rules})
+    every = {ALL: {**choice, "description": "All rules that are not named."}}
+    return _object("Severities that replace those of the rules.", {**every, **rules})
 
 
 def _items(group: str) -> dict[str, Any]:
-    named = {"name": _text("The name as the node gives it, before namespaces and remaps.")}
+    named = {"name": _text("The name in the node's code, before namespaces and remaps.")}
     if group not in CLASSES:
         return _list("", _object("", {**named, "default": {"type": ["string", "number", "boolean"]}}, ["name"]))
     properties = {**named, "type": _text("As package/Type."), "class": {"enum": list(CLASSES[group])}}

@@ -14,23 +14,23 @@ command(
   'RosPreflightRoot',
   'roots',
   'select',
-  { desc = 'Choose the launch file, with arguments, that a file is shown in' }
+  { desc = 'Choose the root launch file and its arguments' }
 )
-command('RosPreflightTree', 'tree', 'open', { desc = 'Show the nodes that the launch file starts' })
+command('RosPreflightTree', 'tree', 'open', { desc = 'Show the tree of the launch' })
 command(
   'RosPreflightGraph',
   'graph',
   'open',
-  { bang = true, desc = 'Show who talks to whom; with ! also what every node has' }
+  { bang = true, desc = 'Show the graph; with ! also topics and services of the client library' }
 )
 command(
   'RosPreflightTrace',
   'maintenance',
   'trace',
-  { bang = true, desc = 'Run the node at the cursor anew; with ! all nodes' }
+  { bang = true, desc = 'Run the node at the cursor again; with ! all nodes' }
 )
-command('RosPreflightDoctor', 'maintenance', 'doctor', { desc = 'Show what launch files and nodes are looked at with' })
-command('RosPreflightClearCache', 'maintenance', 'clear_cache', { desc = 'Forget what runs of nodes told' })
+command('RosPreflightDoctor', 'maintenance', 'doctor', { desc = 'Report the environment, packages and sandbox' })
+command('RosPreflightClearCache', 'maintenance', 'clear_cache', { desc = 'Delete the results of runs' })
 command('RosPreflightRestart', 'maintenance', 'restart', { desc = 'Restart the server' })
 
 -- Above <launch>: who includes the file, how many nodes it starts, and in whose context it is shown.

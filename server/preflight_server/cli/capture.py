@@ -25,10 +25,9 @@ from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
 from preflight_server.cli.output import print_text, say
 from preflight_server.cli.project import open_project, run_nodes
 
-DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID) and prints what
-the nodes of the launch file do there, as annotations for the launch file or as settings: for nodes that cannot be run
-in the sandbox, which are captured where none is named. --no-run executes nothing. Exit codes: 0 captured, 1 one of the
-nodes could not be, 2 there was no system to attach to."""
+DESCRIPTION = """Print the interfaces of running nodes as annotations for the launch file, or as settings. The nodes
+run in the ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID). Without --node, capture the nodes that cannot
+run in the sandbox. --no-run executes nothing. Exit codes: 0 captured, 1 a node is not captured, 2 no system found."""
 _POLL_SECONDS = 0.25
 _NO_NODES = ("test", "process")
 
@@ -37,31 +36,37 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_running(parser, ("annotations", "settings"))
     options.add_file(parser)
-    parser.add_argument("--node", metavar="/NAME", action="append", default=[], help="this node; may be repeated")
-    parser.add_argument("--all", action="store_true", help="all nodes of the launch file")
+    parser.add_argument(
+        "--node", metavar="/NAME", action="append", default=[], help="capture this node; may be repeated"
+    )
+    parser.add_argument("--all", action="store_true", help="capture all nodes of the launch file")
     parser.add_argument("--write", action="store_true", help="write the annotations into the launch files")
     parser.add_argument(
-        "--timeout", type=float, default=10.0, metavar="S", help="seconds to wait for the nodes (default: %(default)s)"
+        "--timeout",
+        type=float,
+        default=10.0,
+        metavar="S",
+        help="wait this many seconds for the nodes (default: %(default)s)",
     )
     parser.add_argument(
         "--settle",
         type=float,
         default=2.0,
         metavar="S",
-        help="seconds for which nothing may change before it is believed (default: %(default)s)",
+        help="accept a state after this many seconds without a change (default: %(default)s)",
     )
 
 
 def run(args: argparse.Namespace) -> int:
     """Print or write what was seen."""
     if args.write and args.format == "settings":
-        raise CannotDoError("--write is for annotations; settings are printed, for .ros-preflight.yaml")
+        raise CannotDoError("--write writes annotations only; copy the printed settings into .ros-preflight.yaml")
     analysis = run_nodes(open_project(args), args)
     if analysis.graph is None:
-        raise CannotDoError("there is no graph")
+        raise CannotDoError("the launch file has no graph")
     chosen = _chosen(analysis.tree.nodes, analysis.graph.processes, args)
     if not chosen:
-        say("there is nothing to capture: all nodes could be run, or somebody has described them (--all captures them)")
+        say("nothing to capture: all nodes run in the sandbox or are annotated (--all captures them)")
         return CLEAN
     watched = observer(analysis.tree.generation, analysis.environment)
     try:
@@ -136,7 +141,7 @@ def _write(analysis: Analysis, captured: Iterable[Captured]) -> None:
         document = analysis.documents.get(each.node.location.file)
         edit = annotation_edit(each.node, annotation_text(each.interface), document) if document is not None else None
         if edit is None:
-            say(printable(f"{each.node.name} has an annotation already, or there is nothing to write"))
+            say(printable(f"{each.node.name} is annotated already, or has nothing to write"))
             continue
         span = edit.location.span
         edits.setdefault(edit.location.file, {}).setdefault((span.start, span.end), edit)
@@ -152,7 +157,7 @@ def _apply(file: str, edits: Sequence[Edit], document: Document) -> None:
         text = text[: span.start] + edit.text + text[span.end :]
     try:
         if Path(file).read_bytes() != document.text.encode():
-            raise CannotDoError(f"{file} is not plain UTF-8, or was changed meanwhile; print the annotations instead")
+            raise CannotDoError(f"{file} is not UTF-8, or changed in the meantime; print the annotations instead")
         Path(file).write_bytes(text.encode())
     except OSError as error:
         raise CannotDoError(f"{file} cannot be written: {error.strerror}") from None

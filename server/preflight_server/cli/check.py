@@ -40,11 +40,11 @@ TOGETHER = 32
 meanwhile."""
 FORMATS = ("text", "json", "sarif", "junit", "github", "gitlab")
 
-DESCRIPTION = """Tells what is wrong with launch files and everything they include. Without a file it is those of
-the current folder that nothing includes, and what .ros-preflight.yaml names, with each of its sets of arguments.
-The nodes, and the commands that parameters come from, are run in a sandbox, without network and with your files out
-of reach of their writes, to see what they publish, subscribe to, read and print: calling this command is your
-consent. With --no-run nothing is executed, and what only a run can tell is missing."""
+DESCRIPTION = """Find problems in launch files and in everything that they include. Without FILE, check the root
+launch files of the current folder: those that no other file includes, and those that .ros-preflight.yaml names. The
+command runs nodes and parameter commands in a sandbox, without network and without write access to your files. Calling
+it is your consent. The runs show what nodes publish, subscribe to and read. With --no-run nothing is executed, and findings that need a run are
+missing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,27 +91,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "launch_args",
         metavar="FILE",
         nargs="*",
-        help="launch files, with name:=value for their arguments, or folders (default: the current one)",
+        help="launch files with their arguments (name:=value), or folders (default: the current folder)",
     )
     parser.add_argument(
         "--severity",
         choices=tuple(reversed(SEVERITIES)),
         default="hint",
-        help="show the findings of this severity or worse (default: %(default)s)",
+        help="report findings of this severity or worse (default: %(default)s)",
     )
     parser.add_argument(
-        "--require-complete", action="store_true", help="exit with 1 if something is missing on this machine, too"
+        "--require-complete", action="store_true", help="exit with 1 also if something is missing on this machine"
     )
-    parser.add_argument("--baseline", metavar="FILE", help="leave out the findings that this list knows")
-    parser.add_argument("--write-baseline", metavar="FILE", help="write a list of all findings, and exit with 0")
+    parser.add_argument("--baseline", metavar="FILE", help="leave out the findings of this list")
+    parser.add_argument("--write-baseline", metavar="FILE", help="write a list of all findings and exit with 0")
     parser.add_argument(
-        "--watch", action="store_true", help="check again at each change of the workspace, until it is interrupted"
+        "--watch", action="store_true", help="check again after each change in the workspace, until interrupted"
     )
     parser.add_argument(
         "--changed-since",
         metavar="REV",
-        help="only launches of which something changed since this revision: a file they are read from, the settings, "
-        "a file of a package of which they start a node",
+        help="check only launches that changed since this revision: in a file that they read, in the settings, or in a "
+        "package whose nodes they start",
     )
 
 
@@ -120,7 +120,7 @@ def run(args: argparse.Namespace) -> int:
     if not args.watch:
         return _look(args).code
     if args.write_baseline:
-        raise CannotDoError("--watch and --write-baseline exclude each other")
+        raise CannotDoError("--watch and --write-baseline cannot be combined")
     return again_and_again(lambda: _look(args))
 
 
@@ -214,9 +214,9 @@ def _known(file: str) -> frozenset[str]:
     try:
         return read_baseline(Path(file).read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise CannotDoError(f"{file} does not exist; --write-baseline {file} makes it") from None
+        raise CannotDoError(f"{file} does not exist; --write-baseline {file} creates it") from None
     except (OSError, ValueError) as error:
-        raise CannotDoError(f"{file} is no list of known findings: {error}") from None
+        raise CannotDoError(f"{file} is not a list of findings: {error}") from None
 
 
 def _write_baseline(report: Report, file: str) -> int:

@@ -8,15 +8,15 @@ import os
 from preflight_server.cli.errors import CLEAN
 from preflight_server.cli.output import print_text
 
-DESCRIPTION = """Prints the code that makes a shell complete verbs, options, files, rules and arguments. For bash:
-eval "$(ros-preflight completion bash)" in ~/.bashrc; for zsh the same with zsh in ~/.zshrc, after compinit; for fish:
-ros-preflight completion fish > ~/.config/fish/completions/ros-preflight.fish"""
+DESCRIPTION = """Print the script that completes verbs, options, files, rules and arguments in a shell. For bash, add
+eval "$(ros-preflight completion bash)" to ~/.bashrc. For zsh, add the same with zsh to ~/.zshrc, after compinit. For
+fish, run ros-preflight completion fish > ~/.config/fish/completions/ros-preflight.fish"""
 SHELLS = ("bash", "zsh", "fish")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
-    parser.add_argument("shell", metavar="SHELL", choices=SHELLS, help=", ".join(SHELLS))
+    parser.add_argument("shell", metavar="SHELL", choices=SHELLS, help=f"one of {', '.join(SHELLS)}")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -15,10 +15,10 @@ from preflight_server.cli.errors import CannotDoError
 from preflight_server.cli.operand import operands, snapshot_of_operand
 from preflight_server.cli.output import colours, print_json, print_text
 
-DESCRIPTION = """Compares the nodes, connections, types, QoS and parameters of two launch configurations. Each side is
-a launch file followed by its own arguments, a file that `snapshot` wrote, or one of either in a git revision, as
-REV:path. The nodes are run in a sandbox, those of revisions too: calling this command is your consent; --no-run
-executes nothing. Exit codes: 0 the same, 1 not the same, 2 could not compare."""
+DESCRIPTION = """Compare the nodes, connections, types, QoS and parameters of two launch configurations. An OPERAND is a
+launch file with its arguments, or a file that `snapshot` wrote; REV:path takes either from a git revision. The command
+runs the nodes in a sandbox, those of revisions too; calling it is your consent. --no-run executes nothing. Exit codes:
+0 equal, 1 different, 2 the comparison failed."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_running(parser, formats=("text", "json", "markdown"))
     parser.add_argument(
         "launch_args",
-        metavar="SIDE",
+        metavar="OPERAND",
         nargs="+",
         help="two of: FILE [name:=value ...], SNAPSHOT, REV:FILE [name:=value ...], REV:SNAPSHOT",
     )
@@ -36,7 +36,7 @@ def run(args: argparse.Namespace) -> int:
     """Print what came, went or changed."""
     both = operands(args.launch_args)
     if len(both) != 2:
-        raise CannotDoError(f"two sides are compared, and {len(both)} given: {', '.join(s.title for s in both)}")
+        raise CannotDoError(f"diff compares two operands, {len(both)} given: {', '.join(s.title for s in both)}")
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _leave)
     with ExitStack() as cleanup:

@@ -20,18 +20,24 @@ from preflight_server.cli.launches import launches
 from preflight_server.cli.output import print_json, print_text
 from preflight_server.doctor import page
 
-DESCRIPTION = """Shows what launch files and nodes are looked at with: distribution, package path, interpreter, sandbox;
-and what the launch files of the workspace need and this machine does not have, with the commands that install it.
-An empty command is run in the sandbox, to see whether it works, and Python launch files, commands of parameters and
-xacro are; nodes are not, what they lack is known of those that `check` ran. --no-run leaves that out. The exit code is
-1 if no ROS or no sandbox works."""
+DESCRIPTION = """Report the environment that ros-preflight uses: distribution, package path, interpreter and sandbox.
+Also list what the launch files of the workspace need and this machine lacks, with the commands that install it. The
+command tests the sandbox, and runs Python launch files, parameter commands and xacro in it; --no-run skips that. It
+runs no nodes: what they lack is known from the last `check`. The exit code is 1 if no ROS is found or no sandbox
+works."""
 SCHEMA = "ros-preflight/doctor/1"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_common(parser)
-    parser.add_argument("place", metavar="PLACE", nargs="?", default=".", help="a workspace or a file in it")
+    parser.add_argument(
+        "place",
+        metavar="PLACE",
+        nargs="?",
+        default=".",
+        help="a workspace, or a file in it (default: the current folder)",
+    )
 
 
 def run(args: argparse.Namespace) -> int:

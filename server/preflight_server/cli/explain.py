@@ -22,9 +22,9 @@ from preflight_server.cli.output import colours, links, print_json, print_text
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.rules import rule_ids, rule_json, rule_page, rules_named
 
-DESCRIPTION = """Explains a rule (TOP001, or its name), or one finding: FILE:LINE or FILE:LINE:COLUMN as `check` prints
-it, or its fingerprint as the formats sarif and gitlab and a baseline have it. For a finding the launches are looked at
-as `check` does: calling this command is your consent to run their nodes in a sandbox; --no-run executes nothing."""
+DESCRIPTION = """Explain a rule by its id or name, or one finding. A finding is FILE:LINE or FILE:LINE:COLUMN as
+`check` prints it, or its fingerprint in sarif, gitlab or a baseline. For a finding the command analyses the launches as
+`check` does, and runs their nodes in a sandbox; calling it is your consent. --no-run executes nothing."""
 SCHEMA = "ros-preflight/explain/1"
 _PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+)(?::(?P<column>\d+))?:?")
 _FINGERPRINT = re.compile(r"[0-9a-f]{16}:\d+")
@@ -38,13 +38,15 @@ _CONFIDENCE = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_running(parser, ("text", "json"))
-    what = parser.add_argument("what", metavar="RULE|FINDING", help="such as TOP001, or launch/robot.launch:7:31")
+    what = parser.add_argument(
+        "what", metavar="RULE|FINDING", help="a rule (TOP001) or a finding (launch/robot.launch:7:31)"
+    )
     what.completer = rule_ids  # type: ignore[attr-defined]  # argcomplete's
     parser.add_argument(
         "launch_args",
         metavar="FILE",
         nargs="*",
-        help="of a finding: the launch files to look at, with name:=value, as for check (default: the current folder)",
+        help="for a finding: the launch files, with name:=value, as for check (default: the current folder)",
     )
     parser.set_defaults(changed_since=None)
 
@@ -58,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
             print_text(rule_page(rules[0]))
         return CLEAN
     if not _PLACE.fullmatch(args.what) and not _FINGERPRINT.fullmatch(args.what):
-        raise CannotDoError(f"{args.what} is no rule and no finding; `ros-preflight rules` lists the rules")
+        raise CannotDoError(f"{args.what} is neither a rule nor a finding; `ros-preflight rules` lists the rules")
     chosen = launches(args)
     report, _ = look_at(chosen, args)
     found = [*_named(report, args.what)]

@@ -22,8 +22,9 @@ from preflight_server.cli.errors import FAILED
 from preflight_server.cli.output import print_json, print_text, say
 from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
 
-DESCRIPTION = """Shows topics, services and actions under their final names, with the nodes at both ends. The nodes are
-run in a sandbox to see what they do: calling this command is your consent; --no-run executes nothing."""
+DESCRIPTION = """Print the topics, services and actions of a launch under their resolved names, with the nodes at both
+ends. The command runs the nodes in a sandbox to see their interfaces; calling it is your consent. --no-run executes
+nothing."""
 
 _PICTURES: Mapping[str, Callable[[GraphView], str]] = {
     "dot": dot,
@@ -40,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--builtin",
         action="store_true",
-        help="with dot, mermaid and svg: also what every node has by its client library (html has a switch for it)",
+        help="with dot, mermaid and svg: include the topics and services of the client library (html has a switch)",
     )
 
 
@@ -48,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     """Print the graph."""
     analysis = run_nodes(open_project(args), args)
     if analysis.graph is None:
-        say("there is no graph")
+        say("ros-preflight: the launch file has no graph")
         return FAILED
     if args.format == "json":
         print_json(graph_json(analysis.graph))

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 
-DESCRIPTION = """The language server. Nothing is executed unless the editor says that the workspace is trusted
-(initialisation option workspaceTrusted, or the notification rosPreflight/workspaceTrust)."""
+DESCRIPTION = """Start the language server on standard input and output. It executes nothing until the editor reports
+the workspace as trusted (initialisation option workspaceTrusted, or the notification rosPreflight/workspaceTrust)."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
-    parser.add_argument("--stdio", action="store_true", help="accepted for editors that say so; it is the only way")
+    parser.add_argument(
+        "--stdio", action="store_true", help="accepted for editors that pass it; the server has no other transport"
+    )
 
 
 def run(args: argparse.Namespace) -> int:

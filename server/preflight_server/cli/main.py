@@ -15,27 +15,27 @@ from preflight_server.cli.errors import FAILED, CannotDoError
 from preflight_server.cli.output import LogFormatter, say
 
 VERBS = {
-    "check": "what is wrong with launch files",
+    "check": "find problems in launch files",
     "explain": "explain a rule or one finding",
-    "why": "explain why a node hears another one, or why it is started",
-    "tree": "what a launch file would start",
-    "graph": "who talks to whom after the launch",
-    "trace": "run the nodes of a launch file in the sandbox and show what they do",
+    "why": "explain why two nodes are connected or not, or why a node starts",
+    "tree": "list what a launch file starts",
+    "graph": "print the communication graph of a launch",
+    "trace": "run the nodes of a launch file in the sandbox and print their interfaces",
     "snapshot": "write the expected graph to a file",
-    "diff": "what is not the same in two launch configurations",
-    "watch": "compare a running system with what the launch file should have started",
-    "capture": "write down what the nodes of a running system do",
+    "diff": "compare two launch configurations",
+    "watch": "compare a running system with its launch file",
+    "capture": "write the interfaces of running nodes as annotations",
     "rules": "list the rules, or explain one",
-    "completion": "print the code for the completion of a shell",
-    "doctor": "the ROS environment and the sandbox, and what is missing",
-    "lsp": "serve an editor over standard input and output",
+    "completion": "print the completion script of a shell",
+    "doctor": "report the ROS environment, the sandbox and missing packages",
+    "lsp": "start the language server on standard input and output",
 }
 """The verbs with their help. The module of one is imported only if the command line has its name."""
 _SEVERAL_FILES = ("check", "diff", "explain", "why")
 """The verbs whose positional arguments are files or names too, in `launch_args`."""
 _COMPLETING = "_ARGCOMPLETE"
 """The variable that a shell sets when it asks argcomplete for words."""
-_EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 could not do what was asked"
+_EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 the command failed"
 
 
 def version() -> str:
@@ -74,7 +74,7 @@ def _parse(argv: Sequence[str], program: str) -> argparse.Namespace:
     named = os.environ.get("COMP_LINE", "").split() if is_completing else argv
     parser = argparse.ArgumentParser(
         prog=program,
-        description="Tells what is wrong with a ROS launch configuration before a robot moves.",
+        description="Find problems in ROS launch configurations before a robot moves.",
         epilog=_EPILOG,
     )
     parser.add_argument("--version", action="version", version=version())

@@ -81,7 +81,7 @@ def from_launch(path: str, values: dict[str, str], args: argparse.Namespace) -> 
     # What executables did elsewhere is known on this machine only.
     analysis = run_nodes(analyse(path, values, environment, args, similar=False), args)
     if analysis.graph is None:
-        raise CannotDoError("there is no graph")
+        raise CannotDoError("the launch file has no graph")
     return analysis, snapshot_of(analysis, analysis.graph)
 
 
@@ -115,5 +115,5 @@ def _at_revision(operand: Operand, values: dict[str, str], args: argparse.Namesp
     environment = environment_at(now, revision.repository, folder)
     analysis = run_nodes(analyse(path, values, environment, args, similar=False), args)
     if analysis.graph is None:
-        raise CannotDoError("there is no graph")
+        raise CannotDoError("the launch file has no graph")
     return snapshot_of(analysis, analysis.graph)

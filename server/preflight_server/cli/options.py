@@ -24,7 +24,9 @@ _ASSIGNMENT = ":="
 
 def add_format(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text", "json")) -> None:
     """`--format`; the first one is the default. With JSON also `--paths`."""
-    parser.add_argument("--format", choices=formats, default=formats[0], help="what is printed (default: %(default)s)")
+    parser.add_argument(
+        "--format", choices=formats, default=formats[0], help="the output format (default: %(default)s)"
+    )
     if "json" in formats:
         add_paths(parser)
 
@@ -36,7 +38,7 @@ def add_common(parser: argparse.ArgumentParser, formats: Sequence[str] = ("text"
         "--fail-on",
         choices=(*reversed(SEVERITIES), NEVER),
         default="error",
-        help="exit with 1 if there is a finding of this severity or worse (default: %(default)s)",
+        help="exit with 1 on a finding of this severity or worse (default: %(default)s)",
     )
 
 
@@ -49,17 +51,17 @@ def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None
         type=_positive,
         default=most_at_once(),
         metavar="N",
-        help="how many nodes are run at a time (default: two more than there are cores)",
+        help="run at most N nodes at a time (default: two more than there are cores)",
     )
     parser.add_argument(
         "--package-path",
         metavar="A:B",
-        help="look for packages in these folders, in this order, and nowhere else",
+        help="search packages in these folders only, in this order",
     )
     parser.add_argument(
         "--cache-dir",
         metavar="DIR",
-        help=f"keep what runs told in this folder (default: that of {VARIABLE}, else one in the user's cache)",
+        help=f"keep the results of runs in this folder (default: {VARIABLE}, else the user's cache folder)",
     )
 
 

@@ -20,7 +20,7 @@ def add_paths(parser: argparse.ArgumentParser) -> None:
         "--paths",
         choices=(ABSOLUTE, RELATIVE),
         default=ABSOLUTE,
-        help="with --format json: whether paths are absolute or relative to the workspace (default: %(default)s)",
+        help="with --format json: print paths absolute or relative to the workspace (default: %(default)s)",
     )
 
 

@@ -14,9 +14,7 @@ from preflight_server.cli import options
 from preflight_server.cli.errors import CLEAN, CannotDoError
 from preflight_server.cli.output import print_json, print_text
 
-DESCRIPTION = (
-    "Lists the rules, or explains one: what it looks for, why that matters, an example and what to write instead."
-)
+DESCRIPTION = """List the rules, or explain one: what it checks, why it matters, an example and how to fix it."""
 SCHEMA = "ros-preflight/rules/1"
 
 
@@ -24,9 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_format(parser)
     parser.add_argument(
-        "--no-run", action="store_true", help="accepted as by the other verbs; nothing is ever run here"
+        "--no-run", action="store_true", help="accepted as for the other verbs; this one executes nothing"
     )
-    rule = parser.add_argument("rule", metavar="RULE", nargs="?", help="an id or a name, such as TOP001")
+    rule = parser.add_argument("rule", metavar="RULE", nargs="?", help="the id or the name of a rule, such as TOP001")
     rule.completer = rule_ids  # type: ignore[attr-defined]  # argcomplete's
 
 

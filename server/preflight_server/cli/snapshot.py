@@ -15,9 +15,9 @@ from preflight_server.cli.operand import from_launch
 from preflight_server.cli.output import dumps_json, print_text, say
 from preflight_server.cli.project import exit_code, say_errors
 
-DESCRIPTION = """Writes what a launch file starts, and who talks to whom then, to a file that reads well in a review and
-is the same on each machine; `diff` compares with it. The nodes are run in a sandbox to see what they do: calling this
-command is your consent; --no-run executes nothing."""
+DESCRIPTION = """Write the nodes and the graph of a launch to a file for reviews. The file is the same on each
+machine, and `diff` compares with it. The command runs the nodes in a sandbox to see their interfaces; calling it
+is your consent. --no-run executes nothing."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o",
         metavar="PATH",
         type=Path,
-        help="write to this file instead of standard output; with --format nodl a folder, which gets a document "
-        "for each executable",
+        help="write to this file instead of standard output; with --format nodl to this folder, one document for each "
+        "executable",
     )
 
 
@@ -51,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
         _write(args.output, text)
     unsure = [name for name, node in snapshot.nodes.items() if not node.sure]
     if unsure:
-        say(f"not all is known of {', '.join(unsure)}; `ros-preflight check` says why")
+        say(f"incomplete: {', '.join(unsure)}; `ros-preflight check` reports the reasons")
     say_errors(analysis)
     return exit_code(analysis, args.fail_on)
 

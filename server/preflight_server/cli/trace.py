@@ -17,15 +17,16 @@ from preflight_server.cli.output import print_json, print_text
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import exit_code, open_project, run_nodes, say_errors
 
-DESCRIPTION = """Runs the nodes of a launch file in a sandbox until they reach their event loop, and shows what they
-made until then under the names that they gave it, before namespaces and remaps."""
+DESCRIPTION = """Run the nodes of a launch file in a sandbox until they reach their event loop. Print their
+publishers, subscribers, services, actions and parameters. Names are those in the code, before namespaces
+and remaps."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_common(parser)
     options.add_file(parser)
-    parser.add_argument("--node", metavar="/NAME", help="only this node")
+    parser.add_argument("--node", metavar="/NAME", help="run only this node")
 
 
 def run(args: argparse.Namespace) -> int:

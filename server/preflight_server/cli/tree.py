@@ -24,9 +24,9 @@ from preflight_server.cli.output import colours, print_json, print_text
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import exit_code, open_project, say_errors
 
-DESCRIPTION = """Shows the nodes with their names, parameters, remaps and environment, and where each comes from.
-No node is run; the commands that parameters come from are, in a sandbox, unless with --no-run or --batch. With
---batch many launch files are answered in one process, one line of JSON each."""
+DESCRIPTION = """List the nodes of a launch with their names, parameters, remaps and environment, and the line that each
+comes from. No node is run. Parameter commands run in a sandbox, unless with --no-run or --batch. With --batch the
+command evaluates many launch files in one process and prints one line of JSON for each."""
 _SHOWN = 500
 """Characters of a value in text; a robot description has thousands of lines."""
 _COLOURS = (34, 33, 32, 35, 31, 36, 94, 93)
@@ -38,7 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     options.add_common(parser, ("text", "json", "html"))
     options.add_file(parser, optional=True)
     parser.add_argument(
-        "--batch", metavar="JOBS.jsonl", type=Path, help="one job a line; the exit code is 0 if all were answered"
+        "--batch",
+        metavar="JOBS.jsonl",
+        type=Path,
+        help="evaluate the jobs of this file, one a line; exit with 0 if all were evaluated",
     )
 
 

@@ -23,11 +23,10 @@ from preflight_server.cli.output import print_json, print_text, say
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import open_project, run_nodes, say_errors
 
-DESCRIPTION = """Attaches to the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID), compares its
-nodes, topics, services and actions with those that the launch file should have started, and says what is missing, extra
-or of the wrong type, until it is interrupted; with --once until the system is as expected. What is expected is what
-`graph` shows: the nodes are run in a sandbox to see what they do; --no-run executes nothing. Exit codes:
-0 as expected, 1 not, 2 there was no system to attach to."""
+DESCRIPTION = """Compare the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID) with a launch file.
+Report nodes, topics, services and actions that are missing, extra or of another type, until interrupted; with --once
+until the system is as expected. The expected graph is that of `graph`: the command runs the nodes in a sandbox;
+--no-run executes nothing. Exit codes: 0 as expected, 1 different, 2 no system found."""
 _POLL_SECONDS = 0.5
 
 
@@ -38,20 +37,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--once",
         action="store_true",
-        help="wait until the system is as expected, or for --timeout, say what is different and exit: 0 nothing, "
-        "1 something, 2 there was no system to attach to",
+        help="wait until the system is as expected, or for --timeout; then report the differences and exit: 0 none, "
+        "1 differences, 2 no system found",
     )
     parser.add_argument(
-        "--timeout", type=float, default=30.0, metavar="S", help="seconds to wait with --once (default: %(default)s)"
+        "--timeout",
+        type=float,
+        default=30.0,
+        metavar="S",
+        help="wait this many seconds with --once (default: %(default)s)",
     )
     parser.add_argument(
         "--settle",
         type=float,
         default=2.0,
         metavar="S",
-        help="without --once, a difference is told once it has lasted so many seconds (default: %(default)s)",
+        help="without --once: report a difference after this many seconds (default: %(default)s)",
     )
-    parser.add_argument("--allow-extra", action="store_true", help="nodes beyond the expected do not count")
+    parser.add_argument("--allow-extra", action="store_true", help="ignore nodes that the launch file does not start")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -59,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
     project = open_project(args)
     analysis = run_nodes(project, args)
     if analysis.graph is None:
-        raise CannotDoError("there is no graph")
+        raise CannotDoError("the launch file has no graph")
     say_errors(analysis)
     expected = expected_of(analysis.graph, analysis.documents)
     watched = observer(analysis.tree.generation, analysis.environment)
@@ -88,7 +91,7 @@ def _once(watched: Observer, expected: Expected, args: argparse.Namespace) -> in
     if args.format == "json":
         print_json(_json(last, args), indent=None)
     if not isinstance(last, State):
-        raise CannotDoError(last.reason if isinstance(last, Waiting) else f"{watched.place} tells nothing")
+        raise CannotDoError(last.reason if isinstance(last, Waiting) else f"{watched.place} does not answer")
     found = last.comparison
     if args.format == "text":
         print_text("".join(f"{line(issue, os.getcwd())}\n" for issue in found.issues) + f"{summary(found)}\n")

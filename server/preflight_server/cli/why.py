@@ -22,10 +22,10 @@ from preflight_server.cli.output import colours, print_json, print_text, say
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import Project, open_project, run_nodes
 
-DESCRIPTION = """Explains the connection between two nodes, link by link: names with their remaps, type, QoS,
-environment, lifecycle, clock. With one node: why the launch file starts it, or which condition leaves it out. The nodes
-are run in a sandbox to see what they do: calling this command is your consent; --no-run executes nothing. Exit codes:
-0 no link is broken, 1 one is, 2 could not do what was asked."""
+DESCRIPTION = """Explain the connection of two nodes, link by link: names with their remaps, type, QoS, environment,
+lifecycle, clock. With one node, explain why the launch file starts it, or which condition leaves it out. The command
+runs the nodes in a sandbox to see their interfaces; calling it is your consent. --no-run executes nothing. Exit codes:
+0 no link is broken, 1 a link is broken, 2 the command failed."""
 SCHEMA = "ros-preflight/why/1"
 _MOST_WORDS = 3
 _MARKS: dict[State, tuple[str, int]] = {"ok": ("ok", 32), "broken": ("BROKEN", 31), "unknown": ("?", 33)}
@@ -77,7 +77,7 @@ def _started(project: Project, name: str, args: argparse.Namespace) -> int:
 def _connected(project: Project, words: Sequence[str], args: argparse.Namespace) -> int:
     analysis = run_nodes(project, args)
     if analysis.graph is None:
-        say("there is no graph")
+        say("ros-preflight: the launch file has no graph")
         return FAILED
     found = chains(analysis, analysis.graph, *words)
     if args.format == "json":

@@ -182,7 +182,7 @@ class Analyses:
                             partial(branches_of, workspace, root, lambda: self._session.is_closed)
                         )
                     except Exception:
-                        _log.exception("what %s leaves out could not be looked at", root)
+                        _log.exception("the branches of %s could not be evaluated", root)
                         found = Branches()
                     if not self._settled.is_set() or not self._session.uses(workspace):
                         return  # likewise
@@ -210,7 +210,7 @@ class Analyses:
         try:
             round_ = await self._session.in_pool(lambda: snapshot.round(workspace))
         except Exception:
-            _log.exception("what was found in %s could not be put together", asked)
+            _log.exception("the findings of %s could not be merged", asked)
             return not self._news.is_set()
         if round_ is None or self._news.is_set() or self._session.is_closed:
             return False  # superseded by a newer text

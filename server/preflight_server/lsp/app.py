@@ -114,7 +114,7 @@ class PreflightServer(LanguageServer):
     def _finished(self, task: asyncio.Task[Any]) -> None:
         self._background.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
-            _log.error("a background task broke", exc_info=error)
+            _log.error("a background task failed", exc_info=error)
 
 
 def _environments(options: Mapping[str, Any]) -> dict[str, Mapping[str, str]]:

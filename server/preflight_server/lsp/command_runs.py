@@ -117,7 +117,7 @@ class CommandRuns:
 
     async def _run(self, runner: CommandRunner, lines: list[str], pool: ThreadPoolExecutor) -> dict[str, CommandResult]:
         loop = asyncio.get_running_loop()
-        progress = Progress(self._server, "Running the commands of parameters in the sandbox", "tracing", len(lines))
+        progress = Progress(self._server, "Running parameter commands in the sandbox", "tracing", len(lines))
         batch = self._batch = _Batch(frozenset(lines), progress, threading.Event())
         try:
             return await loop.run_in_executor(pool, lambda: run_commands(runner, lines, batch.cancel))

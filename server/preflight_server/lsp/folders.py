@@ -132,7 +132,7 @@ class Folders:
         """Whether the user trusts the workspace, so that its nodes may be run in the sandbox."""
         self._trusted = trusted
         if not trusted:
-            self._server.live.stop("the workspace is not trusted any more")
+            self._server.live.stop("the workspace is no longer trusted")
         self.each(lambda session: session.set_trusted(trusted))
 
     def each(self, call: Callable[[Session], object]) -> None:

@@ -122,7 +122,7 @@ class Indexing:
         try:
             index = await loop.run_in_executor(self._pool, work)
         except Exception:
-            _log.exception("indexing broke; the index is left as it is")
+            _log.exception("indexing failed; the index is unchanged")
         finally:
             if progress is not None:
                 progress.end(counted(len(index.files), "launch file") if index is not None else "")

@@ -38,7 +38,7 @@ class Progress:
         try:
             await self._server.window_work_done_progress_create_async(types.WorkDoneProgressCreateParams(self.token))
         except (Exception, asyncio.CancelledError) as error:
-            _log.info("no progress is shown: %s", error)
+            _log.info("the client shows no progress: %s", error)
             return
         if not self._ended:
             self._shown = True

@@ -96,7 +96,7 @@ class Snapshot:
                 ask = workspace.static if is_new_and_large else workspace.analysed
                 asked[root] = ask(root.path, args)
             except Exception:
-                _log.exception("the analysis of %s broke; its findings are left as they are", root)
+                _log.exception("the analysis of %s failed; its findings are unchanged", root)
             else:
                 preliminary |= is_new_and_large
         if self.before is not None and self.only_news and self._is_known(asked, self.before):

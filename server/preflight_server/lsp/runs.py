@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 _log = logging.getLogger(__name__)
 
-SWITCHED_OFF = "running nodes is switched off in the settings (rosPreflight.runNodes)"
-NOT_TRUSTED = "the workspace is not trusted; trust it to have its nodes run in the sandbox"
+SWITCHED_OFF = "the setting rosPreflight.runNodes is off"
+NOT_TRUSTED = "the workspace is not trusted; trust it to run its nodes in the sandbox"
 CANCELLED = "the runs were cancelled; save the file to start them again"
 NotRunSince = Literal["off", "untrusted", "cancelled", "sandbox"]
 _KINDS: Mapping[str, NotRunSince] = {SWITCHED_OFF: "off", NOT_TRUSTED: "untrusted", CANCELLED: "cancelled"}

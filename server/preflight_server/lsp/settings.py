@@ -14,21 +14,21 @@ SCHEMA: Mapping[str, Mapping[str, Any]] = {
     "runNodes": {
         "type": "boolean",
         "default": True,
-        "description": "Run the nodes and the commands of parameters (xacro) of launch files in the sandbox, to see "
-        "what they publish, subscribe to, read and print, once the workspace is trusted.",
+        "description": "Run nodes, Python launch files and parameter commands (xacro) in the sandbox, in a trusted "
+        "workspace. The runs show what nodes publish, subscribe to and read.",
     },
     "inlayHints": {
         "type": "boolean",
         "default": True,
-        "markdownDescription": "Show behind values with substitutions what they resolve to. "
+        "markdownDescription": "Show the resolved value after each value with substitutions. "
         "`#editor.inlayHints.enabled#` switches the hints of all languages.",
     },
     "packagePath": {
         "type": ["array", "null"],
         "items": {"type": "string"},
         "default": None,
-        "markdownDescription": "Look for ROS packages in these folders, in this order, and nowhere else. Left out, "
-        "they are found as ROS finds them: in the workspace, on `ROS_PACKAGE_PATH` and in the installed distributions.",
+        "markdownDescription": "Search ROS packages in these folders only, in this order. By default they are found "
+        "as ROS finds them: in the workspace, on `ROS_PACKAGE_PATH` and in the installed distributions.",
     },
 }
 """What `Settings.read` reads, in the words of VS Code: `contribution.py` writes it into the extension's manifest."""
@@ -56,7 +56,7 @@ class Settings:
             _log.warning("rosPreflight.runNodes must be true or false; nothing is run")
             run = False
         if not isinstance(hints, bool):
-            _log.warning("rosPreflight.inlayHints must be true or false; hints are shown")
+            _log.warning("rosPreflight.inlayHints must be true or false; hints stay on")
             hints = True
         return cls(tuple(path) if path else None, run, hints)
 

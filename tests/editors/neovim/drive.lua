@@ -180,7 +180,7 @@ function scenarios.root()
   end
   local before = wait_for('lenses', function()
     local found = titles()
-    return table.concat(found, ' '):find('includers', 1, true) and #found == 3 and found
+    return table.concat(found, ' '):find('included by', 1, true) and #found == 3 and found
   end)
   local result = { before = before }
   vim.ui.select = function(items, opts, on_choice)

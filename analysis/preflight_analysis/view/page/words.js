@@ -27,12 +27,12 @@ const DOES = {
 
 /** @type {[Role, string][]} */
 const SECTIONS = [
-  ["publisher", "Publishes"],
-  ["subscriber", "Subscribes to"],
-  ["service", "Services"],
-  ["client", "Calls"],
-  ["action_server", "Actions"],
-  ["action_client", "Client of actions"],
+  ["publisher", "Publishers"],
+  ["subscriber", "Subscribers"],
+  ["service", "Service servers"],
+  ["client", "Service clients"],
+  ["action_server", "Action servers"],
+  ["action_client", "Action clients"],
 ];
 
 const ENDPOINTS = {
@@ -62,7 +62,7 @@ const KNOWN_BY = { similar: "a similar run", catalogue: "the catalogue" };
 function nodeShown(node) {
   const what = [node.package, node.executable].filter(Boolean).join("/");
   const how =
-    node.source === "none" ? "what it does is not known" : `known by ${KNOWN_BY[node.source] ?? `its ${node.source}`}`;
+    node.source === "none" ? "unknown interface" : `interface from ${KNOWN_BY[node.source] ?? `its ${node.source}`}`;
   return [
     make("p", { className: "dim" }, `${node.kind} ${what}, from ${state.graph.files[node.file].shown}`),
     make("p", { className: "dim" }, `${how}; ${node.outcome}${node.reason ? `: ${node.reason}` : ""}`),
@@ -72,10 +72,10 @@ function nodeShown(node) {
 /** @param {Edge} edge */
 const edgeShown = (edge) =>
   [
-    edge.type ?? "type not known",
+    edge.type ?? "unknown type",
     qosShown(edge.qos),
     edge.from && `remapped from ${edge.from}`,
-    edge.uncertain && "not sure",
+    edge.uncertain && "uncertain",
   ]
     .filter(Boolean)
     .join(" · ");
@@ -191,7 +191,7 @@ export function detail(item, on) {
   } else {
     const channel = channelOf(item);
     const [first, second] = ENDPOINTS[channel.kind];
-    const from = channel.external ? ", used from outside of the launch" : "";
+    const from = channel.external ? ", used outside of the launch" : "";
     parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${from}`), alone);
     parts.push(...channel.types.map((type) => make("p", {}, type)), ...findingsShown(channel.findings));
     for (const [title, isFirst] of /** @type {[string, boolean][]} */ ([

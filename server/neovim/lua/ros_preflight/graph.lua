@@ -62,7 +62,7 @@ local function edge_row(graph, channel, edge, called, id)
     say('from ' .. edge.from, 'Remap')
   end
   if edge.uncertain then
-    say('perhaps', 'Quiet')
+    say('uncertain', 'Quiet')
   end
   local policies = qos(edge)
   if policies ~= '' then
@@ -91,7 +91,7 @@ local function channel_rows(shown, rows, graph, channel, edges)
   local function say(text, group)
     table.insert(head, { '  ' .. text, group })
   end
-  say(#channel.types > 0 and table.concat(channel.types, ', ') or 'of a type that is not known', 'Type')
+  say(#channel.types > 0 and table.concat(channel.types, ', ') or 'unknown type', 'Type')
   local row = { id = id, chunks = head, folds = folds }
   local below = {}
   for _, side in ipairs(ENDS[channel.kind]) do
@@ -110,7 +110,7 @@ local function channel_rows(shown, rows, graph, channel, edges)
     end
   end
   if channel.external then
-    say('used from outside', 'Quiet')
+    say('used outside of the launch', 'Quiet')
   end
   table.insert(rows, row)
   if folds then
@@ -135,7 +135,7 @@ local function unknown_rows(rows, graph)
   if #found == 0 then
     return
   end
-  table.insert(rows, { id = '#unknown', chunks = { { 'Nodes of which nothing is known', 'Section' } } })
+  table.insert(rows, { id = '#unknown', chunks = { { 'Nodes with an unknown interface', 'Section' } } })
   for _, node in ipairs(found) do
     local chunks = { { '  ' .. node.name, 'Namespace' } }
     if node.reason then
@@ -158,7 +158,7 @@ function KIND.ask(shown, server, done)
   client.request(server, 'rosPreflight/graph', params, shown.source, function(answer, err)
     shown.encoding = 'utf-32'
     if not answer then
-      return done(nil, err or 'This is no launch file, or it cannot be read')
+      return done(nil, err or 'Not a launch file, or unreadable')
     end
     shown.digest, shown.builtin = answer.digest, builtin
     done(answer.graph)

@@ -34,7 +34,7 @@ function M.trace(args)
   if not args.bang then
     local is_view = bufnr ~= vim.api.nvim_get_current_buf()
     if is_view and not (row and row.node) then
-      return client.warn('no node is in this line')
+      return client.warn('no node starts on this line')
     end
     params.node = row and row.node
     params.position = not is_view and position_in_text(server) or nil

@@ -93,7 +93,7 @@ local KIND = {
 function KIND.ask(shown, server, done)
   client.request(server, 'rosPreflight/tree', { uri = shown.uri }, shown.source, function(tree, err)
     shown.encoding = server.offset_encoding
-    done(tree, err or (tree == nil and 'This is no launch file, or it cannot be read' or nil))
+    done(tree, err or (tree == nil and 'Not a launch file, or unreadable' or nil))
   end)
 end
 

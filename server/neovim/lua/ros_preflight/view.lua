@@ -117,11 +117,11 @@ local function header(view)
   end
   local status = M.status(view)
   if status.state == 'tracing' then
-    say(('Nodes are being run: %d of %d'):format(status.done, status.total), 'Info')
+    say(('Running nodes: %d of %d'):format(status.done, status.total), 'Info')
   elseif status.notRun then
     say('Nodes are not run: ' .. status.notRun.message, 'Warning')
   elseif client.broken(status) then
-    say(('Syntax error in %s: what it touches is not run'):format(client.broken(status)), 'Warning')
+    say(('Syntax error in %s: nodes that it affects are not run'):format(client.broken(status)), 'Warning')
   end
   for _, line in ipairs(client.missing(status)) do
     say('Missing on this machine: ' .. line, 'Quiet')
@@ -186,7 +186,7 @@ end
 
 local function go(view, location, encoding)
   if not location then
-    return vim.api.nvim_echo({ { 'No line of a file made this', 'WarningMsg' } }, false, {})
+    return vim.api.nvim_echo({ { 'No line of a file created this', 'WarningMsg' } }, false, {})
   end
   local window = window_for_files(view)
   if window then

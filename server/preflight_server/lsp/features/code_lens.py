@@ -32,7 +32,9 @@ def _titles(found: Lenses, context: QueryContext) -> tuple[str, str, str]:
     path = "this file" if found.root.path == context.path else context.shown(found.root.path)
     if found.root.path != context.path and os.path.dirname(path) == os.path.dirname(context.shown(context.path)):
         path = os.path.basename(path)
-    return counted(len(found.includers), "includer"), nodes, f"launched by {' '.join(filter(None, (path, given)))}"
+    includers = len(found.includers)
+    included = f"included by {counted(includers, 'file')}" if includers else "not included by any file"
+    return included, nodes, f"launched by {' '.join(filter(None, (path, given)))}"
 
 
 def register(server: PreflightServer) -> None:

@@ -41,7 +41,7 @@ async def _register(ls: PreflightServer) -> None:
         try:
             await ls.client_register_capability_async(types.RegistrationParams(registrations))
         except (Exception, asyncio.CancelledError) as error:
-            _log.info("the client tells no changes of files or settings: %s", error)
+            _log.info("the client does not report changes of files or settings: %s", error)
 
 
 def register(server: PreflightServer) -> None:

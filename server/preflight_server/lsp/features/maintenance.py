@@ -53,10 +53,10 @@ def register(server: PreflightServer) -> None:
         given = as_mapping(params)
         view = await ls.view_of(str(given.get("uri", "")), python=True)
         if view is None:
-            return {"nodes": [], "message": "this is no launch file, or it cannot be read"}
+            return {"nodes": [], "message": "not a launch file, or unreadable"}
         names = _named(view, given)
         if names is not None and not names.intersection(node.name for node in view.analysis.tree.nodes):
-            return {"nodes": [], "message": "no node is started here"}
+            return {"nodes": [], "message": "no node starts on this line"}
         nodes = view.session.runs.again(view.analysis, names)
         ls.status.send()
         return {"nodes": nodes, "message": view.session.runs.why_not_run}

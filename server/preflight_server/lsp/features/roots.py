@@ -58,9 +58,9 @@ def register(server: PreflightServer) -> None:
         uri = str(given.get("uri", ""))
         path, session = to_path(uri), ls.session_of(uri)
         if session is None or path is None:
-            return {"shown": None, "message": "there is no such file"}
+            return {"shown": None, "message": "the file does not exist"}
         wanted = given.get("root")
         root = _from_json(wanted)
-        message = await session.select(path, root) if wanted is None or root else "the root is no file"
+        message = await session.select(path, root) if wanted is None or root else "the root is not a file"
         shown = next(iter(session.choice.of(path)), None)
         return {"shown": _to_json(session, shown) if shown is not None else None, "message": message}

@@ -10,7 +10,7 @@ from preflight_server.lsp.settings import as_mapping
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
-_NOT_TRUSTED = "the workspace is not trusted; trust it to have the running system watched"
+_NOT_TRUSTED = "the workspace is not trusted; trust it to watch the running system"
 
 
 def register(server: PreflightServer) -> None:
@@ -24,7 +24,7 @@ def register(server: PreflightServer) -> None:
             return {"watching": False, "message": None}
         view = await ls.view_of(str(given.get("uri", "")), python=True)
         if view is None:
-            return {"watching": False, "message": "this is no launch file, or it cannot be read"}
+            return {"watching": False, "message": "not a launch file, or unreadable"}
         if not view.session.runs.trusted:
             return {"watching": False, "message": _NOT_TRUSTED}
         ls.live.start(view.session, view.analysis)

@@ -50,7 +50,7 @@ async def own_settings(ls: PreflightServer) -> None:
     try:
         _, *answers = await _asked(ls, sessions)
     except (Exception, asyncio.CancelledError) as error:
-        _log.info("the settings of the folders are not known: %s", error)
+        _log.info("the settings of the folders are unknown: %s", error)
         return
     for session, own in zip(sessions, answers, strict=True):
         if own is not None:
