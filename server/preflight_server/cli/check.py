@@ -42,9 +42,9 @@ FORMATS = ("text", "json", "sarif", "junit", "github", "gitlab")
 
 DESCRIPTION = """Find problems in launch files and in everything that they include. Without FILE, check the root
 launch files of the current folder: those that no other file includes, and those that .ros-preflight.yaml names. The
-command runs nodes and parameter commands in a sandbox, without network and without write access to your files. Calling
-it is your consent. The runs show what nodes publish, subscribe to and read. With --no-run nothing is executed, and findings that need a run are
-missing."""
+command runs nodes and parameter commands in a sandbox, without network and without write access to your files.
+Calling it is your consent. The runs show what nodes publish, subscribe to and read. With --no-run nothing is
+executed, and findings that need a run are missing."""
 
 
 @dataclass(frozen=True, slots=True)
