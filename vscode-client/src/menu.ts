@@ -44,7 +44,11 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
         description: "compare it with the launch file",
         command: "rosPreflight.watch",
       },
-      { label: "$(type-hierarchy) Show Graph", description: "topics, services and actions between nodes", command: "rosPreflight.showGraph" },
+      {
+        label: "$(type-hierarchy) Show Graph",
+        description: "topics, services and actions between nodes",
+        command: "rosPreflight.showGraph",
+      },
     ],
   ],
   [

@@ -10,12 +10,7 @@ local function command(name, module, act, options)
   end, options)
 end
 
-command(
-  'RosPreflightRoot',
-  'roots',
-  'select',
-  { desc = 'Choose the root launch file and its arguments' }
-)
+command('RosPreflightRoot', 'roots', 'select', { desc = 'Choose the root launch file and its arguments' })
 command('RosPreflightTree', 'tree', 'open', { desc = 'Show the tree of the launch' })
 command(
   'RosPreflightGraph',
