@@ -44,7 +44,7 @@ function sentences(text) {
   return split(text).filter((each) => each.type === "Sentence");
 }
 
-/** Whether a text may have longer sentences: `longer` of terms.json lists these files. */
+/** Whether a text may have longer sentences: `longer` of terms.json lists these files and folders. */
 let isLonger = false;
 
 function rule({ Syntax, RuleError, report }) {
@@ -81,7 +81,7 @@ for (const path of process.argv.slice(2)) {
   const isList = path === "-";
   const texts = isList ? JSON.parse(readFileSync(0, "utf8")) : [{ place: path, text: readFileSync(path, "utf8") }];
   for (const { place, text } of texts) {
-    isLonger = longer.includes(place);
+    isLonger = longer.some((each) => place.startsWith(each));
     for (const { loc, message } of await findings(text)) {
       console.error(`${place}${isList ? "" : `:${loc.start.line}:${loc.start.column}`}: ${message}`);
       process.exitCode = 1;

@@ -83,7 +83,7 @@ async def test_without_trust_nothing_is_watched(harness: Harness, system: Ros1Sy
         await editor.until(lambda: editor.live and editor.live[-1].event == "waiting")
         editor.trust(False)
         await editor.until(lambda: editor.live[-1].event == "stopped")
-        assert "not trusted" in editor.live[-1].reason
+        assert "no longer trusted" in editor.live[-1].reason
 
 
 async def test_what_is_no_launch_file_is_not_watched(harness: Harness) -> None:

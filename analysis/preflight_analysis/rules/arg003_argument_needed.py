@@ -10,7 +10,7 @@ RULE = Rule(
     name="argument-needed",
     severity="info",
     what="Checks for a launch file that requires an argument on the command line.",
-    why="Some files are meant to be used in this way, so this is no error. What depends on the value is unresolved "
+    why="Some files are meant to be used in this way, so this is not an error. What depends on the value is unresolved "
     "until the argument is given.",
     example='<arg name="robot"/>',
     instead='<arg name="robot" default="turtle"/>',

@@ -42,7 +42,7 @@ RULE = Rule(
     what="Checks for an `<arg>` in an `<include>` that the included file does not declare. The finding names the "
     "nearest declared argument. In ROS 2 there is no finding if an include that is not taken may use the argument. "
     "For a package that is not installed the catalogue knows the launch files of one version. An argument that is "
-    "no typo of those is information, because another version may declare it.",
+    "not a typo of those is information, because another version may declare it.",
     why="`roslaunch` stops with `unused args`. `ros2 launch` reports nothing, and the included file uses its default.",
     example='<include file="camera.launch">\n  <arg name="frame" value="front"/>\n</include>',
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',

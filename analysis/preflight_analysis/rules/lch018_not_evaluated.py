@@ -49,7 +49,7 @@ RULE = Rule(
     "an entity of a DOCTYPE, and endless includes and groups. A command that was not run is a hint. Commands run in "
     "the sandbox if the workspace is trusted.",
     why="Values that depend on it are unresolved, and nodes that need them are not run. Findings that need the "
-    "values are missing. It is no error of the file.",
+    "values are missing. It is not an error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',
     instead='<param name="letters" value="$(eval list(name))"/>',
     references=(

@@ -139,8 +139,8 @@ RULE = Rule(
     id="LCH034",
     name="container-not-found",
     severity="warning",
-    what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is no node of the launch (ROS "
-    "2). In ROS 1 it checks for a nodelet whose manager is no nodelet manager. The finding is a warning in three "
+    what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is not a node of the launch (ROS "
+    "2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager. The finding is a warning in three "
     "cases: a container of that name is in another namespace, a container has a similar name, or a single container "
     "has no components. It is information if two or more other launch files of the package load into a container of "
     "a similar name. Otherwise it is a hint, because another launch may start the container.",

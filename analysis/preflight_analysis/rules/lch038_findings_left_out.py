@@ -28,7 +28,7 @@ RULE = Rule(
     name="findings-left-out",
     severity="warning",
     what=f"Checks for files with more than {MAX_FINDINGS:,} findings, and counts those that are not shown. The most "
-    "severe findings are shown. The severity is that of the most severe finding that is not shown.",
+    "severe findings are reported. The severity is that of the most severe finding that is not reported.",
     why="A faulty program, or an attack on the editor, makes a file with so many findings. Showing them takes "
     "longer than finding them.",
     example="<launch>\n  <!-- ten thousand unknown tags -->\n</launch>",

@@ -144,7 +144,7 @@ RULE = Rule(
     id="PKG002",
     name="executable-not-found",
     severity="error",
-    what="Checks for a node whose `type` (ROS 2: `exec`) is no executable file of its package. The finding names "
+    what="Checks for a node whose `type` (ROS 2: `exec`) is not an executable file of its package. The finding names "
     "the nearest executable, or the package of the launch that has it. It also checks for a file without the "
     "permission to execute it: a warning, if `install(PROGRAMS)` installs the file with it. An executable that a "
     "`CMakeLists.txt` of the package names is not built yet: this is a hint.",

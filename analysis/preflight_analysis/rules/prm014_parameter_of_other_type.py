@@ -117,7 +117,7 @@ RULE = Rule(
     id="PRM014",
     name="parameter-of-other-type",
     severity="error",
-    what="Checks for a parameter whose type differs from the type that its node declares. An integer is no double, "
+    what="Checks for a parameter whose type differs from the type that its node declares. An integer is not a double, "
     "and an empty list has no type. A text of the launch file may arrive with another type. launch writes it to a "
     "YAML file, with quotes only where Python's YAML needs them. rcl also reads `y`, `n` and `1e3` as values. Each "
     "node declares `use_sim_time` as a bool.",

@@ -39,7 +39,7 @@ _FAMILIES = {
 _IN_BRANCHES = (
     "\n\nTags under a false condition are checked too. The finding names the arguments that make the condition true."
 )
-_EVERY_ROOT = "\n\nIn a file that other files include, the finding is shown only if it applies in every root."
+_EVERY_ROOT = "\n\nIn a file that other files include, the finding is reported only if it applies in every root."
 _GENERATED = f"<!-- Written by `{COMMAND}`. Do not edit: the text is in the rule's file. -->\n"
 _ROS_VERSIONS = {(1, 2): "ROS 1 and ROS 2.", (1,): "ROS 1.", (2,): "ROS 2."}
 _SETTINGS = {

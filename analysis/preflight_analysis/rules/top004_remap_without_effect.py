@@ -85,7 +85,7 @@ RULE = Rule(
     id="TOP004",
     name="remap-without-effect",
     severity="warning",
-    what="Checks for a remap whose `from` is no topic, service or parameter of its nodes. All of these nodes were "
+    what="Checks for a remap whose `from` is not a topic, service or parameter of its nodes. All of these nodes were "
     "run up to their event loop, or static analysis describes them completely. The finding is a warning if a node "
     "has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`. It is information "
     "if only the catalogue knows the node and no argument decides what it does, and a warning if `from` is also in a "

@@ -36,7 +36,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     failures = context.kept.each(_failed, processes)
     for node, interface in compress(zip(context.tree.nodes, processes, strict=True), failures):
         outcome, lost = interface.outcome, context.once(_LostParams)
-        # After a made-up answer of ours, or without a value that we did not compute, the crash may be our own doing.
+        # After a mock reply of ours, or without a value that we did not compute, the crash may be our own doing.
         reads = [read for read in context.graph.param_reads if read.node is node]
         lacking = next(filter(None, map(lost.why, reads)), None)
         lacking = lacking or next((why for read in reads if (why := lost.possible_cause(read, outcome))), None)
@@ -177,7 +177,7 @@ RULE = Rule(
     severity="warning",
     what="Checks for a node that exits with an error before its event loop. The finding quotes the line of its "
     "standard error that gives the cause. It is information if the cause may be outside of the launch file. Such "
-    "causes are: a made-up answer that the node received, a parameter that PRM001, PRM010, PRM014 or PRM017 "
+    "causes are: a mock reply that the node received, a parameter that PRM001, PRM010, PRM014 or PRM017 "
     "reports, a value that is an error of its own, and a missing `robot_description`. Other such causes are a top "
     "folder that this machine lacks (`/ws/src/...` of a container), the home folder of another user, a disk that is "
     "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "

@@ -28,7 +28,7 @@ RULE = Rule(
     severity="info",
     what="Checks for a node that is still starting when its time is up.",
     why="Only what it did until then is known: it may have more topics, services and parameters. A node that waits "
-    "for another one gets a made-up answer: a service, a message, an action server, a transform, a parameter or "
+    "for another one gets a mock reply: a service, a message, an action server, a transform, a parameter or "
     "simulated time. This node waits for something that no answer in the sandbox satisfies. The finding names it if "
     "the node was seen to request it.",
     example="while not ready():  # for hardware, say\n    time.sleep(1)\npub = rospy.Publisher('state', String)",
