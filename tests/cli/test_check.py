@@ -181,7 +181,7 @@ def test_what_is_wrong_with_the_settings_is_a_finding(harness: Harness, prefligh
     fixed = harness.launch_file.with_name("fixed.launch")
     done = preflight("check", fixed, "--no-run", "--fail-on", "warning")
     assert done.code == 1
-    assert ".ros-preflight.yaml:2:3: warning LCH031 settings-file: in the settings: 'topic' does not" in done.out
+    assert ".ros-preflight.yaml:2:3: warning LCH031 settings-file: unknown key 'topic'" in done.out
     assert "  2 |   topic: [/a]\n    |   ^^^^^^^^^^^\n" in done.out
     assert preflight("check", fixed, "--no-run").code == 0, "a warning is below the default --fail-on"
     (finding,) = [

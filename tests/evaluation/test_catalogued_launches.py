@@ -100,10 +100,10 @@ def test_what_is_passed_in_ros1_is_checked(tmp_path: Path, distro: str | None, s
     analysis = analysed(tmp_path, include("scan.launch", "raet"), distro=distro)
     assert said(analysis) == [("ARG002", *sure), ("ARG004", *sure)]
     messages = [finding.message for finding in analysis.findings if finding.rule.startswith("ARG")]
-    where = "by the catalogue of noetic (makers/scanner at 0123456)"
+    where = "(from the catalogue of noetic, makers/scanner at 0123456)"
     assert messages == [
-        f"'scanner/launch/scan.launch' requires argument 'rate', which is not passed; it passes 'raet', {where}",
-        f"'scanner/launch/scan.launch' declares no argument 'raet'; did you mean 'rate'?, {where}",
+        f"required argument 'rate' of 'scanner/launch/scan.launch' is not passed; the include passes 'raet' {where}",
+        f"argument 'raet' is not declared by 'scanner/launch/scan.launch'; did you mean 'rate'? {where}",
     ]
 
 

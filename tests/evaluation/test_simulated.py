@@ -97,7 +97,7 @@ def test_a_slip_in_the_parameters_of_a_controller(tmp_path: Path) -> None:
     analysis = analysed(tmp_path, "<parameters>@/c.yaml</parameters>", **{"c.yaml": controllers})
     messages = [finding.message for finding in analysis.findings if finding.rule == "PRM013"]
     assert messages == [
-        "/base declares no parameter 'wheel_raduis': its value is ignored; did you mean 'wheel_radius'?"
+        "parameter 'wheel_raduis' is not declared by /base; its value is ignored; did you mean 'wheel_radius'?"
     ]
 
 

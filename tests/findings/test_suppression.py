@@ -10,7 +10,7 @@ def test_on_the_line_and_on_the_line_above() -> None:
           <ours/>
           <ours/> <!-- preflight: ignore[LCH004] -->
           <ours/>
-           ^^^^ warning[LCH004] <ours> is not known
+           ^^^^ warning[LCH004] unknown element <ours> in <launch>; roslaunch skips it
         </launch>
     """)
 
@@ -39,7 +39,7 @@ def test_an_unused_one_is_a_finding() -> None:
     check("""
         <launch>
           <!-- preflight: ignore[LCH004, ARG001] -->
-                                         ^^^^^^ warning[LCH019] no finding of ARG001 is silenced here
+                                         ^^^^^^ warning[LCH019] unused suppression of 'ARG001': it has no finding here
           <ours/>
         </launch>
     """)
@@ -54,9 +54,7 @@ def test_a_rule_that_needs_the_graph_is_judged_only_with_one() -> None:
         </launch>
     """
     silent = text.replace("          UNUSED\n", "")
-    unused = text.replace(
-        "UNUSED", "                       ^^^^^^ warning[LCH019] no finding of TOP001 is silenced here"
-    )
+    unused = text.replace("UNUSED", "                       ^^^^^^ warning[LCH019] unused suppression of 'TOP001'")
     check(silent)
     check(silent + '    //- interfaces\n        {"/n": {"subscribers": {"scan": "x/Y"}}}')
     check(unused + '    //- interfaces\n        {"/n": {}}')
@@ -68,7 +66,7 @@ def test_no_rule_and_an_unknown_rule() -> None:
           <!-- preflight: ignore -->
                ^^^^^^^^^^^^^^^^^ warning[LCH019] names no rule
           <!-- preflight: ignore[top01] -->
-                                 ^^^^^ warning[LCH019] there is no rule 'top01'; did you mean 'TOP001'?
+                                 ^^^^^ warning[LCH019] unknown rule 'top01'; did you mean 'TOP001'?
         </launch>
     """
     _, unknown = check(text)
@@ -79,13 +77,13 @@ def test_a_comment_in_an_included_file_counts_there_only() -> None:
     check("""
         <launch>
           <!-- preflight: ignore[LCH004] -->
-                                 ^^^^^^ warning[LCH019] no finding of LCH004
+                                 ^^^^^^ warning[LCH019] unused suppression of 'LCH004': it has no finding here
           <include file="/inc.launch"/>
         </launch>
         //- /inc.launch
         <launch>
           <ours/>
-           ^^^^ warning[LCH004] <ours> is not known
+           ^^^^ warning[LCH004] unknown element <ours> in <launch>; roslaunch skips it
         </launch>
     """)
 
@@ -94,6 +92,6 @@ def test_a_finding_cannot_be_silenced_by_text_that_is_no_comment() -> None:
     check("""
         <launch>
           <param name="a" value="preflight: ignore[LCH004]"/> <ours/>
-                                                               ^^^^ warning[LCH004] <ours> is not known
+                                                               ^^^^ warning[LCH004] unknown element <ours> in
         </launch>
     """)

@@ -54,14 +54,18 @@ def test_elements_and_comments_say_the_same(form: str) -> None:
 @pytest.mark.parametrize(
     ("inside", "underlined", "message"),
     [
-        ('<topics><topic type="x/Y" class="pub"/></topics>', '<topic type="x/Y" class="pub"/>', "needs a name"),
-        ('<topics><topic name="a b" class="pub"/></topics>', "a b", "not a name"),
+        (
+            '<topics><topic type="x/Y" class="pub"/></topics>',
+            '<topic type="x/Y" class="pub"/>',
+            "required attribute 'name'",
+        ),
+        ('<topics><topic name="a b" class="pub"/></topics>', "a b", "invalid name"),
         ('<topics><topic name="$(arg t)" class="pub"/></topics>', "$(arg t)", "substitutions are not evaluated"),
         ('<topics><topic name="a" class="out"/></topics>', "out", "allowed: pub, sub"),
-        ('<topics><topic name="a"/></topics>', '<topic name="a"/>', "needs a class"),
+        ('<topics><topic name="a"/></topics>', '<topic name="a"/>', "required attribute 'class'"),
         ('<topics><topic name="a" type="String" class="pub"/></topics>', "String", "package/Name"),
-        ('<topics><topic name="a" class="pub" qos="1"/></topics>', "1", "'qos' is not read here"),
-        ('<topics><service name="a" class="server"/></topics>', "service", "holds <topic>"),
+        ('<topics><topic name="a" class="pub" qos="1"/></topics>', "1", "unknown attribute 'qos'"),
+        ('<topics><service name="a" class="server"/></topics>', "service", "expected <topic>"),
     ],
 )
 @pytest.mark.parametrize("comment", [False, True])
@@ -188,7 +192,7 @@ def test_the_template_has_one_of_each_to_fill_in() -> None:
     read, problems = read_annotation(node_action(f'<launch><node pkg="p" type="t" name="n">{text}</node></launch>'))
     assert read is not None
     assert read.endpoints == ()
-    assert "needs a name" in problems[0].message
+    assert "required attribute 'name'" in problems[0].message
 
 
 @pytest.mark.parametrize("name", ["a--b", "--", "---", "a-->b", "x\ny", "<!--", "é\x1b"])

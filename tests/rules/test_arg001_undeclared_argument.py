@@ -32,11 +32,11 @@ def test_an_argument_is_not_known_before_its_declaration() -> None:
     findings = check("""
         <launch>
           <param name="a" value="$(arg b)"/>
-                                 ^^^^^^^^ error[ARG001] argument 'b' is not declared before this place
+                                 ^^^^^^^^ error[ARG001] argument 'b' is not declared before this line
           <arg name="b" default="1"/>
           <group><arg name="c" value="1"/><param name="d" value="$(arg c)"/></group>
           <param name="e" value="$(arg c)"/>
-                                 ^^^^^^^^ error[ARG001] argument 'c' is not declared here, but in another <group>
+                                 ^^^^^^^^ error[ARG001] argument 'c' is not declared in this scope: another <group> or
         </launch>
     """)
     assert [finding.related[0].message for finding in findings] == ["declared here"] * 2
@@ -47,7 +47,7 @@ def test_an_argument_is_declared_by_a_fix() -> None:
     text = """
         <launch>
           <param name="a" value="$(arg rate)"/>
-                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared: roslaunch
+                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared; only the command line can
         </launch>
     """
     (finding,) = check(text)
@@ -62,7 +62,7 @@ def test_what_is_made_to_be_included_may_use_what_is_configured_there() -> None:
           <arg name="robot"/>
           ^^^^^^^^^^^^^^^^^^^ info[ARG003] argument 'robot' has no default
           <node pkg="p" exec="x" name="a" namespace="$(var site)"/>
-                                                     ^^^^^^^^^^^ info[ARG001] another launch file that includes this one
+                                                     ^^^^^^^^^^^ info[ARG001] argument 'site' is not declared; the
           <node pkg="p" exec="x" name="b" namespace="$(var robto)"/>
                                                      ^^^^^^^^^^^^ error[ARG001] did you mean 'robot'?
         </launch>
@@ -79,9 +79,9 @@ def test_an_argument_that_a_file_which_cannot_be_read_may_set() -> None:
             <include file="/gone.launch.xml"/>
                            ^^^^^^^^^^^^^^^^ error[LCH013]
             <log message="$(var lidar)"/>
-                          ^^^^^^^^^^^^ hint[ARG001] nothing that could be read declares argument 'lidar'
+                          ^^^^^^^^^^^^ hint[ARG001] argument 'lidar' is not declared, unless the unresolved include
             <log message="$(var camra)"/>
-                          ^^^^^^^^^^^^ warning[ARG001] declares argument 'camra'; did you mean 'camera'?
+                          ^^^^^^^^^^^^ warning[ARG001] argument 'camra' is not declared, unless the unresolved include
           </group>
           <log message="$(var lidar)"/>
                         ^^^^^^^^^^^^ error[ARG001] argument 'lidar' is not declared
@@ -131,7 +131,7 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
         <launch>
           <arg name="map_file" default="1"/>
           <param name="b" value="$(arg file)"/>
-                                 ^^^^^^^^^^^ error[ARG001] argument 'file' is not declared: roslaunch takes it
+                                 ^^^^^^^^^^^ error[ARG001] argument 'file' is not declared; only the command line can
           <param name="c" value="$(arg mapfile)"/>
                                  ^^^^^^^^^^^^^^ error[ARG001] 'mapfile' is not declared; did you mean 'map_file'?
           <include file="/part.launch" pass_all_args="true"/>
@@ -139,7 +139,7 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
         </launch>
         //- /part.launch
         <launch><param name="d" value="$(arg size)"/></launch>
-                                       ^^^^^^^^^^^ error[ARG001] from the command line alone (size:=...)
+                                       ^^^^^^^^^^^ error[ARG001] argument 'size' is not declared; only the command
         //- /other.launch
         <launch><param name="e" value="$(arg size)"/></launch>
                                        ^^^^^^^^^^^ error[ARG001] argument 'size' is not declared
@@ -166,7 +166,7 @@ def test_the_command_line_chooses_what_is_declared() -> None:
           <arg name="first" default="false"/>
           <arg name="model" value="1" if="$(arg first)"/>
           <param name="a" value="$(arg model)"/>
-                                 ^^^^^^^^^^^^ {}[ARG001] under a condition
+                                 ^^^^^^^^^^^^ {}[ARG001] argument 'model' is not declared in this scope
         </launch>
     """
     check(mode.format("info"))
@@ -179,7 +179,7 @@ def test_the_command_line_chooses_what_is_declared() -> None:
           <arg name="mass" value="1" if="$(eval hand and kind == 'e')"/>
           <param name="version" value="2" if="$(eval kind == 'c')"/>
           <param name="a" value="$(arg mass)"/>
-                                 ^^^^^^^^^^^ error[ARG001] under a condition (if kind:=c)
+                                 ^^^^^^^^^^^ error[ARG001] argument 'mass' is not declared in this scope: another
         </launch>
         """,
         branches=True,

@@ -8,7 +8,7 @@ def test_a_required_argument_that_is_not_passed() -> None:
     check("""
         <launch>
           <include file="/inc.launch"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] '/inc.launch' requires argument 'serial', which is not passed
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] required argument 'serial' of '/inc.launch' is not passed
         </launch>
         //- /inc.launch
         <launch><arg name="serial"/><param name="a" value="$(arg serial)"/></launch>
@@ -21,7 +21,7 @@ def test_a_required_argument_is_passed_by_a_fix() -> None:
           <arg name="serial" default="7"/>
           <param name="a" value="$(arg serial)"/>
           <include file="/inc.launch"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] '/inc.launch' requires argument 'serial', which is not passed
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] required argument 'serial' of '/inc.launch' is not passed
         </launch>
         //- /inc.launch
         <launch><arg name="serial"/><param name="a" value="$(arg serial)"/></launch>
@@ -45,7 +45,7 @@ def test_a_required_argument_counts_only_where_the_include_passes_it() -> None:
         <launch>
           <let name="serial" value="7"/>
           <include file="/camera.launch.xml"/>
-                         ^^^^^^^^^^^^^^^^^^ error[ARG002] '/camera.launch.xml' requires argument 'serial'
+                         ^^^^^^^^^^^^^^^^^^ error[ARG002] required argument 'serial' of '/camera.launch.xml' is not
           <include file="/camera.launch.xml"><arg name="serial" value="8"/></include>
         </launch>
         //- /camera.launch.xml
@@ -77,7 +77,7 @@ def test_what_the_command_line_can_give() -> None:
     check("""
         <launch>
           <include file="/inc.launch" pass_all_args="true"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[ARG002] which is not passed; launch with bag:=...
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[ARG002] required argument 'bag' of '/inc.launch' is
           <include file="/between.launch"/>
         </launch>
         //- /inc.launch
@@ -85,6 +85,6 @@ def test_what_the_command_line_can_give() -> None:
         //- /between.launch
         <launch>
           <include file="/inc.launch" pass_all_args="true"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] which is not passed
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[ARG002] required argument 'bag' of '/inc.launch' is
         </launch>
     """)

@@ -9,7 +9,7 @@ def test_an_argument_that_the_included_file_does_not_declare() -> None:
         <launch>
           <include file="/inc.launch">
             <arg name="frame" value="map"/>
-                       ^^^^^ error[ARG004] '/inc.launch' declares no argument 'frame'; did you mean 'frames'?
+                       ^^^^^ error[ARG004] argument 'frame' is not declared by '/inc.launch'; did you mean 'frames'?
           </include>
         </launch>
         //- /inc.launch
@@ -40,7 +40,7 @@ def test_an_argument_that_nobody_below_uses() -> None:
           <arg name="deep" default="1"/>
           <include file="/arm.launch.xml">
             <arg name="robot_address" value="10.0.0.2"/>
-                       ^^^^^^^^^^^^^ warning[ARG004] neither '/arm.launch.xml' nor what it includes declares or uses
+                       ^^^^^^^^^^^^^ warning[ARG004] argument 'robot_address' has no effect: neither '/arm.launch.xml'
             <arg name="speed" value="1"/>
             <arg name="deeper" value="2"/>
             <arg name="late" value="2"/>

@@ -9,7 +9,7 @@ def test_an_argument_declared_twice() -> None:
         <launch>
           <arg name="a" default="1"/>
           <arg name="a" default="2"/>
-                     ^ error[ARG005] argument 'a' is declared already
+                     ^ error[ARG005] duplicate argument 'a': it is declared twice
           <param name="b" value="$(arg a)"/>
         </launch>
     """)
@@ -22,7 +22,7 @@ def test_an_argument_that_is_passed_twice() -> None:
           <include file="/inc.launch">
             <arg name="a" value="1"/>
             <arg name="a" value="2"/>
-                       ^ error[ARG005] argument 'a' is passed already
+                       ^ error[ARG005] duplicate argument 'a': it is passed twice
           </include>
         </launch>
         //- /inc.launch
@@ -52,7 +52,7 @@ def test_a_second_declaration_under_a_condition() -> None:
           <arg name="side" default=""/>
           <arg name="port" default="0"/>
           <arg name="port" value="2" if="$(eval side == 'rear')"/>
-                     ^^^^ error[ARG005] argument 'port' is declared already (if side:=rear)
+                     ^^^^ error[ARG005] duplicate argument 'port': it is declared twice (if side:=rear)
           <param name="port" value="$(arg port)"/>
         </launch>
         """,

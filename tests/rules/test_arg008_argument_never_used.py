@@ -10,13 +10,13 @@ def test_an_argument_that_its_file_never_uses() -> None:
     text = """
         <launch>
           <arg name="rate" default="10"/>
-                     ^^^^ hint[ARG008] argument 'rate' is declared and never used in this file
+                     ^^^^ hint[ARG008] unused argument 'rate': no tag of this file uses it
           <!-- <param name="rate" value="$(arg rate)"/> -->
           <arg name="used" default="1"/>
           <arg name="quoted" default="2"/>
           <group if="$(eval used == 1 or arg('quoted') == 2)">
             <arg name="inner" value="1"/>
-                       ^^^^^ hint[ARG008] argument 'inner' is declared and never used in this file
+                       ^^^^^ hint[ARG008] unused argument 'inner': no tag of this file uses it
           </group>
         </launch>
     """
@@ -61,7 +61,7 @@ def test_an_argument_that_only_a_parameter_file_uses_is_used() -> None:
     check("""
         <launch>
           <arg name="rate" default="10"/>
-                     ^^^^ hint[ARG008] argument 'rate' is declared and never used
+                     ^^^^ hint[ARG008] unused argument 'rate': no tag of this file uses it
           <rosparam command="load" file="/rates.yaml"/>
         </launch>
         //- /rates.yaml
@@ -92,7 +92,7 @@ def test_an_include_that_passes_what_is_never_used() -> None:
         <launch>
           <arg name="rate"/>
           <arg name="other" default="1"/>
-                     ^^^^^ hint[ARG008] argument 'other' is declared and never used
+                     ^^^^^ hint[ARG008] unused argument 'other': no tag of this file uses it
         </launch>
     """)
 
@@ -113,9 +113,9 @@ def test_an_argument_that_is_not_passed_on() -> None:
     text = """
         <launch>
           <arg name="teleop" default="true"/>
-                     ^^^^^^ warning[ARG008] setting argument 'teleop' has no effect: it is not passed on
+                     ^^^^^^ warning[ARG008] argument 'teleop' has no effect: the include does not pass it to
           <arg name="fixed" default="1"/>
-                     ^^^^^ hint[ARG008] argument 'fixed' is declared and never used
+                     ^^^^^ hint[ARG008] unused argument 'fixed': no tag of this file uses it
           <include file="/inc.launch"/>
         </launch>
         //- /inc.launch
@@ -136,7 +136,7 @@ def test_an_argument_that_no_file_of_the_launch_uses() -> None:
         <launch>
           <arg name="rate" default="10"/>
           <arg name="speed" default="1.0"/>
-                     ^^^^^ hint[ARG008] argument 'speed' is declared and never used in this launch
+                     ^^^^^ hint[ARG008] unused argument 'speed': nothing in this launch uses it
           <arg name="in_file" default="1.0"/>
           <node pkg="p" exec="x" name="x"><param name="rate" value="$(var rate)"/></node>
           <node pkg="p" exec="y" name="y"><param from="/p.yaml" allow_substs="true"/></node>
@@ -172,7 +172,7 @@ def test_arguments_that_launch_itself_reads_are_used() -> None:
           <arg name="launch-prefix" default=""/>
           <arg name="emulate_tty" default="true"/>
           <arg name="rate" default="5"/>
-                     ^^^^ hint[ARG008] argument 'rate' is declared and never used
+                     ^^^^ hint[ARG008] unused argument 'rate': nothing in this launch uses it
           <node pkg="p" exec="e" name="n"/>
         </launch>
     """)
@@ -187,7 +187,7 @@ def test_an_argument_that_is_passed_to_a_file_which_never_uses_it_in_ros_2() -> 
           <include file="/inner.launch.xml">
             <arg name="rate" value="$(var rate)"/>
             <arg name="speed" value="$(var speed)"/>
-                       ^^^^^ warning[ARG008] 'speed' has no effect: '/inner.launch.xml' declares it and never uses it
+                       ^^^^^ warning[ARG008] argument 'speed' has no effect: '/inner.launch.xml' declares it but never
           </include>
         </launch>
         //- /inner.launch.xml
@@ -230,19 +230,19 @@ def test_an_argument_that_is_passed_and_may_be_used_further_on_in_ros_2() -> Non
     [
         (
             '"$(find p)/sensors.launch"> <arg name="camera" value="1"/> </include>',
-            "warning[ARG008] 'camera' has no effect",
+            "warning[ARG008] argument 'camera' is never used in this file",
         ),
         (
             '"$(find p)/sensors.launch"> <arg name="other" value="1"/> </include>',
-            "hint[ARG008] declared and never used",
+            "hint[ARG008] unused argument 'camera'",
         ),
         (
             '"$(arg p)/sensors.launch"> <arg name="camera" value="1"/> </include>',
-            "hint[ARG008] declared and never used",
+            "hint[ARG008] unused argument 'camera'",
         ),
         (
             '"$(find p)/more_sensors.launch"> <arg name="camera" value="1"/> </include>',
-            "hint[ARG008] declared and never",
+            "hint[ARG008] unused argument 'camera'",
         ),
     ],
 )
@@ -268,7 +268,7 @@ def test_an_argument_whose_use_is_left_out_is_for_information(left_out: str) -> 
     check(f"""
         <launch>
           <include file="/inc.launch"><arg name="rate" value="2"/></include>
-                                                 ^^^^ info[ARG008] declares it and speaks of it in a comment only
+                                                 ^^^^ info[ARG008] argument 'rate' has no effect: '/inc.launch' uses
         </launch>
         //- /inc.launch
         <launch>

@@ -10,7 +10,7 @@ def test_a_value_that_is_not_among_the_choices() -> None:
         <launch>
           <include file="/lidar.launch.yaml">
             <arg name="model" value="s1"/>
-                                     ^^ error[ARG009] 'model' cannot be 's1'; it has the choices 'a1', 's2'
+                                     ^^ error[ARG009] invalid value 's1' of argument 'model'; the choices are 'a1',
           </include>
           <include file="/lidar.launch.yaml">
             <arg name="model" value="s2"/>

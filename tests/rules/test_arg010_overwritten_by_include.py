@@ -13,7 +13,7 @@ def test_an_argument_that_an_include_overwrites() -> None:
             <arg name="name" value="front"/>
           </include>
           <node pkg="p" exec="base" name="$(var name)_base"/>
-                                          ^^^^^^^^^^^ warning[ARG010] 'name' is 'front' here, no longer 'robot'
+                                          ^^^^^^^^^^^ warning[ARG010] argument 'name' is overwritten with 'front' (was
         </launch>
         //- /camera.launch.xml
         <launch>
@@ -30,7 +30,7 @@ def test_an_argument_that_an_included_file_sets() -> None:
           - arg: {name: mode, default: slow}
           - include: {file: /arm.launch.xml}
           - node: {pkg: p, exec: base, name: $(var mode)}
-                                             ^^^^^^^^^^^ warning[ARG010] 'mode' is 'fast' here, no longer 'slow'
+                                             ^^^^^^^^^^^ warning[ARG010] argument 'mode' is overwritten with 'fast'
         //- /arm.launch.xml
         <launch>
           <let name="mode" value="fast"/>

@@ -7,7 +7,7 @@ from support.check import check
 def test_an_argument_of_the_command_line_that_nothing_asks_for() -> None:
     fixture = """
         <launch>
-         ^^^^^^ warning[ARG011] given 'cammera', and nothing in it declares that argument; did you mean 'camera'?
+         ^^^^^^ warning[ARG011] unknown argument 'cammera': no file of this launch declares it; did you mean 'camera'?
           <arg name="camera" default="true"/>
           <arg name="sim" default="false"/>
           <group if="$(arg sim)"><arg name="lidar" default="true"/><param name="a" value="$(arg lidar)"/></group>
@@ -36,7 +36,7 @@ def test_an_argument_of_a_ros_2_launch_that_nothing_asks_for() -> None:
     fixture = """
         //- /robot.launch.xml
         <launch>
-         ^^^^^^ warning[ARG011] given 'cammera', and nothing in it declares that argument; did you mean 'camera'?
+         ^^^^^^ warning[ARG011] unknown argument 'cammera': no file of this launch declares it; did you mean 'camera'?
           <include file="/camera.launch.xml"/>
           <log message="$(var mode)"/>
         </launch>

@@ -7,7 +7,7 @@ from support.check import check
 def test_no_launch_element() -> None:
     check("""
         <robot>
-         ^^^^^ error[LCH003] the outermost element is <robot>, not <launch>
+         ^^^^^ error[LCH003] root element is <robot>, not <launch>
         </robot>
     """)
 
@@ -16,7 +16,7 @@ def test_a_second_launch_element_is_told_once() -> None:
     check("""
         <launch>
           <launch>
-           ^^^^^^ error[LCH003] a <launch> element stands within another one
+           ^^^^^^ error[LCH003] <launch> inside of <launch>; roslaunch allows only one
             <arg name="a" value="1"/>
           </launch>
         </launch>

@@ -24,10 +24,10 @@ def test_an_unknown_element_and_the_nearest_one() -> None:
         <launch>
           <node pkg="p" type="t" name="n">
             <parm name="rate" value="10"/>
-             ^^^^ warning[LCH004] <parm> is not known in <node> and is skipped; did you mean 'param'?
+             ^^^^ warning[LCH004] unknown element <parm> in <node>; roslaunch skips it; did you mean 'param'?
           </node>
           <robots/>
-           ^^^^^^ warning[LCH004] <robots> is not known in <launch> and is skipped
+           ^^^^^^ warning[LCH004] unknown element <robots> in <launch>; roslaunch skips it
         </launch>
     """)
     assert other.fixes == ()
@@ -58,9 +58,9 @@ def test_what_launch_does_not_know_stops_it() -> None:
         //- /robot.launch.xml
         <launch>
           <node pkg="p" exec="talker" name="talker" nmae="x">
-                                                    ^^^^ error[LCH005] <node> has no attribute 'nmae'
+                                                    ^^^^ error[LCH005] unknown attribute 'nmae' of <node>; did you
             <parm name="rate" value="1"/>
-             ^^^^ error[LCH004] <parm> is not known in <node>; did you mean 'param'?
+             ^^^^ error[LCH004] unknown element <parm> in <node>; did you mean 'param'?
           </node>
           <let name="a" value="$(var b)"/>
                                ^^^^^^^^ error[ARG001] argument 'b' is not declared

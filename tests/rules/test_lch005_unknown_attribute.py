@@ -13,7 +13,7 @@ def test_an_unknown_attribute() -> None:
     check("""
         <launch>
           <node pkg="p" type="t" name="n" respwan="true"/>
-                                          ^^^^^^^ warning[LCH005] no attribute 'respwan'; did you mean 'respawn'?
+                                          ^^^^^^^ warning[LCH005] unknown attribute 'respwan' of <node>; did you mean
         </launch>
     """)
 
@@ -43,6 +43,6 @@ def test_launch_of_ros2_asks_of_everything_below_the_root() -> None:
         //- /robot.launch.xml
         <launch version="0.1.0">
           <let name="a" value="1" version="0.1.0"/>
-                                  ^^^^^^^ error[LCH005] no attribute 'version'
+                                  ^^^^^^^ error[LCH005] unknown attribute 'version' of <let>
         </launch>
     """)

@@ -21,16 +21,18 @@ def test_a_missing_attribute_is_added_or_its_misspelling_corrected(tag: str, aft
 
 def test_a_missing_attribute_that_another_one_looks_like_is_asked_for() -> None:
     findings = findings_of('<launch><node pkg="p" typ="t" name="n"/></launch>')
-    assert "<node> needs 'type'; is 'typ' meant to be it?" in {finding.message for finding in findings}
+    assert "required attribute 'type' of <node> is missing; did you mean it by 'typ'?" in {
+        finding.message for finding in findings
+    }
 
 
 def test_missing_and_conflicting_attributes() -> None:
     check("""
         <launch>
           <node pkg="p" name="n"/>
-           ^^^^ error[LCH006] <node> needs 'type'
+           ^^^^ error[LCH006] required attribute 'type' of <node> is missing
           <arg name="a" default="1" value="2"/>
-           ^^^ error[LCH007] <arg> cannot have 'value' and 'default' together
+           ^^^ error[LCH007] conflicting attributes 'value' and 'default' of <arg>: only one is allowed
           <param name="b" value="$(arg a)"/>
         </launch>
     """)
@@ -40,9 +42,9 @@ def test_a_misspelt_attribute_that_is_needed_is_told_once() -> None:
     text = """
         <launch>
           <param nam="a" value="1"/>
-           ^^^^^ error[LCH006] <param> needs 'name'; is 'nam' meant to be it?
+           ^^^^^ error[LCH006] required attribute 'name' of <param> is missing; did you mean it by 'nam'?
           <param name="b" value="1" typ="int"/>
-                                    ^^^ warning[LCH005] <param> has no attribute 'typ'; did you mean 'type'?
+                                    ^^^ warning[LCH005] unknown attribute 'typ' of <param>; did you mean 'type'?
         </launch>
     """
     (missing,) = (each for each in check(text) if each.rule == "LCH006")
@@ -54,9 +56,9 @@ def test_an_attribute_that_ros2_needs() -> None:
         //- /robot.launch.xml
         <launch>
           <load_composable_node target="/box">
-                                        ^^^^ hint[LCH034] no node '/box' is started by this launch
+                                        ^^^^ hint[LCH034] container '/box' is not started by this launch; it is the
             <composable_node pkg="p" plugin="p::A" nam="a"/>
-             ^^^^^^^^^^^^^^^ error[LCH006] <composable_node> needs 'name'; is 'nam' meant to be it?
+             ^^^^^^^^^^^^^^^ error[LCH006] required attribute 'name' of <composable_node> is missing; did you mean it
           </load_composable_node>
         </launch>
     """)

@@ -66,7 +66,7 @@ def test_a_parameter_that_nothing_sets() -> None:
           <set_parameter name="height" value="2"/>
           <log message="$(param height)"/>
           <log message="$(param width)"/>
-                        ^^^^^^^^^^^^^^ error[LCH011] no <set_parameter> of 'width' comes before
+                        ^^^^^^^^^^^^^^ error[LCH011] parameter 'width' is not set: no <set_parameter> before this line
         </launch>
     """)
 
@@ -78,7 +78,7 @@ def test_a_parameter_that_the_file_which_includes_this_one_may_set() -> None:
           <arg name="container"/>
           ^^^^^^^^^^^^^^^^^^^^^^^ info[ARG003] argument 'container' has no default
           <log message="$(param width)"/>
-                        ^^^^^^^^^^^^^^ info[LCH011] another launch file that includes this one has to set it
+                        ^^^^^^^^^^^^^^ info[LCH011] parameter 'width' is not set: no <set_parameter> before this line;
         </launch>
     """)
 
@@ -91,9 +91,9 @@ def test_a_parameter_that_a_file_which_cannot_be_read_may_set() -> None:
             <include file="/gone.launch.py"/>
                            ^^^^^^^^^^^^^^^ error[LCH013]
             <log message="$(param width)"/>
-                          ^^^^^^^^^^^^^^ hint[LCH011] nothing that could be read sets parameter 'width'
+                          ^^^^^^^^^^^^^^ hint[LCH011] parameter 'width' is not set, unless the unresolved include sets
           </group>
           <log message="$(param width)"/>
-                        ^^^^^^^^^^^^^^ error[LCH011] no <set_parameter> of 'width' comes before
+                        ^^^^^^^^^^^^^^ error[LCH011] parameter 'width' is not set: no <set_parameter> before this line
         </launch>
     """)

@@ -61,7 +61,7 @@ def test_a_distribution_that_is_assumed(tmp_path: Path, read: str) -> None:
     path = harness.write("launch/a.launch.py", DISTRO.format(read))
     analysis = harness.launch(path, variables={"ROS_DISTRO": "", "ROS_VERSION": ""})
     (finding,) = [each for each in analysis.findings if each.rule == "LCH012"]
-    assert finding.message == "environment variable 'ROS_DISTRO' is not set: 'rolling' is assumed"
+    assert finding.message == "environment variable 'ROS_DISTRO' is not set; 'rolling' is assumed"
     assert (finding.severity, finding.stops_launch) == ("hint", False)
     assert finding.lack is not None
     assert finding.lack.name == "ROS_DISTRO"

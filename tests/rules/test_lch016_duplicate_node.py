@@ -16,13 +16,16 @@ def test_a_node_whose_file_is_included_twice_is_said_to_be_so() -> None:
         //- /inc.launch
         <launch><node pkg="p" type="t" name="n"/></launch>
     """)
-    assert "this tag is read twice, the includes need different namespaces" in finding.message
+    assert "this file is included twice; give each include its own namespace" in finding.message
     assert finding.fixes == ()
 
 
 def test_the_name_of_roslaunch_itself() -> None:
     (finding,) = findings_of('<launch><node pkg="p" type="t" name="rosout"/></launch>')
-    assert (finding.rule, finding.message) == ("LCH016", "'/rosout' is the name of roslaunch's own node")
+    assert (finding.rule, finding.message) == (
+        "LCH016",
+        "duplicate node name '/rosout': roslaunch's own node has this name",
+    )
 
 
 def test_two_nodes_of_one_name() -> None:
@@ -45,7 +48,7 @@ def test_two_nodes_of_one_name_in_ros_2() -> None:
         launch:
           - node: {pkg: p, exec: laser, name: laser}
           - node: {pkg: p, exec: laser, name: laser}
-                                              ^^^^^ warning[LCH016] there is another node with the name '/laser'
+                                              ^^^^^ warning[LCH016] duplicate node name '/laser'
           - node: {pkg: p, exec: laser, name: laser, namespace: rear}
           - node: {pkg: p, exec: laser}
           - node: {pkg: p, exec: laser}
@@ -83,7 +86,7 @@ def test_a_branch_of_a_python_launch_file_that_is_not_taken() -> None:
             nodes = [planner]
             if grip:
                 gripper = Node(package="p", executable="gripper", name=name)
-                                                                       ^^^^ info[LCH016] with this name where `grip`
+                                                                       ^^^^ info[LCH016] duplicate node name if `grip`
                 nodes.append(gripper)
             return LaunchDescription(nodes)
     """)

@@ -19,7 +19,7 @@ def test_a_command_that_was_not_run_is_a_hint() -> None:
         <launch>
           <arg name="model" default="arm"/>
           <param name="robot_description" command="xacro $(arg model).xacro"/>
-                                                   ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH018] unknown here: no trust
+                                                   ^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH018] command not run, its value is
         </launch>
         //- commands
         {"xacro arm.xacro": {"status": "not-run", "reason": "no trust"}}

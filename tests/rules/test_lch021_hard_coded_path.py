@@ -69,7 +69,7 @@ def test_a_path_of_one_user() -> None:
           <node pkg="p" exec="a" name="a" args="--map /home/bob/maps/lab.yaml">
                                                       ^^^^^^^^^^^^^^^^^^^^^^^ info[LCH021] in the home folder of one
             <remap from="scan" to="scan"/>
-            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH024] 'scan' is remapped to itself
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH024] remap of 'scan' to itself has no effect
             <remap from="image" to="/home/bob/image"/>
           </node>
         </launch>

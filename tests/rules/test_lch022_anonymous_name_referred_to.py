@@ -10,12 +10,12 @@ def test_a_name_that_is_anonymous_and_referred_to() -> None:
           <node pkg="p" type="t" name="$(anon talker)"/>
           <node pkg="p" type="t" name="rviz_$(anon x)" ns="a"/>
           <node pkg="p" type="t" name="n" args="--listen /talker/chatter">
-                                                ^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH022] '/talker/chatter' means nothing
+                                                ^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH022] in the arguments,
             <remap from="in" to="talker/chatter"/>
-                                 ^^^^^^^^^^^^^^ warning[LCH022] node '/talker' gets a name of its own at every launch
+                                 ^^^^^^^^^^^^^^ warning[LCH022] the name 'talker/chatter' has no effect: the name of
           </node>
           <param name="/a/rviz_x/rate" value="10"/>
-                       ^^^^^^^^^^^^^^ warning[LCH022] parameter '/a/rviz_x/rate' means nothing
+                       ^^^^^^^^^^^^^^ warning[LCH022] parameter '/a/rviz_x/rate' has no effect: the name of node
         </launch>
     """
     (_, remap, _) = check(text)

@@ -8,17 +8,17 @@ def test_a_remap_that_a_later_one_beside_it_replaces() -> None:
     text = """
         <launch>
           <remap from="scan" to="front/scan"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH023] no effect: a later one here maps 'scan' to 'rear/scan'
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH023] overridden: 'scan' is remapped again to 'rear/scan'
           <remap from="scan" to="rear/scan"/>
           <node pkg="p" type="t" name="n">
             <remap from="tf" to="a"/>
-            ^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH023] 'tf' is remapped to 'a' twice here
+            ^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH023] duplicate remap of 'tf' to 'a'
             <remap from="tf" to="a"/>
           </node>
         </launch>
     """
     scan, tf = check(text)
-    assert scan.related[0].message == "the one that counts"
+    assert scan.related[0].message == "the remap that applies"
     mended = apply(text, scan.fixes[0].edits)["/main.launch"]
     assert 'to="front/scan"' not in mended
     assert tf.fixes
@@ -61,7 +61,7 @@ def test_two_remaps_of_a_node_for_one_name_written_differently() -> None:
           <node pkg="p" type="t" name="n">
             <remap from="/scan" to="front"/>
             <remap from="scan" to="rear"/>
-                         ^^^^ warning[LCH023] '/scan' and 'scan' are both '/scan' for /n; which of them wins depends
+                         ^^^^ warning[LCH023] duplicate remap: '/scan' and 'scan' are both '/scan' for /n; the client
           </node>
           <node pkg="p" type="t" name="m" ns="a">
             <remap from="/scan" to="front"/>
@@ -78,7 +78,7 @@ def test_the_first_remap_of_a_name_counts() -> None:
     remaps = '<remap from="scan" to="front"/><remap from="{}" to="{}"/>'
     under = "^" * len('<remap from="scan" to="rear"/>')
     before = " " * len('<node pkg="p" exec="x" name="x"><remap from="scan" to="front"/>')
-    told = f"\n{before}{under} warning[LCH023] this remap has no effect on /x: 'scan' is remapped to 'front' before it"
+    told = f"\n{before}{under} warning[LCH023] overridden: 'scan' is already remapped to 'front'"
     for source, target, expected in (("scan", "rear", told), ("scan", "front", ""), ("odom", "rear", "")):
         node = f'<node pkg="p" exec="x" name="x">{remaps.format(source, target)}</node>'
         check(f"//- /r.launch.xml\n<launch>\n{node}{expected}\n</launch>")

@@ -9,7 +9,7 @@ def test_a_remap_to_itself() -> None:
         <launch>
           <node pkg="p" type="t" name="n">
             <remap from="scan" to="scan"></remap>
-            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH024] 'scan' is remapped to itself
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH024] remap of 'scan' to itself has no effect
           </node>
         </launch>
     """

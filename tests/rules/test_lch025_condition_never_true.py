@@ -11,7 +11,7 @@ def test_a_condition_that_compares_an_argument_with_a_text_that_it_never_is() ->
           <group if="$(eval arg('sim') == 'true')"/>
                      ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH025] 'arg('sim') == 'true'' is never true: $(eval)
           <group unless="$(eval sim != '1')"/>
-                         ^^^^^^^^^^^^^^^^^^ warning[LCH025] 'sim != '1'' is always true: $(eval) makes a number
+                         ^^^^^^^^^^^^^^^^^^ warning[LCH025] 'sim != '1'' is always true: $(eval) converts argument
         </launch>
     """
     first, _ = check(text)
@@ -23,13 +23,13 @@ def test_conditions_that_are_never_true() -> None:
         <launch>
           <arg name="debug" value="false"/>
           <group if="false"/>
-                     ^^^^^ hint[LCH025] this <group> is never evaluated, its if is always false
+                     ^^^^^ hint[LCH025] <group> is never evaluated: 'if' is always false
           <group unless="1"/>
-                         ^ hint[LCH025] its unless is always true
+                         ^ hint[LCH025] <group> is never evaluated: 'unless' is always true
           <group if="$(arg debug)"/>
-                     ^^^^^^^^^^^^ hint[LCH025] its if is always false: argument 'debug' is always 'false' here
+                     ^^^^^^^^^^^^ hint[LCH025] <group> is never evaluated: 'if' is always false, because argument
           <group if="$(eval 1 == 2 and arg('debug'))"/>
-                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH025] its if is always false
+                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH025] <group> is never evaluated: 'if' is always false
         </launch>
     """)
 

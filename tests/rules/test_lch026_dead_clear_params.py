@@ -9,11 +9,11 @@ def test_clear_params_where_nothing_is_and_where_parameters_stay() -> None:
         <launch>
           <param name="/arm/rate" value="10"/>
           <group ns="arm" clear_params="true">
-                          ^^^^^^^^^^^^^^^^^^^ hint[LCH026] '/arm/rate' set before this will not be cleared
+                          ^^^^^^^^^^^^^^^^^^^ hint[LCH026] clear_params does not clear '/arm/rate': roslaunch deletes
             <node pkg="p" type="t" name="n"/>
           </group>
           <group ns="leg" clear_params="true"/>
-                          ^^^^^^^^^^^^^^^^^^^ hint[LCH026] nothing of this launch is below '/leg/'
+                          ^^^^^^^^^^^^^^^^^^^ hint[LCH026] clear_params has no effect: this launch has no node or
         </launch>
     """)
 

@@ -27,12 +27,12 @@ def test_what_newer_releases_have_given_up() -> None:
     text = """
         <launch>
           <master auto="start"/>
-          ^^^^^^^^^^^^^^^^^^^^^^ info[LCH027] roslaunch ignores <master>
+          ^^^^^^^^^^^^^^^^^^^^^^ info[LCH027] <master> is removed since ROS Fuerte; roslaunch ignores it
           <node pkg="tf" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 base laser 100"/>
-                               ^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH027] tf2_ros has a 'static_transform_publisher'
+                               ^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH027] 'static_transform_publisher' of tf is
           <node pkg="tf2_ros" type="static_transform_publisher" name="b" args="0 0 0 0 0 0 base laser"/>
           <param name="use_gui" value="true"/>
-                       ^^^^^^^ warning[LCH027] has no parameter 'use_gui' since ROS Noetic
+                       ^^^^^^^ warning[LCH027] parameter 'use_gui' of joint_state_publisher is removed since ROS
           <node pkg="joint_state_publisher" type="joint_state_publisher" name="joints"/>
         </launch>
         //- /tf/package.xml
@@ -43,8 +43,8 @@ def test_what_newer_releases_have_given_up() -> None:
         <package/>
     """
     findings = {finding.message.split()[0]: finding for finding in check(text)}
-    assert "<master" not in apply(text, findings["roslaunch"].fixes[0].edits)["/main.launch"]
-    changed = apply(text, findings["tf"].fixes[0].edits)["/main.launch"]
+    assert "<master" not in apply(text, findings["<master>"].fixes[0].edits)["/main.launch"]
+    changed = apply(text, findings["'static_transform_publisher'"].fixes[0].edits)["/main.launch"]
     assert 'pkg="tf2_ros" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 base laser"/>' in changed
 
 
@@ -52,9 +52,9 @@ def test_what_is_gone_is_named_with_what_replaces_it() -> None:
     text = """
         <launch>
           <node pkg="gazebo" type="gazebo" name="gazebo"/>
-                     ^^^^^^ error[LCH027] are in 'gazebo_ros' since ROS Hydro
+                     ^^^^^^ error[LCH027] package 'gazebo' is removed since ROS Hydro; use 'gazebo_ros'
           <param name="r" command="xacro --inorder robot.xacro"/>
-                                        ^^^^^^^^^^ hint[LCH027] --inorder has no effect
+                                        ^^^^^^^^^^ hint[LCH027] '--inorder' has no effect: xacro processes in order
         </launch>
     """
     gazebo, in_order = [finding for finding in check(text) if finding.rule == "LCH027"]

@@ -10,13 +10,13 @@ def test_what_looks_like_a_substitution_and_is_none() -> None:
           <arg name="port" default="/dev/ttyUSB0"/>
           <node pkg="p" type="t" name="n">
             <param name="a" value="${arg port}"/>
-                                   ^^^^^^^^^^^ warning[LCH029] '${arg port}' is no substitution: roslaunch takes
+                                   ^^^^^^^^^^^ warning[LCH029] '${arg port}' is not a substitution; roslaunch treats
             <param name="b" value="$arg(port)"/>
-                                   ^^^^^^^^^^ warning[LCH029] '$(arg port)' is one
+                                   ^^^^^^^^^^ warning[LCH029] '$arg(port)' is not a substitution; roslaunch treats it
             <param name="c" value="at $(arg port and more"/>
-                                      ^^^^^^^^^^ warning[LCH029] '$(arg port' is no substitution
+                                      ^^^^^^^^^^ warning[LCH029] '$(arg port' is not a substitution; roslaunch treats
             <param name="d" value="$(dirname"/>
-                                   ^^^^^^^^^ warning[LCH029] '$(dirname)' is one
+                                   ^^^^^^^^^ warning[LCH029] '$(dirname' is not a substitution; roslaunch treats it as
             <param name="e" value="$(arg port)"/>
             <param name="f" value="(arg port)"/>
                                    ^^^^^^^^^^ warning[LCH029] '(arg port)' is no substitution: roslaunch takes it
@@ -44,14 +44,14 @@ def test_substitutions_in_yaml_stay_text_unless_they_are_asked_for() -> None:
           <arg name="port" default="/dev/ttyUSB0"/>
           <param name="copy" value="$(arg port)"/>
           <rosparam>{port: $(arg port), rate: 10}</rosparam>
-                           ^^^^^^^^^^^ warning[LCH029] '$(arg port)' stays text: substitutions in YAML
+                           ^^^^^^^^^^^ warning[LCH029] '$(arg port)' is treated as literal text; substitutions in YAML
           <node pkg="p" type="t" name="n"><rosparam file="$(find p)/n.yaml"/></node>
         </launch>
         //- /p/n.yaml
         meshes:
           - plain
           - $(find p)/arm.dae
-            ^^^^^^^^^ warning[LCH029] made with <rosparam subst_value="true"> only
+            ^^^^^^^^^ warning[LCH029] '$(find p)' is treated as literal text; substitutions in YAML need <rosparam
     """
     findings = check(fixture)
     assert [apply(fixture, f.fixes[0].edits)["/main.launch"].count('subst_value="true"') for f in findings] == [1, 1]
@@ -62,7 +62,7 @@ def test_an_argument_that_the_launch_file_does_not_have_is_not_to_be_replaced() 
         <launch><rosparam command="load" file="$(find p)/planning.yaml"/></launch>
         //- /p/planning.yaml
         projection: joints($(arg prefix)joint_1)
-                           ^^^^^^^^^^^^^ warning[LCH029] only; the launch file has no such argument
+                           ^^^^^^^^^^^^^ warning[LCH029] '$(arg prefix)' is treated as literal text; substitutions in
     """)
     assert finding.fixes == ()
 
@@ -80,9 +80,9 @@ def test_the_section_of_a_controller_that_is_not_started_here() -> None:
         </launch>
         //- /p/controllers.yaml
         arms: {type: p/OneArm, joint: $(arg arm_id)_joint1}
-                                      ^^^^^^^^^^^^^ info[LCH029] made with <rosparam subst_value="true"> only
+                                      ^^^^^^^^^^^^^ info[LCH029] '$(arg arm_id)' is treated as literal text;
         two_arms: {type: p/TwoArms, left: {joint: $(arg arm_id)_joint1}}
-                                                  ^^^^^^^^^^^^^ warning[LCH029] made with <rosparam subst_value="true">
+                                                  ^^^^^^^^^^^^^ warning[LCH029] '$(arg arm_id)' is treated as literal
     """)
 
 
@@ -97,7 +97,7 @@ def test_substitutions_in_a_parameter_file_of_ros2() -> None:
         /a:
           ros__parameters:
             mesh: $(find-pkg-share p)/arm.dae
-                  ^^^^^^^^^^^^^^^^^^^ warning[LCH029] made with <param allow_substs="true"> only
+                  ^^^^^^^^^^^^^^^^^^^ warning[LCH029] '$(find-pkg-share p)' is treated as literal text; substitutions
     """)
 
 

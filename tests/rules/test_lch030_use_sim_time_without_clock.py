@@ -14,7 +14,7 @@ def test_simulated_time_without_a_clock() -> None:
         """
         <launch>
           <param name="/use_sim_time" value="true"/>
-                       ^^^^^^^^^^^^^ warning[LCH030] no node of this launch publishes /clock
+                       ^^^^^^^^^^^^^ warning[LCH030] '/use_sim_time' is true, but '/clock' has no publisher in this
           <node pkg="p" type="t" name="n"/>
         </launch>"""
         + _INTERFACES

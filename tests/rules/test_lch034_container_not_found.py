@@ -18,7 +18,7 @@ def test_a_container_that_is_not_there() -> None:
             <push_ros_namespace namespace="robot"/>
             <node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>
             <load_composable_node target="vision">
-                                          ^^^^^^ warning[LCH034] no node '/vision'
+                                          ^^^^^^ warning[LCH034] container '/vision' is not started by this launch; it
               <composable_node pkg="p" plugin="p::Detector" name="detector"/>
             </load_composable_node>
             <load_composable_node target="/robot/vision">
@@ -26,7 +26,7 @@ def test_a_container_that_is_not_there() -> None:
             </load_composable_node>
           </group>
           <load_composable_node target="/elsewhere">
-                                        ^^^^^^^^^^ hint[LCH034] no node '/elsewhere' is started by this launch
+                                        ^^^^^^^^^^ hint[LCH034] container '/elsewhere' is not started by this launch;
             <composable_node pkg="p" plugin="p::Mapper" name="mapper"/>
           </load_composable_node>
         </launch>
@@ -74,7 +74,7 @@ def test_a_nodelet_manager_that_is_not_there() -> None:
                                                                        ^^^^^^^^^^^^^ warning[LCH034] did you mean
           </group>
           <node pkg="nodelet" type="nodelet" name="c" args="load p/C camera_manager"/>
-                                                                     ^^^^^^^^^^^^^^ warning[LCH034] no node
+                                                                     ^^^^^^^^^^^^^^ warning[LCH034] container
           <node pkg="nodelet" type="nodelet" name="d" args="load p/D elsewhere"/>
                                                                      ^^^^^^^^^ hint[LCH034] '/elsewhere'
         </launch>

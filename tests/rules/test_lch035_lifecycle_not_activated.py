@@ -18,7 +18,7 @@ def test_a_lifecycle_node_beside_nodes_that_cannot_activate_it() -> None:
         {{"/map_server": {{"services": {{"~/change_state": "lifecycle_msgs/srv/ChangeState"}}}}, "/x": {x}}}
     """
     under = " " * len('<node pkg="nav2_map_server" exec="') + "^" * len("map_server")
-    check(launch.format(expected=f"{under} warning[LCH035] /map_server is a lifecycle node", x="{}"))
+    check(launch.format(expected=f"{under} warning[LCH035] lifecycle node /map_server is never", x="{}"))
     change = '{"clients": {"/map_server/change_state": "lifecycle_msgs/srv/ChangeState"}}'
     check(launch.format(expected="", x=change))
 
@@ -28,7 +28,7 @@ def test_a_lifecycle_node_that_nobody_activates() -> None:
         //- /map.launch.xml
         <launch>
           <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
-                                            ^^^^^^^^^^ info[LCH035] /map_server is a lifecycle node
+                                            ^^^^^^^^^^ info[LCH035] lifecycle node /map_server is never activated by
         </launch>
         //- /nav2_map_server/package.xml
         <package><name>nav2_map_server</name></package>
@@ -43,7 +43,7 @@ def test_a_manager_of_components_has_no_lifecycle() -> None:
           <lifecycle_node pkg="p" exec="container" name="container" namespace=""/>
           <lifecycle_node pkg="p" exec="plain" name="plain" namespace=""/>
           <lifecycle_node pkg="p" exec="unknown" name="unknown" namespace=""/>
-                                        ^^^^^^^ info[LCH035] /unknown is a lifecycle node
+                                        ^^^^^^^ info[LCH035] lifecycle node /unknown is never activated by this launch
           <node pkg="p" exec="other" name="other"/>
         </launch>
         //- interfaces
@@ -60,8 +60,8 @@ def test_a_lifecycle_manager_that_has_another_name() -> None:
           <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
           <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
             <param name="node_names" value="[map_sever, amcl, planner]"/>
-                         ^^^^^^^^^^ warning[LCH035] /manager waits for '/map_sever', which is no node of this launch
-                         ^^^^^^^^^^ info[LCH035] /manager waits for '/planner', which is no node of this launch
+                         ^^^^^^^^^^ warning[LCH035] '/map_sever' is not a node of this launch; /manager waits for it;
+                         ^^^^^^^^^^ info[LCH035] '/planner' is not a node of this launch; /manager waits for it
           </node>
         </launch>
         //- /nav2_map_server/package.xml

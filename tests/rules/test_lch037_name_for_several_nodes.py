@@ -10,11 +10,11 @@ def test_a_name_for_a_process_with_several_nodes() -> None:
         //- /robot.launch.xml
         <launch>
           <node pkg="p" exec="both" name="scanner"/>
-                                          ^^^^^^^ warning[LCH037] the nodes 'front' and 'rear', and 'name' is for each
+                                          ^^^^^^^ warning[LCH037] 'name' renames all nodes of this process ('front'
           <node pkg="p" exec="both" name="spaced"/>
-                                          ^^^^^^ info[LCH037] for each of them: all are called 'spaced'
+                                          ^^^^^^ info[LCH037] 'name' renames all nodes of this process ('front' and
           <node pkg="p" exec="both" name="put" namespace="together"/>
-                                          ^^^ warning[LCH037] all of them have the name '/together/put'
+                                          ^^^ warning[LCH037] 'name' renames all nodes of this process ('front' and
           <node pkg="p" exec="one" name="main"/>
           <node pkg="p" exec="both"/>
         </launch>

@@ -72,7 +72,7 @@ def test_values_of_a_parameter_without_a_comma() -> None:
         <launch><rosparam command="load" file="/ekf.yaml"/></launch>
         //- /ekf.yaml
         odom0_config: [true, false, true
-        ^^^^^^^^^^^^ warning[LCH039] 'true' and 'false' are one text among the values of '/odom0_config'
+        ^^^^^^^^^^^^ warning[LCH039] 'true' and 'false' are one text in '/odom0_config': the comma between them is
                        false, false]
         gains: [1.0, 2 3e-1, 4]
         ^^^^^ warning[LCH039] '2' and '3e-1' are one text

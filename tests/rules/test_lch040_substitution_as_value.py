@@ -17,11 +17,11 @@ _START = """//- /robot.launch.py
     [
         ("IfCondition(sim) and UnlessCondition(sim)", "Python's 'and' drops 'IfCondition(sim)': a condition is always"),
         ("conditions.IfCondition(sim) or UnlessCondition(sim)", "Python's 'or' drops 'UnlessCondition(sim)'"),
-        ("not sim", "this is always False: a LaunchConfiguration is always true here"),
-        ("sim == 'true'", "this is always False: a LaunchConfiguration equals nothing here"),
-        ("'true' != sim", "this is always True: a LaunchConfiguration equals nothing here"),
-        ("f'world_{sim}.sdf'", "the text gets the name of a Python object and not the value"),
-        ("str(sim)", "the text gets the name of a Python object and not the value"),
+        ("not sim", "'not' is always False: a LaunchConfiguration is always true"),
+        ("sim == 'true'", "comparison is always False: a LaunchConfiguration has no value"),
+        ("'true' != sim", "comparison is always True: a LaunchConfiguration has no value"),
+        ("f'world_{sim}.sdf'", "the text contains a Python object"),
+        ("str(sim)", "the text contains a Python object"),
     ],
 )
 def test_what_is_known_only_later(asked: str, said: str) -> None:
@@ -40,7 +40,7 @@ def test_in_a_statement() -> None:
         {_START}
         def generate_launch_description():
             if LaunchConfiguration("sim"):
-               ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH040] a LaunchConfiguration is always true here
+               ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH040] a LaunchConfiguration is always true before the launch runs
                 return LaunchDescription([])
             return LaunchDescription([])
     """)

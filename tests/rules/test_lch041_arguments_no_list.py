@@ -17,9 +17,9 @@ def test_one_text() -> None:
     check(f"""
         {_START}
                 Node(package="p", executable="e", arguments="0 0 map scan"),
-                                                            ^^^^^^^^^^^^^^ error[LCH041] of a text each character is one
+                                                            ^^^^^^^^^^^^^^ error[LCH041] 'arguments' requires a list:
                 ExecuteProcess(cmd=f"echo {{3}}"),
-                                   ^^^^^^^^^^^ error[LCH041] 'cmd' takes a list
+                                   ^^^^^^^^^^^ error[LCH041] 'cmd' requires a list: each character of a text becomes
             ])
     """)
 
@@ -28,7 +28,7 @@ def test_a_set() -> None:
     check(f"""
         {_START}
                 launch_ros.actions.Node(package="p", executable="e", arguments={{"-p", "8888"}}),
-                                                                               ^^^^^^^^^^^^^^ error[LCH041] no order
+                                                                               ^^^^^^^^^^^^^^ error[LCH041] 'arguments'
             ])
     """)
 

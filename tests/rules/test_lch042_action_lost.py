@@ -13,7 +13,7 @@ def test_the_name_of_the_one_that_was_copied() -> None:
         def generate_launch_description():
             broadcaster = Node(package="p", executable="b")
             drive = Node(package="p", executable="drive")
-            ^^^^^ warning[LCH042] this Node is never launched: 'drive' is assigned again
+            ^^^^^ warning[LCH042] 'drive' is assigned again before its first use: this Node is never launched
             drive = Node(package="p", executable="imu")
             return LaunchDescription([broadcaster, drive])
     """)

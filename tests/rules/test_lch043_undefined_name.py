@@ -18,7 +18,7 @@ def test_in_a_function_that_the_launch_may_come_to() -> None:
             gz_paused = LaunchConfiguration("paused").perform(context)
             if gz_paused == "maybe":
                 return [Node(package="p", executable=gz_pausd)]
-                                                     ^^^^^^^^ error[LCH043] nothing defines 'gz_pausd'
+                                                     ^^^^^^^^ error[LCH043] undefined name 'gz_pausd'; this line
             return [robot(context) for robot in ()]
 
         def generate_launch_description():
@@ -36,7 +36,7 @@ def test_what_another_function_gets() -> None:
 
         def not_called():
             return context
-                   ^^^^^^^ info[LCH043] nothing defines 'context'
+                   ^^^^^^^ info[LCH043] undefined name 'context'; this line raises a NameError
 
         def generate_launch_description():
             return LaunchDescription([OpaqueFunction(function=setup)])

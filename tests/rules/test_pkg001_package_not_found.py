@@ -22,7 +22,7 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
           <node pkg="rospy_tutorial" type="talker" name="n"/>
                      ^^^^^^^^^^^^^^ error[PKG001] did you mean 'rospy_tutorials'?
           <param name="a" value="$(find rospy_tutorial)/x"/>
-                                 ^^^^^^^^^^^^^^^^^^^^^^ error[PKG001] is not among the 2 packages
+                                 ^^^^^^^^^^^^^^^^^^^^^^ error[PKG001] package 'rospy_tutorial' not found among 2
         </launch>
         //- /rospy_tutorials/package.xml
         <package/>
@@ -86,9 +86,9 @@ def test_who_uses_several_packages_that_nobody_knows_has_them_elsewhere() -> Non
     findings = check("""
         <launch>
           <node pkg="hsrb_bringup" type="base" name="n"/>
-                     ^^^^^^^^^^^^ hint[PKG001] no distribution has released it
+                     ^^^^^^^^^^^^ hint[PKG001] package 'hsrb_bringup' is neither installed nor in the workspace; it is
           <node pkg="tmc_suction" type="base" name="m"/>
-                     ^^^^^^^^^^^ hint[PKG001] no distribution has released it
+                     ^^^^^^^^^^^ hint[PKG001] package 'tmc_suction' is neither installed nor in the workspace; it is
         </launch>
         //- /hero_bringup/package.xml
         <package/>
@@ -100,7 +100,7 @@ def test_a_package_that_its_folder_names_otherwise() -> None:
     text = """
         <launch>
           <node pkg="robot-master" type="base" name="n"/>
-                     ^^^^^^^^^^^^ error[PKG001] the folder /ws/robot-master holds package 'robot'
+                     ^^^^^^^^^^^^ error[PKG001] package 'robot-master' not found among 2 packages; the folder
         </launch>
         //- /ws/robot-master/package.xml
         <package><name>robot</name></package>
@@ -146,14 +146,14 @@ def of_packages(launch: Path, *names: str, python: str | None = None, distro: st
 def test_a_released_package_that_is_not_installed_is_the_machine_s_lack(launch: Path, python: str | None) -> None:
     (finding,) = of_packages(launch, "move_base", python=python)
     assert (finding.severity, finding.confidence) == ("hint", "certain")
-    assert finding.message == "package 'move_base' is not installed here: ros-noetic-move-base"
+    assert finding.message == "package 'move_base' is not installed; install ros-noetic-move-base"
     assert finding.lack == Lack("package", "move_base", "apt install ros-noetic-move-base")
 
 
 def test_a_package_that_only_another_distribution_has_says_so(launch: Path) -> None:
     (finding,) = of_packages(launch, "kobuki_node")
     assert finding.severity == "hint"
-    assert "is not installed here; it is released for indigo and kinetic" in finding.message
+    assert "is not installed; it is released for indigo and kinetic" in finding.message
     assert finding.lack == Lack("package", "kobuki_node")
     (of_its_own,) = of_packages(launch, "kobuki_node", distro="kinetic")
     assert of_its_own.message.endswith("ros-kinetic-kobuki-node")
@@ -180,14 +180,14 @@ def test_a_name_of_the_other_generation_is_none_of_this_one(launch: Path) -> Non
 def test_a_name_that_nobody_knows(launch: Path, python: str | None) -> None:
     (finding,) = of_packages(launch, "fancy_unheard_of", python=python)
     assert (finding.severity, finding.confidence, finding.lack) == ("info", "likely", None)
-    assert "no distribution has released it, and no package.xml of the workspace names it" in finding.message
+    assert "it is not released for any distribution, and no package.xml of the workspace names it" in finding.message
 
 
 @pytest.mark.parametrize("python", [None, "/usr/bin/python3"])
 def test_a_name_that_only_a_manifest_knows_is_lacking(launch: Path, python: str | None) -> None:
     (finding,) = of_packages(launch, "our_own_driver", python=python)
     assert (finding.severity, finding.confidence) == ("hint", "likely")
-    assert finding.message.endswith("neither installed here nor in the workspace, and no distribution has released it")
+    assert finding.message.endswith("neither installed nor in the workspace nor released for any distribution")
     assert finding.lack == Lack("package", "our_own_driver")
 
 

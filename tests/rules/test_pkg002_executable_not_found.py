@@ -16,7 +16,7 @@ from support.demo_package import judge
 def test_an_executable_that_is_not_there_and_the_nearest_one(launch: Path, written: str, meant: str) -> None:
     (finding,) = judge(launch, written)
     assert (finding.rule, finding.severity, finding.stops_launch) == ("PKG002", "error", False)
-    assert f"has no executable '{written}'" in finding.message
+    assert f"executable '{written}' not found" in finding.message
     assert finding.message.endswith(f"did you mean '{meant}'?")
     assert [edit.text for edit in finding.fixes[0].edits] == [meant]
 
@@ -29,14 +29,14 @@ def test_an_executable_without_a_near_name(launch: Path) -> None:
 
 def test_a_file_without_the_permission_to_be_executed(launch: Path) -> None:
     (finding,) = judge(launch, "plain.py")
-    assert "is not executable; chmod +x" in finding.message
+    assert "is not executable; run `chmod +x" in finding.message
     assert (finding.severity, finding.confidence) == ("error", "certain")
 
 
 def test_a_file_that_only_the_installed_package_may_execute(launch: Path) -> None:
     (launch.parent / "CMakeLists.txt").write_text("install(PROGRAMS nodes/plain.py DESTINATION lib/demo)\n")
     (finding,) = judge(launch, "plain.py")
-    assert "it starts from the install space alone" in finding.message
+    assert "start it from the install space" in finding.message
     assert (finding.severity, finding.confidence) == ("warning", "likely")
 
 
@@ -72,9 +72,12 @@ def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
         """
     )
     for name, meant in (
-        ("driver", "'driver' is not built yet: CMakeLists.txt of package 'demo' makes it of src/driver.cpp"),
-        ("plain.py", "'plain.py' is not built yet: CMakeLists.txt of package 'demo' makes it of plain.py"),
-        ("calibrate", "'calibrate' is not installed yet: CMakeLists.txt of package 'demo' installs tools/calibrate.py"),
+        ("driver", "'driver' is not built yet: CMakeLists.txt of package 'demo' builds it from src/driver.cpp"),
+        ("plain.py", "'plain.py' is not built yet: CMakeLists.txt of package 'demo' builds it from plain.py"),
+        (
+            "calibrate",
+            "'calibrate' is not installed yet: CMakeLists.txt of package 'demo' installs it from tools/calibrate.py",
+        ),
     ):
         (finding,) = judge(launch, name)
         assert (finding.severity, finding.stops_launch) == ("hint", False)
@@ -90,7 +93,7 @@ def test_an_executable_of_another_package_of_the_launch(launch: Path) -> None:
     (other / "filter").write_text("#!/bin/sh\n")
     (other / "filter").chmod(0o755)
     launch.write_text('<launch><node pkg="demo" type="filter" name="n"/></launch>')
-    for dependencies, hint in ((frozenset({"other"}), "; package 'other' has it"), (frozenset[str](), "spaces")):
+    for dependencies, hint in ((frozenset({"other"}), "; package 'other' has it"), (frozenset[str](), "spaces)")):
         packages = {
             "demo": Package("demo", str(launch.parent), "", dependencies),
             "other": Package("other", str(other.parent), ""),
@@ -151,4 +154,4 @@ def test_a_blank_name() -> None:
         """)
         if each.rule == "PKG002"
     )
-    assert (finding.severity, finding.message) == ("error", "the name of the executable is blank")
+    assert (finding.severity, finding.message) == ("error", "executable name is blank")

@@ -14,7 +14,8 @@ def test_two_different_executables_of_one_name(launch: Path) -> None:
     (finding,) = judge(launch, "listener")
     assert (finding.rule, finding.severity) == ("PKG003", "warning")
     assert (
-        "has 2 different executables 'listener'; 'nodes/listener' is run here, 'nodes/old/listener'" in finding.message
+        "has 2 different files; 'nodes/listener' runs here, another machine may run 'nodes/old/listener'"
+        in finding.message
     )
 
 

@@ -32,7 +32,7 @@ def test_a_package_that_the_manifest_does_not_name() -> None:
           <node pkg="camera" type="driver" name="driver"/>
           <node pkg="robot" type="base" name="base"/>
           <node pkg="rviz" type="rviz" name="rviz" args="$(find rviz)"/>
-                     ^^^^ hint[PKG004] 'rviz' is not among the dependencies that the package.xml of 'robot' names
+                     ^^^^ hint[PKG004] package 'rviz' is not a dependency in package.xml of 'robot'
         </launch>"""
         + MANIFEST
     )
@@ -81,11 +81,11 @@ def test_paths_packages_and_remaps_as_in_ros1() -> None:
         launch:
           - node:
               pkg: camera
-                   ^^^^^^ hint[PKG004] package 'camera' is not among
+                   ^^^^^^ hint[PKG004] package 'camera' is not a dependency in package.xml of 'p'
               exec: driver
               name: $(find-pkg-share lidar)
                     ^^^^^^^^^^^^^^^^^^^^^^^ error[LCH009]
-                                     ^^^^^ hint[PKG004] package 'lidar' is not among the dependencies
+                                     ^^^^^ hint[PKG004] package 'lidar' is not a dependency in package.xml of 'p'
               remap:
                 - {from: scan, to: scan}
         //- /p/package.xml

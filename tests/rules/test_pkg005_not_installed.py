@@ -14,13 +14,13 @@ from support.unbuilt_packages import SETUP, findings, manifest
 def test_what_is_not_installed_and_what_is_not_there(workspace: Path) -> None:
     found = {(f.rule, f.severity): f for f in findings(workspace) if f.rule == "PKG002"}
     assert set(found) == {("PKG002", "error"), ("PKG002", "hint")}
-    assert "no executable 'drivr'" in found["PKG002", "error"].message
+    assert "executable 'drivr' not found" in found["PKG002", "error"].message
     assert "did you mean 'driver'?" in found["PKG002", "error"].message
     assert "'arm_node' is not built yet" in found["PKG002", "hint"].message
     missing = [f.message for f in findings(workspace) if f.rule == "PKG005"]
     assert missing == [
-        "'config/driver.yaml' is in the source of package 'robot', but its setup.py does not install it",
-        "'cfg/arm.yaml' is in the source of package 'arm', but its CMakeLists.txt does not install it",
+        "file 'config/driver.yaml' is not installed in the share folder: setup.py of 'robot' does not list it",
+        "file 'cfg/arm.yaml' is not installed in the share folder: CMakeLists.txt of 'arm' does not list it",
     ]
 
 
@@ -57,21 +57,22 @@ SHARE = "share/${PROJECT_NAME}"
         (
             f"install(DIRECTORY launch/ config DESTINATION {SHARE})",
             [
-                "'launch/arm.launch.xml' is in the source of package 'arm', but its CMakeLists.txt installs it as "
-                "'arm.launch.xml'"
+                "file 'launch/arm.launch.xml' is not installed in the share folder: CMakeLists.txt of 'arm' "
+                "installs it as 'arm.launch.xml'"
             ],
         ),
         (
             f"install(DIRECTORY launch DESTINATION share)\ninstall(DIRECTORY config/ DESTINATION {SHARE}/config)",
             [
-                "'launch/bringup.launch.xml' is not installed by the CMakeLists.txt of package 'arm': "
+                "launch file 'launch/bringup.launch.xml' is not installed by CMakeLists.txt of 'arm': "
                 "`ros2 launch arm bringup.launch.xml` does not find it",
-                "'launch/arm.launch.xml' is in the source of package 'arm', but its CMakeLists.txt does not install it",
+                "file 'launch/arm.launch.xml' is not installed in the share folder: CMakeLists.txt of 'arm' "
+                "does not list it",
             ],
         ),
         (
             f"install(DIRECTORY launch DESTINATION {SHARE})",
-            ["'config/arm.yaml' is in the source of package 'arm', but its CMakeLists.txt does not install it"],
+            ["file 'config/arm.yaml' is not installed in the share folder: CMakeLists.txt of 'arm' does not list it"],
         ),
         (f"install(DIRECTORY launch DESTINATION {SHARE})\ngenerate_dcf(config)", []),
     ],

@@ -39,7 +39,7 @@ def test_a_component_that_is_not_registered(tmp_path: Path) -> None:
     assert found(tmp_path, "p::Driver", REGISTERED) == []
     (finding,) = found(tmp_path, "p::Drivr", REGISTERED)
     assert finding.severity == "error"
-    assert finding.message == "package 'p' registers no component 'p::Drivr'; did you mean 'p::Driver'?"
+    assert finding.message == "component 'p::Drivr' is not registered by package 'p'; did you mean 'p::Driver'?"
     assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["p::Driver"]
     (without_namespace,) = found(tmp_path, "Camera", REGISTERED)
     assert without_namespace.message.endswith("did you mean 'p::Camera'?")
@@ -111,11 +111,11 @@ def test_components_of_a_package_that_is_not_built(tmp_path: Path) -> None:
     assert [(f.severity, f.message) for f in findings] == [
         (
             "error",
-            "package 'vision' registers no component 'Tracker'; did you mean 'vision::Tracker'?",
+            "component 'Tracker' is not registered by package 'vision'; did you mean 'vision::Tracker'?",
         ),
         (
             "warning",
-            "package 'vision' registers no component 'vision::Segmentation'; it registers 'vision::Detector', "
+            "component 'vision::Segmentation' is not registered by package 'vision'; it registers 'vision::Detector', "
             "'vision::Tracker'",
         ),
     ]

@@ -17,7 +17,7 @@ def test_a_slip_of_a_released_package_of_the_workspace_and_of_the_system() -> No
                        ^^^^^^^^^^^^^^^^^^^^ warning[PKG007] did you mean 'robot_state_publisher'?
           <!-- <depend>move_bas</depend> -->
           <depend>laser_driverr</depend>
-                  ^^^^^^^^^^^^^ warning[PKG007] neither the workspace nor any distribution has a package 'laser_driverr'
+                  ^^^^^^^^^^^^^ warning[PKG007] unknown package 'laser_driverr': not in the workspace nor any
           <build_depend>libopencv-devv</build_depend>
                         ^^^^^^^^^^^^^^ warning[PKG007] did you mean 'libopencv-dev'?
           <exec_depend>robot_state_publiser</exec_depend>

@@ -60,7 +60,7 @@ def test_a_name_that_is_set_is_not_what_was_meant() -> None:
           <node pkg="p" type="t" name="n">
             <param name="rate" value="1"/>
             <param name="rate2" value="1"/>
-                         ^^^^^ hint[PRM001] /n does not read parameter '/n/rate2'
+                         ^^^^^ hint[PRM001] unused parameter '/n/rate2': not read by /n before its event loop, nor by
           </node>
         </launch>
         //- interfaces
@@ -138,7 +138,7 @@ def test_a_namespace_that_no_node_has_any_more() -> None:
                        ^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM001] reads '/lane_rule/acceleration', which is not set
           <group ns="lane_navi">
             <param name="zeros_behind" value="5"/>
-                         ^^^^^^^^^^^^ warning[PRM001] no node reads parameter '/lane_navi/zeros_behind'
+                         ^^^^^^^^^^^^ warning[PRM001] unused parameter '/lane_navi/zeros_behind'; /lane_rule reads
           </group>
           <node pkg="p" type="t" name="lane_rule"/>
         </launch>
@@ -296,7 +296,7 @@ def test_a_parameter_beside_several_nodes_that_might_have_been_meant_is_an_info(
     (finding,) = check("""
         <launch>
           <param name="rate" value="5"/>
-                       ^^^^ info[PRM001] no node reads parameter '/rate'
+                       ^^^^ info[PRM001] unused parameter '/rate'; /a reads '/a/rate', which is not set (default 1.0)
           <node pkg="p" type="t" name="a"/>
           <node pkg="p" type="t" name="b"/>
         </launch>
@@ -335,7 +335,7 @@ def test_a_name_as_on_the_command_line() -> None:
         <launch>
           <node pkg="p" type="unknown" name="laser"><param name="_firmware_version" value="2"/></node>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC004]
-                                                                 ^^^^^^^^^^^^^^^^^ warning[PRM001] is mostly
+                                                                 ^^^^^^^^^^^^^^^^^ warning[PRM001] parameter
           <node pkg="p" type="t" name="reads_it"><param name="_odd" value="2"/></node>
           <param name="_of_no_node" value="2"/>
         </launch>
@@ -387,9 +387,9 @@ _PARTLY = """
 def test_a_node_whose_source_tells_that_it_reads_the_name_elsewhere() -> None:
     told = [each for each in findings_of(_PARTLY % ("source", "")) if each.rule == "PRM001"]
     assert [(each.severity, each.confidence) for each in told] == [("warning", "possible")] * 3
-    assert "'/bagger/stream_time'; did you mean '/stream_time'" in told[0].message
-    assert "'/bagger/same_as_default'; did you mean '/same_as_default'" in told[1].message
-    assert "'/bagger/tpics'; did you mean '/bagger/topics'" in told[2].message
+    assert "'/bagger/stream_time' is not read by /bagger; did you mean '/stream_time'" in told[0].message
+    assert "'/bagger/same_as_default' is not read by /bagger; did you mean '/same_as_default'" in told[1].message
+    assert "'/bagger/tpics' is not read by /bagger; did you mean '/bagger/topics'" in told[2].message
 
 
 _BESIDE = """

@@ -53,7 +53,7 @@ def test_a_name_that_says_that_it_has_to_be_given() -> None:
         <launch>
           <arg name="robot" default="$(optenv ROBOT !!NO_ROBOT_SET!!)"/>
           <rosparam file="$(find p)/$(arg robot)/arm.yaml"/>
-                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] does not exist: a part of it has to be given
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] parameter file 'p/!!NO_ROBOT_SET!!/arm.yaml'
           <rosparam file="$(find p)/note_settings/arm.yaml"/>
                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[PRM002]
           <rosparam>robot: !!NO_ROBOT_SET!!</rosparam>
@@ -93,6 +93,6 @@ def test_a_file_of_another_machine_or_of_the_folder_where_the_launch_is_started(
           <rosparam file="/sim_ws/src/racing/params.yaml"/>
                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] this machine has no '/sim_ws'
           <rosparam file="$(optenv PWD /p)/params.yaml"/>
-                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] it depends on the folder where
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] parameter file 'p/params.yaml' does not exist; the
         </launch>
     """)

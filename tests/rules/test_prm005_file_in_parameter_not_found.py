@@ -73,7 +73,7 @@ def test_a_model_that_is_not_there_may_have_to_be_fetched() -> None:
     check("""
         <launch>
           <param name="model" value="$(find p)/trained/net.npz"/>
-                                     ^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] it may have to be fetched first
+                                     ^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] file 'p/trained/net.npz' in parameter
         </launch>
     """)
 
@@ -237,7 +237,7 @@ def test_a_file_that_is_not_there_is_shown_where_it_is_written() -> None:
         </launch>
     """
     (finding,) = check(text)
-    assert finding.related[0].message == "parameter 'map' is given here"
+    assert finding.related[0].message == "parameter 'map' is set here"
     assert finding.related[0].location.file == "/inc.launch"
 
 
@@ -262,7 +262,7 @@ def test_a_file_in_the_folder_where_the_launch_is_started() -> None:
     check("""
         <launch>
           <arg name="solution" default="$(optenv PWD /p)/my_solution.py"/>
-                                        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] it depends on the folder
+                                        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] file 'p/my_solution.py' in the
           <node pkg="p" type="t" name="n" args="$(arg solution)"/>
         </launch>
     """)

@@ -8,25 +8,25 @@ def test_a_parameter_set_twice_where_the_lost_value_is_easily_missed() -> None:
     first, *_ = check("""
         <launch>
           <param name="use_sim_time" value="true"/>
-                       ^^^^^^^^^^^^ warning[PRM006] an include that comes later sets it again, to 'false'
+                       ^^^^^^^^^^^^ warning[PRM006] overridden: parameter '/use_sim_time' is set again by a later
           <param name="n/rate" value="1"/>
-                       ^^^^^^ warning[PRM006] it is set again below, to '2'
+                       ^^^^^^ warning[PRM006] overridden: parameter '/n/rate' is set again below to '2', not '1'
           <node pkg="p" type="t" name="n">
             <param name="rate" value="2"/>
             <param name="limit" value="3"/>
             <rosparam>{limit: 4}</rosparam>
-                       ^^^^^ warning[PRM006] in a <node> each <param> comes after the <rosparam>s, and sets it, to '3'
+                       ^^^^^ warning[PRM006] overridden: parameter '/n/limit' is set by the <param> of the <node>,
             <param name="tolerance" value="0.2"/>
-                         ^^^^^^^^^ warning[PRM006] '/n/tolerance' is set to '0.2' here, which does not count
+                         ^^^^^^^^^ warning[PRM006] overridden: parameter '/n/tolerance' is set again below to '0.1',
             <param name="tolerance" value="0.1"/>
           </node>
           <group>
             <param name="~frame" value="map"/>
             <node pkg="p" type="t" name="m"><rosparam param="frame">odom</rosparam></node>
-                                            ^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM006] a <param> of a ~name
+                                            ^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM006] overridden: parameter '/m/frame'
           </group>
           <param name="m/gain" value="1"/>
-                       ^^^^^^ warning[PRM006] the file that is loaded later sets it again, to '2'
+                       ^^^^^^ warning[PRM006] overridden: parameter '/m/gain' is set again by a later file to '2', not
           <rosparam file="/gains.yaml"/>
           <include file="/inc.launch"/>
         </launch>
@@ -71,14 +71,14 @@ def test_settings_that_may_be_layers_are_hints() -> None:
     check("""
         <launch>
           <rosparam param="a">{x: 1, y: 2}</rosparam>
-                               ^ hint[PRM006] '/a/x' is set to '1' here, which does not count: a <rosparam> after it
+                               ^ hint[PRM006] overridden: parameter '/a/x' is set again by a later <rosparam> to '3',
           <rosparam param="a">{x: 3}</rosparam>
           <include file="/one.launch"/>
           <include file="/two.launch"/>
         </launch>
         //- /one.launch
         <launch><param name="speed" value="1"/></launch>
-                             ^^^^^ hint[PRM006] another included file sets it again, to '2'
+                             ^^^^^ hint[PRM006] overridden: parameter '/speed' is set again by another included file
         //- /two.launch
         <launch><param name="speed" value="2"/></launch>
     """)
@@ -92,7 +92,7 @@ def test_a_key_that_stands_twice_in_a_dictionary() -> None:
         </launch>
         //- /a.yaml
         costmap:
-        ^^^^^^^ warning[PRM006] 'costmap' stands twice in this dictionary: the later one counts, all of this is dropped
+        ^^^^^^^ warning[PRM006] duplicate key 'costmap' in this dictionary: the later one overrides this one
           width: 3
         costmap:
           height: 4
@@ -105,7 +105,7 @@ def test_a_private_parameter_around_a_node_that_is_named_in_full_as_well() -> No
         <launch>
           <param name="~rate" value="1"/>
           <param name="n/rate" value="2"/>
-                       ^^^^^^ warning[PRM006] a <param> of a ~name before it is for the node, which comes later
+                       ^^^^^^ warning[PRM006] overridden: parameter '/n/rate' is set by an earlier <param> for the
           <node pkg="p" type="t" name="n"/>
         </launch>
     """)
@@ -118,7 +118,7 @@ def test_a_parameter_from_two_sources() -> None:
           <set_parameter name="rate" value="1"/>
           <node pkg="p" exec="a" name="a">
             <param name="rate" value="10"/>
-                         ^^^^ warning[PRM006] 'rate' of /a is set to '10' here, which does not count
+                         ^^^^ warning[PRM006] overridden: parameter 'rate' of /a is set again by a later parameter
             <param from="/a.yaml"/>
           </node>
           <node pkg="p" exec="b" name="b">
@@ -127,7 +127,7 @@ def test_a_parameter_from_two_sources() -> None:
           </node>
           <node pkg="p" exec="c" name="c">
             <param name="rate" value="10"/>
-                         ^^^^ warning[PRM006] which does not count: it is set again below
+                         ^^^^ warning[PRM006] overridden: parameter 'rate' of /c is set again below to '11', not '10'
             <param name="rate" value="11"/>
           </node>
         </launch>
@@ -148,7 +148,7 @@ def test_a_wildcard_after_the_name_and_a_value_after_both() -> None:
           <node pkg="p" exec="b" name="b">
             <param from="/wild_first.yaml"/>
             <param name="rate" value="10"/>
-                         ^^^^ warning[PRM006] '/b' of the file before it counts more than '/**'
+                         ^^^^ warning[PRM006] overridden: parameter 'rate' of /b is set by key '/b' of an earlier
           </node>
           <node pkg="p" exec="b" name="b" namespace="own">
             <param from="/wild_first.yaml"/>
@@ -163,7 +163,7 @@ def test_a_wildcard_after_the_name_and_a_value_after_both() -> None:
         //- /wild_last.yaml
         /a:
           ros__parameters: {rate: 1}
-                            ^^^^ warning[PRM006] to '1' here, which does not count: '/**' stands below it
+                            ^^^^ warning[PRM006] overridden: parameter 'rate' of /a is set again by the later key
         /**:
           ros__parameters: {rate: 2}
         //- /composable.yaml

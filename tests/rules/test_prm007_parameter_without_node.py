@@ -8,7 +8,7 @@ def test_a_common_leaf_name_alone_is_no_evidence() -> None:
     check("""
         <launch>
           <param name="/camera_driver/frame_id" value="front"/>
-                       ^^^^^^^^^^^^^^^^^^^^^^^ hint[PRM007] no node of this launch is called '/camera_driver'
+                       ^^^^^^^^^^^^^^^^^^^^^^^ hint[PRM007] '/camera_driver' is neither a node nor a namespace of this
           <node pkg="p" type="t" name="laser"/>
         </launch>
         //- interfaces
@@ -20,13 +20,13 @@ def test_a_parameter_for_a_node_that_is_called_otherwise() -> None:
     text = """
         <launch>
           <param name="/talkr/rate" value="10"/>
-                       ^^^^^^^^^^^ warning[PRM007] no node is called '/talkr', for which parameter '/talkr/rate' is set
+                       ^^^^^^^^^^^ warning[PRM007] '/talkr' is not a node of this launch (parameter '/talkr/rate');
           <node pkg="p" type="t" name="talker"/>
           <group ns="robot"><node pkg="p" type="t" name="n"/></group>
           <param name="robto/n/rate" value="1"/>
                        ^^^^^^^^^^^^ warning[PRM007] did you mean '/robot'?
           <param name="base/rate" value="1"/>
-                       ^^^^^^^^^ hint[PRM007] no node of this launch is called '/base' or is in that namespace
+                       ^^^^^^^^^ hint[PRM007] '/base' is neither a node nor a namespace of this launch (parameter
         </launch>
     """
     first, *_ = check(text)
@@ -76,7 +76,7 @@ def test_a_dictionary_for_a_node_that_is_called_otherwise() -> None:
         </launch>
         //- /a.yaml
         talkr:
-        ^^^^^ warning[PRM007] for which parameter '/talkr/rate' and 1 more are set; did you mean '/talker'?
+        ^^^^^ warning[PRM007] '/talkr' is not a node of this launch (parameter '/talkr/rate' and 1 more); did you mean
           rate: 3
           sub: {limit: 4}
     """

@@ -20,7 +20,7 @@ def test_a_number_that_roslaunch_takes_for_a_text() -> None:
         <launch>
           <node pkg="p" type="t" name="n">
             <param name="rate" value="1e3"/>
-                         ^^^^ warning[PRM009] '/n/rate' is '1e3', a text, but /n reads it with the default 10, a number
+                         ^^^^ warning[PRM009] type mismatch of parameter '/n/rate': '1e3' is a text, /n expects a
           </node>
         </launch>
         //- interfaces
@@ -74,7 +74,7 @@ def test_lists_from_yaml() -> None:
             <rosparam>
               frames: [a, b]
               frame: [a, b]
-              ^^^^^ warning[PRM009] a list, but /n reads it with the default 'map', a text
+              ^^^^^ warning[PRM009] type mismatch of parameter '/n/frame': ['a', 'b'] is a list, /n expects a text
             </rosparam>
           </node>
         </launch>

@@ -8,7 +8,7 @@ def test_a_node_that_died_of_a_missing_parameter() -> None:
     (finding, _) = check("""
         <launch>
           <node pkg="p" type="t" name="n"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] /n reads parameter '/n/rate' without a default
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] required parameter '/n/rate' is not set; /n reads it
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001]
         </launch>
         //- interfaces
@@ -22,7 +22,7 @@ def test_a_node_that_goes_on_gets_one_hint() -> None:
         <launch>
           <param name="other/rate" value="1"/>
           <node pkg="p" type="t" name="talker"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[PRM010] reads parameters '/talker/rate' and '/talker/size' without
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[PRM010] parameters '/talker/rate' and '/talker/size' are not
           <node pkg="p" type="t" name="other"/>
         </launch>
         //- interfaces
@@ -64,7 +64,7 @@ def test_a_node_that_ends_with_its_own_words_on_a_parameter(access: str) -> None
     """.replace("ACCESS", access)
     (finding,) = [f for f in findings_of(text.replace("LINE", "param rate is not set")) if f.rule == "PRM010"]
     assert (finding.severity, finding.confidence) == ("warning", "likely")
-    assert finding.message.endswith("and nothing sets it; it ended with: param rate is not set")
+    assert finding.message.endswith("and exits: param rate is not set")
     others = [f for f in findings_of(text.replace("LINE", "no device at 9600 baud, rates vary")) if f.rule == "PRM010"]
     assert {f.severity for f in others} <= {"hint"}
 
@@ -74,7 +74,7 @@ def test_a_node_that_died_of_a_misspelt_parameter_is_told_where_it_is_written() 
         <launch>
           <node pkg="p" type="t" name="n"><param name="sampel_rate" value="3"/></node>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001]
-                                                       ^^^^^^^^^^^ warning[PRM010] did you mean '/n/sample_rate' there?
+                                                       ^^^^^^^^^^^ warning[PRM010] unused parameter '/n/sampel_rate';
         </launch>
         //- interfaces
         {"/n": {"params": {"~sample_rate": null}, "status": "crashed", "exit_code": 1,
@@ -89,7 +89,7 @@ def test_a_type_alone_in_the_source_of_a_node_of_ros_2() -> None:
         //- /robot.launch.xml
         <launch>
           <node pkg="p" exec="guide" name="guide"><param name="gain" value="1.5"/></node>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] parameters 'file' and 'step' by their type alone, and
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM010] required parameters 'file' and 'step' are not set;
         </launch>
         //- interfaces
         {"/guide": {"source": "source", "params": {"~gain": null, "~step": null, "~file": null, "~rate": 1.0}}}

@@ -11,12 +11,12 @@ def test_a_parameter_file_for_another_node() -> None:
         <launch>
           <node pkg="p" exec="localizer" name="localizer">
             <param from="/amcl.yaml"/>
-                         ^^^^^^^^^^ warning[PRM011] the file has nothing for /localizer
+                         ^^^^^^^^^^ warning[PRM011] no section of this file applies to /localizer; it has sections for
           </node>
           <group>
             <push_ros_namespace namespace="robot"/>
             <node pkg="p" exec="camera" name="camera"><param from="/nodes.yaml"/></node>
-                                                                   ^^^^^^^^^^^ warning[PRM011] nothing for /robot/camera
+                                                                   ^^^^^^^^^^^ warning[PRM011] no section of this file
             <node pkg="p" exec="arm" name="arm"><param from="/nodes.yaml"/></node>
             <node pkg="p" exec="lidar" name="lidar"><param from="/nodes.yaml"/></node>
           </group>
@@ -26,14 +26,14 @@ def test_a_parameter_file_for_another_node() -> None:
         </launch>
         //- /amcl.yaml
         amcl:
-        ^^^^ warning[PRM011] '/amcl' is no node that gets this file: /localizer does, and ignores it
+        ^^^^ warning[PRM011] section '/amcl' applies to no node that gets this file (only /localizer)
           ros__parameters: {max_particles: 800}
         //- /nodes.yaml
         /robot/arm:
           ros__parameters: {speed: 1}
         robot:
           camra:
-          ^^^^^ warning[PRM011] '/robot/camra' is no node that gets this file
+          ^^^^^ warning[PRM011] section '/robot/camra' applies to no node that gets this file (only /robot/camera)
             ros__parameters: {rate: 1}
         //- /shared.yaml
         costmap:
@@ -53,7 +53,7 @@ def test_a_key_without_the_namespace_of_its_node() -> None:
             <push_ros_namespace namespace="front"/>
             <node pkg="p" exec="camera" name="camera"><param from="/cameras.yaml"/></node>
             <node pkg="p" exec="lidar" name="lidar"><param from="/lidars.yaml"/></node>
-                                                                 ^^^^^^^^^^^^ warning[PRM011] the file has nothing for /front/lidar
+                                                                 ^^^^^^^^^^^^ warning[PRM011] no section of this file
             <node pkg="p" exec="arm" name="arm"><param from="/all.yaml"/></node>
             <node pkg="p" exec="hand" name="hand"><param from="/all.yaml"/></node>
           </group>
@@ -63,11 +63,11 @@ def test_a_key_without_the_namespace_of_its_node() -> None:
         /**:
           ros__parameters: {frame: map}
         camera:
-        ^^^^^^ warning[PRM011] '/camera' is no node that gets this file: /front/camera and /rear/camera do, and ignore it
+        ^^^^^^ warning[PRM011] section '/camera' applies to no node that gets this file (only /front/camera and
           ros__parameters: {rate: 30}
         //- /lidars.yaml
         lidar:
-        ^^^^^ warning[PRM011] '/lidar' is no node that gets this file: /front/lidar does, and ignores it
+        ^^^^^ warning[PRM011] section '/lidar' applies to no node that gets this file (only /front/lidar)
           ros__parameters: {rate: 10}
         //- /all.yaml
         /**:
@@ -82,9 +82,9 @@ def test_a_key_without_the_namespace_of_its_node() -> None:
           ros__parameters: {speed: 1}
         gripper:
           ros__parameters: {speed: 1}
-    """)  # noqa: E501
+    """)
     assert [fix.title for finding in findings if "rear" in finding.message for fix in finding.fixes] == [
-        "Write '/**/camera' as the key"
+        "Replace the key with '/**/camera'"
     ]
 
 

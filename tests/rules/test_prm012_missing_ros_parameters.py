@@ -20,7 +20,7 @@ def test_values_above_the_mark() -> None:
         //- /a.yaml
         a:
           rate: 30
-          ^^^^ error[PRM012] 'rate' does not stand below 'ros__parameters'
+          ^^^^ error[PRM012] parameter 'rate' is not below 'ros__parameters'; rcl refuses the whole file
           name: front
     """)
 

@@ -10,7 +10,7 @@ def test_a_parameter_that_is_not_declared() -> None:
         <launch>
           <node pkg="p" exec="pump" name="pump">
             <param name="max_presure" value="4.5"/>
-                         ^^^^^^^^^^^ warning[PRM013] /pump declares no parameter 'max_presure'
+                         ^^^^^^^^^^^ warning[PRM013] parameter 'max_presure' is not declared by /pump; its value is
             <param name="use_sim_time" value="false"/>
             <param name="gains.p" value="4.5"/>
           </node>
@@ -23,7 +23,7 @@ def test_a_parameter_that_is_not_declared() -> None:
           ros__parameters:
             gains:
               q: 1.0
-              ^ warning[PRM013] /any declares no parameter 'gains.q'
+              ^ warning[PRM013] parameter 'gains.q' is not declared by /any; its value is ignored
             speed: 2.0
         //- interfaces
         {"/pump": {"params": {"~max_pressure": 6.0, "~gains.p": 1.0}},
@@ -47,7 +47,7 @@ def test_parameters_that_are_written_once_for_several_nodes() -> None:
           ros__parameters:
             speed: 1.0
             limt: 2.0
-            ^^^^ warning[PRM013] /left and 1 more declares no parameter 'limt'
+            ^^^^ warning[PRM013] parameter 'limt' is not declared by /left and 1 more; its value is ignored; did you
         //- /some.yaml
         /**:
           ros__parameters:
@@ -69,11 +69,11 @@ def test_what_a_section_shares_and_what_is_given_besides_is_not_near() -> None:
             topics:
               guidance:
                 dp: a
-                ^^ warning[PRM013] 'topics.guidance.dp': its value is ignored
+                ^^ warning[PRM013] parameter 'topics.guidance.dp' is not declared by /guide; its value is ignored
                 spede: 1.0
                 ^^^^^ warning[PRM013] did you mean 'topics.guidance.speed'?
                 limits: 1.0
-                ^^^^^^ warning[PRM013] 'topics.guidance.limits': its value is ignored
+                ^^^^^^ warning[PRM013] parameter 'topics.guidance.limits' is not declared by /guide; its value is
                 limit: 1.0
         //- interfaces
         {"/guide": {"params":
@@ -105,18 +105,18 @@ def test_a_slip_of_what_each_node_has() -> None:
         <launch>
           <node pkg="p" exec="unknown" name="unknown">
             <param name="use_sime_time" value="true"/>
-                         ^^^^^^^^^^^^^ warning[PRM013] 'use_sime_time' of /unknown is no 'use_sim_time'
+                         ^^^^^^^^^^^^^ warning[PRM013] parameter 'use_sime_time' of /unknown has no effect; did you
           </node>
           <node pkg="p" exec="pump" name="pump">
             <param name="use_simtime" value="true"/>
-                         ^^^^^^^^^^^ warning[PRM013] 'use_simtime' of /pump is no 'use_sim_time'
+                         ^^^^^^^^^^^ warning[PRM013] parameter 'use_simtime' of /pump has no effect; did you mean
           </node>
           <node pkg="p" exec="own" name="own"><param name="use_sim_times" value="true"/></node>
         </launch>
         //- interfaces
         {"/pump": {"params": {"~a": 1}}, "/own": {"params": {"~use_sim_times": false}}}
     """
-    found = next(each for each in check(text) if "/unknown is" in each.message)
+    found = next(each for each in check(text) if "of /unknown" in each.message)
     assert '<param name="use_sim_time" value="true"/>' in apply(text, found.fixes[0].edits)["/robot.launch.xml"]
 
 

@@ -10,11 +10,11 @@ def test_a_parameter_of_another_type() -> None:
         <launch>
           <node pkg="p" exec="pump" name="pump">
             <param name="rate" value="5"/>
-                         ^^^^ error[PRM014] 'rate' is an integer, and /pump declares it as a double: the node stops
+                         ^^^^ error[PRM014] type mismatch of parameter 'rate': got an integer, /pump declares a
             <param name="speed" value="5.0"/>
             <param name="names" value="[a, b]"/>
             <param name="count" value="'5'"/>
-                         ^^^^^ error[PRM014] 'count' is a string, and /pump declares it as an integer
+                         ^^^^^ error[PRM014] type mismatch of parameter 'count': got a string, /pump declares an
             <param name="free" value="1"/>
             <param name="empty" value="[1, 2]"/>
           </node>
@@ -31,16 +31,16 @@ def test_a_parameter_of_another_type_than_it_arrives_with() -> None:
         <launch>
           <node pkg="p" exec="a" name="a">
             <param name="rate" value="5"/>
-                         ^^^^ error[PRM014] 'rate' is an integer, and /a declares it as a double: the node stops
+                         ^^^^ error[PRM014] type mismatch of parameter 'rate': got an integer, /a declares a double;
             <param name="gains" value="[1, 2]"/>
-                         ^^^^^ error[PRM014] 'gains' is a list of integers, and /a declares it as a list of doubles
+                         ^^^^^ error[PRM014] type mismatch of parameter 'gains': got a list of integers, /a declares a
             <param name="axis" value="y" type="str"/>
-                         ^^^^ error[PRM014] launch hands over 'y' without quotes, which rcl reads as a bool
+                         ^^^^ error[PRM014] type mismatch of parameter 'axis': launch passes 'y' without quotes, and
             <param name="any" value="5"/>
             <param name="kind" value="5"/>
-                         ^^^^ error[PRM014] 'kind' is an integer, and /a declares it as a string
+                         ^^^^ error[PRM014] type mismatch of parameter 'kind': got an integer, /a declares a string;
             <param name="frames" value="[a, b]"/>
-                         ^^^^^^ error[PRM014] and /a declares it as bytes (which an empty list means)
+                         ^^^^^^ error[PRM014] type mismatch of parameter 'frames': got a list of strings, /a declares
             <param from="/a.yaml"/>
           </node>
         </launch>
@@ -48,10 +48,10 @@ def test_a_parameter_of_another_type_than_it_arrives_with() -> None:
         a:
           ros__parameters:
             side: y
-            ^^^^ error[PRM014] 'side' is a bool, and /a declares it as a string: the node stops
+            ^^^^ error[PRM014] type mismatch of parameter 'side': got a bool, /a declares a string; the node exits
             name: "y"
             none: []
-            ^^^^ error[PRM014] 'none' is an empty list, which has no type
+            ^^^^ error[PRM014] type mismatch of parameter 'none': an empty list has no type, /a declares a list of
         //- interfaces
         {"/a": {"params": {"~rate": 10.0, "~gains": [1.0], "~axis": "x", "~any": 1.0, "~side": "x", "~name": "x",
                            "~none": [1.0], "~kind": null, "~frames": []},
@@ -66,7 +66,7 @@ def test_simulated_time_that_is_no_bool() -> None:
         //- /robot.launch.yaml
         launch:
           - set_parameter: {name: use_sim_time, value: "'true'"}
-            ^^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is a string, and /a declares it as a bool: the node stops when it declares it (InvalidParameterTypeException); write it without quotes
+            ^^^^^^^^^^^^^ error[PRM014] type mismatch of parameter 'use_sim_time': got a string, /a declares a bool;
           - node: {pkg: p, exec: a, name: a}
           - node: {pkg: p, exec: b, name: b}
           - node:
@@ -75,7 +75,7 @@ def test_simulated_time_that_is_no_bool() -> None:
               name: c
               param:
                 - {name: use_sim_time, value: 1}
-                         ^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is an integer, and /c declares it as a bool
+                         ^^^^^^^^^^^^ error[PRM014] type mismatch of parameter 'use_sim_time': got an integer, /c
           - node:
               pkg: p
               exec: d
@@ -92,10 +92,10 @@ def test_simulated_time_that_is_no_bool() -> None:
         d:
           ros__parameters:
             use_sim_time: yes please
-            ^^^^^^^^^^^^ error[PRM014] 'use_sim_time' is a string, and /d declares it as a bool
+            ^^^^^^^^^^^^ error[PRM014] type mismatch of parameter 'use_sim_time': got a string, /d declares a bool;
         //- interfaces
         {"/a": {}}
-    """)  # noqa: E501
+    """)
 
 
 @pytest.mark.silent

@@ -21,7 +21,7 @@ def test_simulated_time() -> None:
     under = "^" * len('<set_parameter name="use_sim_time" value="true"/>')
     check(
         launch.format(
-            expected=f"{under} info[PRM015] use_sim_time is true, and no node of this launch publishes /clock",
+            expected=f"{under} info[PRM015] 'use_sim_time' is true, but '/clock' has no publisher",
             clock="",
             interfaces='{"/a": {}}',
         )
@@ -34,7 +34,7 @@ def test_simulated_time_is_shown_where_it_is_given() -> None:
         //- /robot.launch.xml
         <launch>
           <arg name="time" default="true"/>
-                                    ^^^^ info[PRM015] use_sim_time is true
+                                    ^^^^ info[PRM015] 'use_sim_time' is true, but '/clock' has no publisher in this
           <include file="/arm.launch.xml"><arg name="sim" value="$(var time)"/></include>
         </launch>
         //- /arm.launch.xml
@@ -47,7 +47,7 @@ def test_simulated_time_is_shown_where_it_is_given() -> None:
         //- interfaces
         {"/a": {}, "/b": {"params": {"c": false}}}
     """)
-    assert finding.related[0].message == "/a gets it here"
+    assert finding.related[0].message == "set for /a here"
     assert finding.related[0].location.file == "/arm.launch.xml"
 
 
@@ -58,7 +58,7 @@ def test_a_plain_value_is_shown_where_it_is() -> None:
           <arg name="c" default="true"/>
           <node pkg="p" exec="a" name="a">
             <param name="use_sim_time" value="true"/><param name="c" value="$(var c)"/>
-                         ^^^^^^^^^^^^ info[PRM015] use_sim_time is true
+                         ^^^^^^^^^^^^ info[PRM015] 'use_sim_time' is true, but '/clock' has no publisher in this
           </node>
         </launch>
         //- interfaces
@@ -73,7 +73,7 @@ def test_nodes_on_two_clocks() -> None:
           <node pkg="p" exec="clock" name="clock"/>
           <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
           <node pkg="p" exec="b" name="b"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM015] true for 1 node of this launch and not for /b
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM015] 'use_sim_time' is not true for /b, but for 1 node of this
         </launch>
         //- interfaces
         {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}

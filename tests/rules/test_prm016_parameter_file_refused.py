@@ -28,7 +28,7 @@ def test_what_a_parameter_file_cannot_have() -> None:
         a:
           ros__parameters:
             gains: [1, 2.5]
-                   ^^^^^^^^ error[PRM016] a list with doubles and integers in it: 'gains'; the client libraries refuse
+                   ^^^^^^^^ error[PRM016] a list with doubles and integers in it: 'gains'; rcl refuses the whole file,
             grid: [[1, 2], [3, 4]]
                   ^^^^^^^^^^^^^^^^ error[PRM016] a list of lists: 'grid'
             tilde: ~
@@ -48,18 +48,18 @@ def test_one_bad_value_stops_each_node_that_gets_the_file() -> None:
           <node pkg="p" exec="a" name="a"><param from="/a.yaml"/></node>
           <node pkg="p" exec="b" name="b"><param from="/a.yaml"/></node>
           <node pkg="p" exec="c" name="c"><param name="axes" value="[x, y, z]"/></node>
-                                                       ^^^^ error[PRM016] 'axes' arrives as a list with bools and texts in it, as launch hands it over without quotes: /c does not start
+                                                       ^^^^ error[PRM016] parameter 'axes' arrives as a list with
           <node pkg="p" exec="d" name="d"><param name="axes" value="[a, b]"/></node>
         </launch>
         //- /a.yaml
         a:
           ros__parameters:
             axes: [x, y, z]
-                  ^^^^^^^^^ error[PRM016] a list with bools and texts in it: 'axes'; the client libraries refuse the whole file for it, and none of the 2 nodes that get it starts
+                  ^^^^^^^^^ error[PRM016] a list with bools and texts in it: 'axes'; rcl refuses the whole file, and
             quoted: [x, "y", z]
         b:
           ros__parameters: {rate: 1}
-    """)  # noqa: E501
+    """)
     (of_file,) = (finding for finding in findings if finding.location.file == "/a.yaml")
     assert [each.message for each in of_file.related] == ["/a gets the file here", "/b gets the file here"]
 
@@ -99,7 +99,7 @@ def test_a_substitution_in_a_parameter_file_that_nobody_makes() -> None:
           ros__parameters:
             gains: [$(var gain), 2.5]
                    ^^^^^^^^^^^^^^^^^^ error[PRM016] a list with doubles and texts in it: 'gains'
-                    ^^^^^^^^^^^ warning[LCH029] '$(var gain)' stays text
+                    ^^^^^^^^^^^ warning[LCH029] '$(var gain)' is treated as literal text; substitutions in YAML need
     """)
 
 

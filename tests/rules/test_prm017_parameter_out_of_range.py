@@ -10,13 +10,13 @@ def test_a_parameter_out_of_its_range() -> None:
         <launch>
           <node pkg="p" exec="a" name="a">
             <param name="rate" value="11"/>
-                         ^^^^ error[PRM017] 'rate' is 11, which is out of range: /a declares it for 0 to 10, and stops
+                         ^^^^ error[PRM017] parameter 'rate' is 11, out of range: /a declares 0 to 10 and exits
             <param name="even" value="3"/>
-                         ^^^^ error[PRM017] which is none of the steps: /a declares it for 0 to 10 in steps of 2
+                         ^^^^ error[PRM017] parameter 'even' is 3, between the steps: /a declares 0 to 10 in steps of
             <param name="last" value="10"/>
             <param name="part" value="0.3"/>
             <param name="over" value="1.01"/>
-                         ^^^^ error[PRM017] 'over' is 1.01, which is out of range
+                         ^^^^ error[PRM017] parameter 'over' is 1.01, out of range: /a declares 0.0 to 1.0 and exits
             <param name="fixed" value="3"/>
             <param name="any" value="3"/>
             <param name="dense" value="3.3"/>

@@ -25,13 +25,13 @@ def test_another_name_than_that_of_the_section() -> None:
     (found,) = check(f"""
         {_START.format(more="")}
             plugins: ["static_layer", "voxel_layer"]
-                                       ^^^^^^^^^^^ warning[PRM018] no parameter 'voxel_layer.plugin' as the others have
+                                       ^^^^^^^^^^^ warning[PRM018] 'voxel_layer' in 'plugins' has no parameter
             static_layer:
               plugin: "a::Static"
             obstacle_layer:
               plugin: "a::Obstacle"
     """)
-    assert "'obstacle_layer' is configured and in no list" in found.message
+    assert "'obstacle_layer' is configured but not listed" in found.message
     assert [each.message for each in found.related][:1] == ["'obstacle_layer' is configured here"]
 
 
@@ -107,7 +107,7 @@ def test_a_controller_of_moveit_without_a_section() -> None:
           ros__parameters:
             moveit_simple_controller_manager:
               controller_names: ["arm_trajectory_controller"]
-              ^^^^^^^^^^^^^^^^ warning[PRM018] there is no 'moveit_simple_controller_manager.arm_trajectory_controller'
+              ^^^^^^^^^^^^^^^^ warning[PRM018] 'arm_trajectory_controller' in
               arm:
                 type: FollowJointTrajectory
               other:

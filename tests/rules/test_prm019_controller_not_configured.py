@@ -24,7 +24,7 @@ def test_one_that_no_file_has() -> None:
         <launch>
           {_MANAGER}
           <node pkg="controller_manager" exec="spawner" name="s" args="streaming_controller -c /controller_manager"/>
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] no parameter 'streaming_controller.type': the controller is not loaded; it knows
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] parameter 'streaming_controller.type' of /controller_manager is not set
           <node pkg="controller_manager" exec="spawner" name="t" args="--inactive twist_controler"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[PRM019] did you mean 'twist_controller'?
         </launch>

@@ -75,7 +75,7 @@ def test_a_slip_in_a_key_that_is_to_be_rewritten(tmp_path: Path, real: bool) -> 
     made = """RewrittenYaml(source_file=file, param_rewrites={"use_sim_tiem": LaunchConfiguration("sim")})"""
     (finding,) = _found(tmp_path, made, real=real)
     assert (finding.severity, finding.confidence) == ("warning", "likely")
-    assert "no key 'use_sim_tiem'; did you mean 'use_sim_time'?" in finding.message
+    assert "key 'use_sim_tiem' of RewrittenYaml replaces nothing" in finding.message
     assert [edit.text for edit in finding.fixes[0].edits] == ["use_sim_time"]
 
 
@@ -83,7 +83,7 @@ def test_a_slip_in_a_text_that_is_to_be_replaced(tmp_path: Path) -> None:
     made = """ReplaceString(source_file=file, replacements={"<robot_namespce>": "r1"})"""
     (finding,) = _found(tmp_path, made)
     assert finding.severity == "warning"
-    assert "no text '<robot_namespce>'; did you mean '<robot_namespace>'?" in finding.message
+    assert "text '<robot_namespce>' of ReplaceString replaces nothing" in finding.message
 
 
 def test_what_is_like_nothing_in_the_file_is_but_a_hint(tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ FIXTURE = """
     ],
 )
 def test_a_type_that_is_nearly_the_packages_own(type_: str, meant: str) -> None:
-    said = f"warning[PRM021] has no controller '{type_}'"
+    said = f"warning[PRM021] unknown controller '{type_}'"
     (finding,) = check(FIXTURE.format(type_) + f"                {'^' * len(type_)} {said}\n")
     assert f"did you mean '{meant}'?" in finding.message
     assert finding.confidence == "possible"
@@ -78,7 +78,7 @@ PLUGIN = """
 @pytest.mark.parametrize("mark", ["::", "/"])
 def test_a_plugin_that_is_nearly_the_packages_own(mark: str) -> None:
     type_ = f"nav2_navfn_planner{mark}NavfnPlaner"
-    (finding,) = check(PLUGIN.format(type_) + f"                  {'^' * len(type_)} warning[PRM021] has no plugin\n")
+    (finding,) = check(PLUGIN.format(type_) + f"                  {'^' * len(type_)} warning[PRM021] unknown plugin\n")
     assert f"did you mean 'nav2_navfn_planner{mark}NavfnPlanner'?" in finding.message
 
 
@@ -122,7 +122,7 @@ OWN = """    //- /src/own_controllers/package.xml
 
 def test_a_slip_of_what_a_package_of_the_workspace_has() -> None:
     type_ = "own_controllers/StateBroadCaster"
-    said = f"{'^' * len(type_)} warning[PRM021] has no controller '{type_}', as far as its plugin descriptions list"
+    said = f"{'^' * len(type_)} warning[PRM021] unknown controller '{type_}'"
     (finding,) = check(FIXTURE.format(type_) + f"                {said}\n" + OWN)
     assert finding.confidence == "likely"
     assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["own_controllers/StateBroadcaster"]

@@ -51,7 +51,7 @@ def test_a_slip_of_what_the_catalogue_knows() -> None:
         + _below(
             'plugin: "nav2_mppi_controller::MPPIController"',
             "vx_maxx: 0.3",
-            "^^^^^^^ warning[PRM022] declares no parameter 'vx_maxx': its value is ignored; did you mean 'vx_max'?",
+            "^^^^^^^ warning[PRM022] parameter 'vx_maxx' is not declared by plugin",
             "vx_min: -0.3",
         )
     )
@@ -97,7 +97,7 @@ def test_a_plugin_of_the_workspace() -> None:
         + _below(
             'plugin: "mine::Controller"',
             "lookahed: 0.3",
-            "^^^^^^^^ warning[PRM022] did you mean 'lookahead'? Known by its source in package 'mine'",
+            "^^^^^^^^ warning[PRM022] did you mean 'lookahead'? Source: its source in package 'mine'",
             "speed: 2.0",
         )
         + _SOURCE

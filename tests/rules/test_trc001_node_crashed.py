@@ -85,7 +85,7 @@ def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
     check("""
         <launch>
           <param name="robot_description" command="xacro robot.xacro"/>
-                                                   ^^^^^^^^^^^^^^^^^ hint[LCH018] was not run
+                                                   ^^^^^^^^^^^^^^^^^ hint[LCH018] command not run, its value is
           <node pkg="p" type="t" name="n"/>
           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] /n crashes on start: exit code 1; it reads
         </launch>

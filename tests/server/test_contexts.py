@@ -115,7 +115,7 @@ async def test_what_is_wrong_with_the_settings_is_told_at_its_place(harness: Har
     async with editing(harness) as editor:
         editor.open(harness.launch_file)
         found = await editor.having(settings, "LCH031")
-        assert "'fiel' does not belong" in found.message
+        assert "key 'file' is missing" in found.message
         assert editor.client.messages == [], "said once, at its place"
 
 
@@ -125,7 +125,7 @@ async def test_the_place_in_the_settings_is_shown_until_it_is_mended(harness: Ha
     async with editing(harness) as editor:
         editor.open(harness.launch_file, harness.launch_file.read_text() + "<")
         found = await editor.having(settings, "LCH031")
-        assert "'topic' does not belong into external" in found.message
+        assert "unknown key 'topic' of 'external'" in found.message
         assert (found.range.start.line, found.range.start.character, found.range.end.character) == (1, 2, 13)
         settings.write_text("external:\n  topics: [/a]\n")
         editor.watched(settings)

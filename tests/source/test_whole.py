@@ -113,7 +113,7 @@ def test_a_parameter_that_the_source_does_not_read(harness: SourceHarness) -> No
     assert "did you mean '/n/rate'" in found.message
     found = _findings(harness, node.format("other"))["PRM001"]
     assert (found.severity, found.message) == (
-        "hint", "/n does not read parameter '/n/other' in its source, nor does any other node",
+        "hint", "unused parameter '/n/other': not read by /n in its source, nor by any other node",
     )  # fmt: skip
     _script(harness, "t", "import helpers\nhelpers.set_up()")
     found = _findings(harness, node.format("raet"))["PRM001"]

@@ -549,7 +549,7 @@ def test_an_argument_that_nothing_uses(harness: PythonHarness) -> None:
     )
     findings = harness.launch(_described(harness, *actions)).findings
     assert [f.message for f in findings if f.rule == "ARG008"] == [
-        "argument 'speed' is declared and never used in this launch"
+        "unused argument 'speed': nothing in this launch uses it"
     ]
 
 

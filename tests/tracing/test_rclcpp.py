@@ -119,7 +119,7 @@ def test_each_node_gets_what_the_parameter_file_has_for_it(kilted: RclHarness) -
     mandatory = f"{CHILD} mandatory=resolution2"
     launch = launched(kilted, CHILD, f"<param from='{file}'/>")
     (finding,) = found(kilted, "PRM013", launch)
-    assert "/n/costmap/costmap declares no parameter 'resolutoin'" in finding.message
+    assert "parameter 'resolutoin' is not declared by /n/costmap/costmap" in finding.message
     assert "did you mean 'resolution'" in finding.message
     assert found(kilted, "PRM011", launch) == []
     file.write_text("n/costmap/costmap:\n  ros__parameters:\n    resolution2: 0.5\n")

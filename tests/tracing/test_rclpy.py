@@ -489,7 +489,7 @@ def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
     analysis = harness.check(f"<node pkg='pkg' exec='both'><param from='{file}'/></node>")
     said = {f.rule: f.message.partition(":")[0] for f in analysis.findings if f.rule.startswith("PRM")}
     assert said == {
-        "PRM013": "/front declares no parameter 'rat'",
+        "PRM013": "parameter 'rat' is not declared by /front",
         "PRM014": "'rate' is a double, and /back/rear declares it as an integer",
     }
 
@@ -517,10 +517,10 @@ def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:
         {(f.rule, f.message.partition(":")[0]) for f in analysis.findings if f.severity in ("warning", "error")}
     )
     assert said == [
-        ("LCH016", "there is another node with the name '/there/own'"),
-        ("PRM011", "'/there/talker' is no node that gets this file"),
-        ("PRM011", "the file has nothing for /there/own, which therefore ignores it; it is for '/there/talker'"),
-        ("PRM013", "/there/own declares no parameter 'rat'"),
+        ("LCH016", "duplicate node name '/there/own'"),
+        ("PRM011", "section '/there/talker' applies to no node that gets this file"),
+        ("PRM011", "no section of this file applies to /there/own; it has sections for '/there/talker'"),
+        ("PRM013", "parameter 'rat' is not declared by /there/own"),
     ]
 
 

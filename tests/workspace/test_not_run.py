@@ -56,9 +56,9 @@ def components(tmp_path: Path) -> Components:
     [
         ("absent", "composition::Talker", "package 'absent' is not installed here"),
         ("p", "p::Driver", "it is not built yet"),
-        ("p", "p::Drivr", "package 'p' registers no component 'p::Drivr'; did you mean 'p::Driver'?"),
-        ("p", "p::Lidar", "package 'p' registers no component 'p::Lidar'"),
-        ("q", "Talker", "package 'q' registers no component 'Talker'; did you mean 'q::Talker'?"),
+        ("p", "p::Drivr", "component 'p::Drivr' is not registered by package 'p'; did you mean 'p::Driver'?"),
+        ("p", "p::Lidar", "component 'p::Lidar' is not registered by package 'p'"),
+        ("q", "Talker", "component 'Talker' is not registered by package 'q'; did you mean 'q::Talker'?"),
         ("q", "q::Gone", "it is not built yet"),
         ("plain", "plain::Node", "no component of package 'plain' is known here"),
         ("$(env NO_SUCH)", "p::Driver", "pkg is not known (it is not known)"),

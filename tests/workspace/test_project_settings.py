@@ -43,9 +43,9 @@ def test_what_is_wrong_in_it_is_told_with_its_line(tmp_path: Path) -> None:
     settings = read_project_settings(str(tmp_path))
     assert settings.external_topics == ("/ok",)
     assert [(p.line, p.message.partition(";")[0]) for p in settings.problems] == [
-        (2, "'topic' does not belong into external"),
-        (5, "a topic is a name or a pattern"),
-        (6, "'other' is no setting"),
+        (2, "unknown key 'topic' of 'external'"),
+        (5, "invalid item of 'topics': expected a name or a pattern"),
+        (6, "unknown setting 'other'"),
     ]
 
 
@@ -81,9 +81,9 @@ def test_what_is_wrong_with_a_node_is_told_with_its_line(tmp_path: Path) -> None
     )
     problems = read_project_settings(str(tmp_path)).problems
     assert [(p.line, p.message.partition(";")[0]) for p in problems] == [
-        (2, "a node needs a package and an executable, or a name"),
-        (4, "'topic' does not belong into a node like this"),
-        (7, "class 'wrong' is not known"),
+        (2, "'package' and 'executable', or 'name', of a node are missing"),
+        (4, "unknown key 'topic' of a node"),
+        (7, "unknown class 'wrong'"),
     ]
 
 

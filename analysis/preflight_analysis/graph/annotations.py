@@ -149,11 +149,11 @@ def _read_comment(text: str) -> tuple[tuple[Endpoint | ParamUse, ...], tuple[Ann
 def _items(groups: Iterable[_Tag], problems: list[AnnotationProblem]) -> Iterator[Endpoint | ParamUse]:
     for group in groups:
         if group.name not in GROUPS:
-            problems.append(AnnotationProblem(f"<{group.name}> is no annotation; {_one_of(GROUPS)}", group.name_span))
+            problems.append(AnnotationProblem(f"unknown annotation <{group.name}>; {_one_of(GROUPS)}", group.name_span))
             continue
         for item in group.children:
             if item.name != _ITEMS[group.name]:
-                message = f"<{group.name}> holds <{_ITEMS[group.name]}>, not <{item.name}>"
+                message = f"unexpected <{item.name}> in <{group.name}>; expected <{_ITEMS[group.name]}>"
                 problems.append(AnnotationProblem(message, item.name_span))
                 continue
             read = _read_item(group.name, item, problems)
@@ -308,15 +308,15 @@ def _read_item(group: str, item: _Tag, problems: list[AnnotationProblem]) -> End
     found: list[AnnotationProblem] = []
     allowed = _ATTRIBUTES[item.name]
     found += [
-        AnnotationProblem(f"attribute '{name}' is not read here; {_one_of(allowed)}", span)
+        AnnotationProblem(f"unknown attribute '{name}'; {_one_of(allowed)}", span)
         for name, (_, span) in given.items()
         if name not in allowed
     ]
     name, name_span = given.get("name", ("", item.head))
     if not name:
-        found.append(AnnotationProblem(f"<{item.name}> needs a name", name_span))
+        found.append(AnnotationProblem(f"required attribute 'name' of <{item.name}> is missing", name_span))
     elif not names.is_legal(name):
-        found.append(AnnotationProblem(f"'{name}' is not a name; substitutions are not evaluated here", name_span))
+        found.append(AnnotationProblem(f"invalid name '{name}'; substitutions are not evaluated here", name_span))
     if group == "params":
         problems += found
         default = given.get("default")
@@ -325,13 +325,17 @@ def _read_item(group: str, item: _Tag, problems: list[AnnotationProblem]) -> End
         return ParamUse(name, "get", default[0] if default else None, default is not None)
     type_, type_span = given.get("type", (None, item.head))
     if type_ is not None and not _TYPE.match(type_):
-        found.append(AnnotationProblem(f"'{type_}' is not a type; write package/Name, or * for any", type_span))
+        found.append(AnnotationProblem(f"invalid type '{type_}'; write package/Name, or * for any", type_span))
     classes = CLASSES[group]
     class_, class_span = given.get("class", (None, item.head))
     if class_ is None:
-        found.append(AnnotationProblem(f"<{item.name}> needs a class; {_one_of(tuple(classes))}", class_span))
+        found.append(
+            AnnotationProblem(
+                f"required attribute 'class' of <{item.name}> is missing; {_one_of(tuple(classes))}", class_span
+            )
+        )
     elif class_ not in classes:
-        found.append(AnnotationProblem(f"class '{class_}' is not known; {_one_of(tuple(classes))}", class_span))
+        found.append(AnnotationProblem(f"unknown class '{class_}'; {_one_of(tuple(classes))}", class_span))
     problems += found
     if found or class_ is None:
         return None

@@ -30,10 +30,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         asked = passes_all(context, problem.origin[:-1])
         if elsewhere:
             later = elsewhere[0].span.start > place.span.start
-            where = "before this place" if later else "here, but in another <group> or under a condition"
+            where = "before this line" if later else "in this scope: another <group> or a condition declares it"
             declared = Related("declared here", context.location(place.file, elsewhere[0].head_span))
             chosen = asked and not later and _may_be_chosen(context, elsewhere)
-            message = f"{message} {where}" + ("; an argument of the command line chooses" if chosen else "")
+            message = f"{message} {where}" + ("; a command-line argument decides" if chosen else "")
             yield problem_finding(rule, problem, message, severity="info" if chosen else None, related=(declared,))
             continue
         near = nearest(name, problem.kind.declared)
@@ -42,13 +42,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
         if near is None and (part_of_another or is_configured_elsewhere(context, name)):
-            message += ": another launch file that includes this one has to set it"
+            message += "; the including launch file has to set it"
             yield problem_finding(rule, problem, message, severity="info", confidence="possible", fixes=fixes)
             continue
         severity: Severity = "error"
         if asked and not (near is not None and is_slip(name, near)):
             severity = "info" if _is_documented(context, place.file, name) else "error"
-            message += f": roslaunch takes it from the command line alone ({name}:=...)"
+            message += f"; only the command line can set it ({name}:=...)"
         yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
 
 
@@ -81,10 +81,10 @@ def _unsure(
     return problem_finding(
         rule,
         problem,
-        f"nothing that could be read declares argument '{name}'{did_you_mean(near)}",
+        f"argument '{name}' is not declared, unless the unresolved include sets it{did_you_mean(near)}",
         severity="warning" if near else "hint",
         confidence="possible",
-        related=(Related("this could not be read, and may set it", not_followed),),
+        related=(Related("unresolved, may set it", not_followed),),
         fixes=rename(context, problem.location, name, near) if near else (),
     )
 

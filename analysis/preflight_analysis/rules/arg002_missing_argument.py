@@ -16,9 +16,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, MissingArgument):
         name, file = problem.kind.name, shown(problem.kind.file, context)
         near = nearest(name, problem.kind.passed)
-        hint = f"; it passes '{near}'" if near else ""
+        hint = f"; the include passes '{near}'" if near else ""
         known = by_catalogue(context, problem.kind.file)
-        message = f"'{file}' requires argument '{name}', which is not passed{hint}{known}"
+        message = f"required argument '{name}' of '{file}' is not passed{hint}{known}"
         severity, confidence = as_sure(context, problem.kind.file, rule.severity)
         if passes_all(context, problem.origin):
             severity, message = "info", f"{message}; launch with {name}:=..."

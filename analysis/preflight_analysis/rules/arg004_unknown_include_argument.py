@@ -23,9 +23,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             *(rename(context, problem.location, name, near) if near else ()),
             *remove_at(context, problem.location, f"Do not pass argument '{name}'"),
         )
-        message = f"'{file}' declares no argument '{name}'"
+        message = f"argument '{name}' is not declared by '{file}'"
         if not problem.fatal:
-            message = f"neither '{file}' nor what it includes declares or uses an argument '{name}': it has no effect"
+            message = f"argument '{name}' has no effect: neither '{file}' nor its includes use it"
         message += did_you_mean(near) + by_catalogue(context, problem.kind.file)
         severity: Severity = "error" if problem.fatal else "warning"
         severity, confidence = as_sure(context, problem.kind.file, severity)

@@ -14,8 +14,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, RedeclaredArgument):
         name, done = problem.kind.name, "passed" if problem.kind.passed else "declared"
         related = (Related(f"{done} here", problem.kind.first),)
-        fixes = remove_at(context, problem.location, f"Remove this <arg> and keep the first '{name}'")
-        yield problem_finding(rule, problem, f"argument '{name}' is {done} already", related=related, fixes=fixes)
+        fixes = remove_at(context, problem.location, f'Remove the second <arg name="{name}">')
+        yield problem_finding(
+            rule, problem, f"duplicate argument '{name}': it is {done} twice", related=related, fixes=fixes
+        )
 
 
 RULE = Rule(

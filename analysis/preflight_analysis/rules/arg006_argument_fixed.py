@@ -18,7 +18,7 @@ RULE = Rule(
     '  <arg name="rate" value="10"/>\n</include>',
     references=(ROSLAUNCH_ARG,),
     check=check_problems(
-        lambda fixed: f"argument '{fixed.name}' cannot be passed: the file fixes it with value=", FixedArgument
+        lambda fixed: f"argument '{fixed.name}' cannot be passed: the included file fixes it with value=", FixedArgument
     ),
     problems=(FixedArgument,),
     in_branches=True,

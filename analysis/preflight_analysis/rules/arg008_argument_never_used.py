@@ -74,7 +74,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             files = _passed_around(context, path)[name]
             if files and not any(tag.value("value") is not None for tag in tags):
                 yield rule.finding(
-                    f"argument '{name}' has no effect: {_who_passes(files)}, and this file never uses it",
+                    f"argument '{name}' is never used in this file, but {_who_passes(files)}",
                     location,
                     severity="info" if _is_left_out(context, path, name) else "warning",
                 )
@@ -83,13 +83,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             remove = Fix(f"Remove the declaration of '{name}'", edits)
             below = _declared_below(context, path, name)
             if below is None:
-                message = f"argument '{name}' is declared and never used in this file"
+                message = f"unused argument '{name}': no tag of this file uses it"
                 yield rule.finding(message, location, fixes=(remove,))
             else:
                 included, its_declaration = below
                 yield rule.finding(
-                    f"setting argument '{name}' has no effect: it is not passed on to "
-                    f"'{shown(str(included.path), context)}', which has one of that name",
+                    f"argument '{name}' has no effect: the include does not pass it to "
+                    f"'{shown(str(included.path), context)}', which declares it too",
                     location,
                     severity="warning",
                     related=(
@@ -114,8 +114,8 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
             where = shown(str(include.path), context)
             left_out = _is_left_out(context, declared.file, name)
             yield rule.finding(
-                f"argument '{name}' has no effect: '{where}' declares it and "
-                + ("speaks of it in a comment only" if left_out else "never uses it"),
+                f"argument '{name}' has no effect: '{where}' "
+                + ("uses it only in a comment" if left_out else "declares it but never uses it"),
                 context.location(include.origin[-1].file, value.span),
                 severity="info" if left_out else "warning",
                 related=(Related("declared here", declared),),
@@ -134,7 +134,7 @@ def _passed_around(context: Context, path: str) -> Counter[str]:
 
 
 def _who_passes(files: int) -> str:
-    return "a launch file of the package passes it" if files == 1 else f"{files} launch files of the package pass it"
+    return "1 launch file of the package passes it" if files == 1 else f"{files} launch files of the package pass it"
 
 
 def _is_left_out(context: Context, path: str, name: str) -> bool:
@@ -210,7 +210,7 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         xml = not python and launch_file.document.text.lstrip().startswith("<")
         edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags) if xml else ()
         yield rule.finding(
-            f"argument '{name}' is declared and never used in this launch",
+            f"unused argument '{name}': nothing in this launch uses it",
             context.location(path, value.span),
             fixes=(Fix(f"Remove the declaration of '{name}'", edits),) if edits else (),
         )

@@ -16,7 +16,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         wrong = problem.kind
         near = nearest(wrong.value, wrong.choices)
         allowed = ", ".join(f"'{choice}'" for choice in wrong.choices)
-        message = f"argument '{wrong.name}' cannot be '{wrong.value}'; it has the choices {allowed}{did_you_mean(near)}"
+        message = (
+            f"invalid value '{wrong.value}' of argument '{wrong.name}'; the choices are {allowed}{did_you_mean(near)}"
+        )
         message += by_catalogue(context, wrong.declared.file)
         severity, confidence = as_sure(context, wrong.declared.file, rule.severity)
         fixes = rename(context, problem.location, wrong.value, near) if near else ()

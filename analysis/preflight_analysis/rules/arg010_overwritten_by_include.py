@@ -28,15 +28,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if setter.file == file:
             tag = tags.around(setter)
             passed = tag is not None and tag.action.kind == "arg" and bool(tag.above) and tag.above[0].kind == "include"
-            what = "an include above was passed this"
+            what = "an include above passes it this value"
         else:
             below = below if below is not None else _below(context.tree)
-            passed, what = setter.file in below.get(file, set()), "a file that is included above sets it"
+            passed, what = setter.file in below.get(file, set()), "an included file sets it"
         if passed:
             said.add(use.location)
             yield rule.finding(
-                f"'{use.name}' is '{use.value}' here, no longer '{own[key]}': {what}, and what is set there stays set "
-                "after the include; put the <include> into a <group>",
+                f"argument '{use.name}' is overwritten with '{use.value}' (was '{own[key]}'): {what}, and it stays "
+                "set after the include; put the <include> into a <group>",
                 use.location,
                 related=(Related("set here", setter),),
             )

@@ -15,7 +15,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         name = problem.kind.name
         near = nearest(name, problem.kind.declared)
         yield problem_finding(
-            rule, problem, f"the launch is given '{name}', and nothing in it declares that argument{did_you_mean(near)}"
+            rule, problem, f"unknown argument '{name}': no file of this launch declares it{did_you_mean(near)}"
         )
 
 

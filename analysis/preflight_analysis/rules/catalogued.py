@@ -31,4 +31,4 @@ def by_catalogue(context: Context, path: str) -> str:
     if file is None or text is None or isinstance(text, Unreadable):
         return ""
     repository, commit, *_ = json.loads(text.text)[0]
-    return f", by the catalogue of {file.distro} ({repository} at {commit[:7]})"
+    return f" (from the catalogue of {file.distro}, {repository} at {commit[:7]})"

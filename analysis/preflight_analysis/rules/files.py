@@ -43,17 +43,17 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
             if (other := _in_namesake(context, path)) is not None:
-                severity, message = "warning", f"{message}; another package of that name has it, in '{other}'"
+                severity, message = "warning", f"{message}; another package of that name has it in '{other}'"
             elif says_not_set(path):
-                severity, message = "info", f"{message}: a part of it has to be given"
+                severity, message = "info", f"{message}; a part of the path has to be set"
             elif near is None and is_ignored(context.disk, path):
-                severity, message = "info", f"{message}; git ignores it, so it may be made on each machine"
+                severity, message = "info", f"{message}; git ignores it, so each machine may create it"
             elif empty := _empty_arguments(context, path, problem.location, near):
-                severity, message = "info", f"{message}; {quoted(empty)} may have to be given"
+                severity, message = "info", f"{message}; set argument {quoted(empty)}"
             elif (absent := _absent_top(context, path)) is not None:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
             elif near is None and depends_on_working_folder(context, problem.location):
-                severity, message = "info", f"{message}; it depends on the folder where the launch is started"
+                severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 

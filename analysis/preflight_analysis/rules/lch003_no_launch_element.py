@@ -9,8 +9,8 @@ from preflight_analysis.rules.rule import Rule
 def _message(root: NoLaunchElement) -> str:
     tag = root.tag
     if tag == "launch":
-        return "a <launch> element stands within another one; roslaunch takes a single one"
-    return f"the outermost element is <{tag}>, not <launch>" if tag else "there is no <launch> element in this file"
+        return "<launch> inside of <launch>; roslaunch allows only one"
+    return f"root element is <{tag}>, not <launch>" if tag else "the <launch> element is missing"
 
 
 RULE = Rule(

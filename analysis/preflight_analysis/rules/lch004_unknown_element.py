@@ -23,11 +23,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, UnknownElement):
         name = problem.kind.tag
         near = nearest(name, problem.kind.allowed)
-        message = f"<{name}> is not known in <{problem.kind.parent}>"
+        message = f"unknown element <{name}> in <{problem.kind.parent}>"
         if not problem.fatal:
-            message += " and is skipped"
+            message += "; roslaunch skips it"
         elif near is None:
-            message += "; a package that extends launch may define it, and no package here does"
+            message += "; no package here extends launch with it"
         message += did_you_mean(near)
         fixes: list[Fix] = []
         if near is not None:

@@ -27,7 +27,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             tag = tags.around(problem.location)
             if tag is None or tag.action.attribute(near) is None:  # a second one of the name would be malformed
                 fixes = rename(context, problem.location, name, near)
-        message = f"<{problem.kind.tag}> has no attribute '{name}'{did_you_mean(near)}"
+        message = f"unknown attribute '{name}' of <{problem.kind.tag}>{did_you_mean(near)}"
         yield problem_finding(rule, problem, message, severity="error" if problem.fatal else None, fixes=fixes)
 
 

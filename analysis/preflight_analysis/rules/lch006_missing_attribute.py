@@ -24,7 +24,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if tag is not None:
             mistaken = misspelt(context, tag, problem.location.file, needed)
             if mistaken is not None:
-                message += f"; is '{mistaken.name}' meant to be it?"
+                message += f"; did you mean it by '{mistaken.name}'?"
                 fixes = rename(context, mistaken.location, mistaken.name, mistaken.meant)
             fixes = fixes or _insertion(context, problem.location.file, tag, needed[0])
         yield problem_finding(rule, problem, message, fixes=fixes)
@@ -32,14 +32,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _message(missing: MissingAttribute) -> str:
     needed = [f"'{name}'" for name in missing.names]
-    return f"<{missing.tag}> needs {'one of ' if len(needed) > 1 else ''}{', '.join(needed)}"
+    if len(needed) == 1:
+        return f"required attribute {needed[0]} of <{missing.tag}> is missing"
+    return f"required attribute of <{missing.tag}> is missing: one of {', '.join(needed)}"
 
 
 def _insertion(context: Context, file: str, tag: Tag, name: str) -> tuple[Fix, ...]:
     document = context.documents.get(file)
     if document is None or document.path.endswith((".yaml", ".yml", ".py")):
         return ()
-    return (Fix(f"Add '{name}'", (insert_attribute(tag.action, document, name),), True),)
+    return (Fix(f"Add attribute '{name}'", (insert_attribute(tag.action, document, name),), True),)
 
 
 RULE = Rule(

@@ -17,7 +17,7 @@ from preflight_analysis.rules.syntax import Tags
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
     for problem in problems_of(context, ConflictingAttributes):
-        message = f"<{problem.kind.tag}> cannot have {quoted(problem.kind.names)} together"
+        message = f"conflicting attributes {quoted(problem.kind.names)} of <{problem.kind.tag}>: only one is allowed"
         yield problem_finding(rule, problem, message, fixes=_fixes(context, tags, problem))
 
 
@@ -29,7 +29,7 @@ def _fixes(context: Context, tags: Tags, problem: Problem[ConflictingAttributes]
     attributes = {name: tag.action.attribute(name) for name in problem.kind.names}
     for name in attributes:
         others = [attribute for other, attribute in attributes.items() if other != name and attribute is not None]
-        yield Fix(f"Keep '{name}' alone", tuple(remove_attribute(attribute, document) for attribute in others))
+        yield Fix(f"Keep only '{name}'", tuple(remove_attribute(attribute, document) for attribute in others))
 
 
 RULE = Rule(

@@ -23,9 +23,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, BadValue):
         bad = problem.kind
         near = _meant(bad)
-        message = f"{bad.attribute}='{bad.value}' of <{bad.tag}> is not {bad.expected}"
+        message = f"invalid value '{bad.value}' of attribute '{bad.attribute}' of <{bad.tag}>: expected {bad.expected}"
         if bad.expected == "not empty":
-            message = f"{bad.attribute}='' of <{bad.tag}> is empty"
+            message = f"attribute '{bad.attribute}' of <{bad.tag}> is empty"
         fixes = rename(context, problem.location, bad.value, near) if near else ()
         yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
 

@@ -23,7 +23,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     first = {problem.location: problem for problem in reversed(list(problems_of(context, InvalidName)))}
     for problem in first.values():
         invalid = problem.kind
-        message = f"{invalid.what} name '{as_written(invalid.name)}' is not allowed: {invalid.reason}"
+        message = f"invalid {invalid.what} name '{as_written(invalid.name)}': {invalid.reason}"
         severity: Severity | None = None if problem.fatal else "warning"
         yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
 

@@ -15,7 +15,7 @@ RULE = Rule(
     instead='<group>\n  <remap from="image" to="front/image"/>\n  <include file="camera.launch"/>\n</group>',
     references=(ROSLAUNCH_INCLUDE,),
     check=check_problems(
-        lambda child: f"<{child.tag}> has no effect in <{child.parent}>: roslaunch drops it", IgnoredChild
+        lambda child: f"<{child.tag}> has no effect in <{child.parent}>: roslaunch ignores it", IgnoredChild
     ),
     problems=(IgnoredChild,),
 )

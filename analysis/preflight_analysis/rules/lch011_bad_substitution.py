@@ -44,14 +44,14 @@ def _unset(rule: Rule, context: Context, problem: Problem[UnsetParameter]) -> Fi
         return problem_finding(
             rule,
             problem,
-            f"nothing that could be read sets parameter '{name}'",
+            f"parameter '{name}' is not set, unless the unresolved include sets it",
             severity="hint",
             confidence="possible",
-            related=(Related("this could not be read, and may set it", not_followed),),
+            related=(Related("unresolved, may set it", not_followed),),
         )
-    message = f"no <set_parameter> of '{name}' comes before"
+    message = f"parameter '{name}' is not set: no <set_parameter> before this line"
     if context.once(is_part):
-        message += ": another launch file that includes this one has to set it"
+        message += "; the including launch file has to set it"
         return problem_finding(rule, problem, message, severity="info", confidence="possible")
     return problem_finding(rule, problem, message)
 

@@ -24,7 +24,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
     for assumed in problems_of(context, AssumedVariable):
         name = assumed.kind.name
-        message = f"environment variable '{name}' is not set: '{assumed.kind.value}' is assumed"
+        message = f"environment variable '{name}' is not set; '{assumed.kind.value}' is assumed"
         yield problem_finding(rule, assumed, message, lack=unset_variable(context, name))
 
 

@@ -12,7 +12,7 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, IncludeCycle):
         way = " -> ".join(shown(path, context) for path in problem.kind.chain)
-        message = f"'{shown(problem.kind.path, context)}' includes itself: {way}"
+        message = f"include cycle: '{shown(problem.kind.path, context)}' includes itself: {way}"
         yield problem_finding(rule, problem, message)
 
 

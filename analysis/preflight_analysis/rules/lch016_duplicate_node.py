@@ -19,17 +19,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, DuplicateNode):
         name, first = problem.kind.name, problem.kind.first
         if first is None:
-            yield problem_finding(rule, problem, f"'{name}' is the name of roslaunch's own node")
+            yield problem_finding(rule, problem, f"duplicate node name '{name}': roslaunch's own node has this name")
             continue
         location = problem.location
         twice = first.file == location.file and first.span.start <= location.span.start < first.span.end
-        how = ": this tag is read twice, the includes need different namespaces" if twice else ""
+        how = ": this file is included twice; give each include its own namespace" if twice else ""
         yield problem_finding(
             rule,
             problem,
-            f"there is another node with the name '{name}'{how}",
+            f"duplicate node name '{name}'{how}",
             severity=None if problem.fatal else "warning",
-            related=(Related("the first one", first),),
+            related=(Related("the first node", first),),
             fixes=() if twice else _fixes(context, problem, taken),
         )
     yield from _of_own_names(rule, context)
@@ -48,11 +48,11 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
         other = first.setdefault(node.name, node)
         if node.name_from_code and other is not node:
             yield rule.finding(
-                f"there is another node with the name '{node.name}': {_why(node)}",
+                f"duplicate node name '{node.name}': {_why(node)}",
                 context.location(node.location.file, node.action.kind_span),
                 severity="info" if node.name_inferred else "warning",
                 confidence="possible" if node.name_inferred or other.name_inferred else "likely",
-                related=(Related("the first one", other.location), *include_chain(node.origin)),
+                related=(Related("the first node", other.location), *include_chain(node.origin)),
             )
 
 
@@ -64,18 +64,18 @@ def _in_branches(rule: Rule, context: Context) -> Iterator[Finding]:
             first, second = context.location(path, twice.first), context.location(path, twice.second)
             if said.isdisjoint((first, second)):
                 yield rule.finding(
-                    f"there is another node with this name where `{shortened(twice.test)}`",
+                    f"duplicate node name if `{shortened(twice.test)}`",
                     second,
                     severity="info",
                     confidence="possible",
-                    related=(Related("the other one", first),),
+                    related=(Related("the other node", first),),
                 )
 
 
 def _why(node: LaunchNode) -> str:
     if node.within is not None:
-        return f"the process of {node.within} makes it"
-    return "the code of this one calls it so, as it has no 'name' here"
+        return f"the process of {node.within} creates it"
+    return "it comes from the node's code, because the tag has no 'name'"
 
 
 def _fixes(context: Context, problem: Problem[DuplicateNode], taken: set[str]) -> tuple[Fix, ...]:

@@ -25,18 +25,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case CommandNotRun(reason):
                 # Every robot description is made by a command: said, but quietly.
                 severity = "hint"
-                message = f"the command was not run, and its value is unknown here: {reason}"
+                message = f"command not run, its value is unresolved: {reason}"
             case LaunchFileNotRun(name, reason):
                 severity = "hint"
-                message = f"{name} was not run, and only what is written out is known of it: {reason}"
+                message = f"{name} is not run, read statically; results may be incomplete: {reason}"
             case EvalNotAllowed(expression, reason):
                 message = f"$(eval {expression}) is not evaluated: {reason}"
             case UnexpandedEntity(name):
-                message = f"entity '&{name};' is not expanded; values that use it are unknown here"
+                message = f"entity '&{name};' is not expanded; values that use it are unresolved"
             case NestedTooDeeply(limit):
-                message = f"there are more than {limit} of groups and includes; what is beyond is left out"
+                message = f"more than {limit} of groups and includes; the rest is not evaluated"
             case ValueTooLong(limit):
-                message = f"the values that are put together here have more than {limit}; they are unknown here"
+                message = f"value of more than {limit}; it is unresolved"
         yield problem_finding(rule, problem, message, severity=severity)
 
 

@@ -21,13 +21,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if each_rule.rule not in known:
                 near = nearest(each_rule.rule.upper(), known)
                 fixes: tuple[Fix, ...] = rename(context, each_rule.location, each_rule.rule, near) if near else ()
-                message = f"there is no rule '{each_rule.rule}'{did_you_mean(near)}"
+                message = f"unknown rule '{each_rule.rule}'{did_you_mean(near)}"
                 yield rule.finding(message, each_rule.location, fixes=fixes)
 
 
 def _unused(rule: Rule, suppression: Suppression) -> Finding:
     fix = Fix(f"Remove the suppression of {suppression.rule}", (suppression.removal,), True)
-    return rule.finding(f"no finding of {suppression.rule} is silenced here", suppression.location, fixes=(fix,))
+    return rule.finding(
+        f"unused suppression of '{suppression.rule}': it has no finding here", suppression.location, fixes=(fix,)
+    )
 
 
 RULE = Rule(

@@ -33,10 +33,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             location = context.location(path, Span(start, start + len(text)))
             in_package = _in_package(text, context)
-            fixes = (Fix(f"Replace by '{in_package}'", (Edit(location, in_package),), True),) if in_package else ()
+            fixes = (Fix(f"Replace with '{in_package}'", (Edit(location, in_package),), True),) if in_package else ()
             instead = f"; use '{in_package}'" if in_package else ""
             yield rule.finding(
-                f"'{text}' is {what}{instead}",
+                f"hard-coded path '{text}': {what}{instead}",
                 location,
                 severity=_severity(context, text, in_package),
                 confidence="certain" if in_package else "likely",
@@ -77,14 +77,14 @@ def _paths_in(value: Value, document: str) -> Iterator[tuple[int, str]]:
 def _what(text: str, context: Context) -> str | None:
     """What makes the path one of this machine alone; None for all others, and for names that look like paths."""
     if _HOME.match(text) or text.startswith("~"):
-        return "in the home folder of one user: it is not there on another machine"
+        return "it is in the home folder of one user, and missing on other machines"
     if _ROS.match(text):
-        return "where one distribution of ROS is installed: it is not there on another one"
+        return "it exists with one distribution of ROS only"
     workspace = context.environment.workspace
     if workspace and text.startswith(workspace.rstrip("/") + "/") and context.disk.exists(text):
-        return "where this workspace is on this machine"
+        return "the workspace has this path on this machine only"
     if not text.startswith(_SYSTEM) and context.disk.is_file(text) and _in_package(text, context):
-        return "where this package is on this machine"
+        return "the package has this path on this machine only"
     return None
 
 

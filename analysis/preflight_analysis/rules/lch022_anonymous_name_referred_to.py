@@ -58,12 +58,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         seen.add(reference.origin[-1])
         plain = _plain_name(node) or ""
         yield rule.finding(
-            f"{reference.what} '{reference.written}' means nothing: node '{plain}' gets a name of its own at every "
-            f"launch, since it is called $(anon ...)",
+            f"{reference.what} '{reference.written}' has no effect: the name of node '{plain}' is $(anon ...), which "
+            "differs at every launch",
             reference.origin[-1],
             confidence=reference.confidence,
             related=(
-                Related("the name is made here", attribute_location(context, node, "name")),
+                Related("the anonymous name", attribute_location(context, node, "name")),
                 *include_chain(reference.origin),
             ),
             fixes=_fixes(context, node, reference, plain),

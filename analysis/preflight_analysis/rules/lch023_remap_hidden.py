@@ -65,10 +65,10 @@ def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             seen.add(place)
             yield rule.finding(
-                f"this remap has no effect on {node.name}: '{winner.source}' is remapped to '{winner.target}' before "
-                "it, and the first one counts",
+                f"overridden: '{winner.source}' is already remapped to '{winner.target}', and the first remap "
+                f"applies to {node.name}",
                 place,
-                related=(Related("the one that counts", winner.origin[-1]), *include_chain(remap.origin)),
+                related=(Related("the remap that applies", winner.origin[-1]), *include_chain(remap.origin)),
             )
 
 
@@ -96,14 +96,14 @@ def _hidden(rule: Rule, context: Context, tags: Tags, old: Remap, winner: Remap)
         return
     same = old.target == winner.target
     if same:
-        message = f"'{old.source}' is remapped to '{old.target}' twice here"
+        message = f"duplicate remap of '{old.source}' to '{old.target}'"
     else:
-        message = f"this remap has no effect: a later one here maps '{old.source}' to '{winner.target}' instead"
+        message = f"overridden: '{old.source}' is remapped again to '{winner.target}' below"
     yield rule.finding(
         message,
         old.origin[-1],
         severity="hint" if same else None,
-        related=(Related("the one that counts", winner.origin[-1]), *include_chain(old.origin)),
+        related=(Related("the remap that applies", winner.origin[-1]), *include_chain(old.origin)),
         fixes=removal(context, tags, old.origin[-1], "Remove this remap"),
     )
 
@@ -119,9 +119,9 @@ def _same_name(rule: Rule, node: LaunchNode) -> Iterator[Finding]:
         for first, second in pairwise(remaps):
             targets = {names.resolve(remap.target, node.name) for remap in (first, second)}
             severity: Severity | None = "hint" if len(targets) == 1 else None
-            outcome = "" if len(targets) == 1 else "; which of them wins depends on the client library"
+            outcome = "" if len(targets) == 1 else "; the client library decides which one applies"
             yield rule.finding(
-                f"'{first.source}' and '{second.source}' are both '{name}' for {node.name}{outcome}",
+                f"duplicate remap: '{first.source}' and '{second.source}' are both '{name}' for {node.name}{outcome}",
                 second.source_location,
                 severity=severity,
                 related=(

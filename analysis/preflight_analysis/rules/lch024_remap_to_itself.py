@@ -24,7 +24,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         remap = remaps[0]
         if all(map(_idle, remaps)) and _literal(context, remap):
             yield rule.finding(
-                f"'{remap.source}' is remapped to itself, which has no effect",
+                f"remap of '{remap.source}' to itself has no effect",
                 location,
                 related=include_chain(remap.origin),
                 fixes=removal(context, tags, location, "Remove this remap"),

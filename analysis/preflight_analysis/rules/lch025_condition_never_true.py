@@ -60,9 +60,9 @@ def _constant(
         return
     if result == (attribute.name == "if"):
         return
-    because = f": argument '{used[0]}' is always '{fixed[used[0]].value}' here" if used else ""
+    because = f", because argument '{used[0]}' is '{fixed[used[0]].value}'" if used else ""
     yield rule.finding(
-        f"this <{action.kind}> is never evaluated, its {attribute.name} is always {str(result).lower()}{because}",
+        f"<{action.kind}> is never evaluated: '{attribute.name}' is always {str(result).lower()}{because}",
         launch_file.document.location(value.span),
         severity="hint",
         related=(Related(f"'{name}' is fixed here", fixed[name].location) for name in used),
@@ -151,12 +151,12 @@ def _unequal(rule: Rule, launch_file: LaunchFile, value: Value) -> Iterator[Find
         if isinstance(converted, str):
             continue
         outcome = "always" if isinstance(node.ops[0], ast.NotEq) else "never"
-        kind = "a truth value" if isinstance(converted, bool) else "a number"
+        kind = "a boolean" if isinstance(converted, bool) else "a number"
         written = ast.get_source_segment(source, constant) or ""
         plain = str(converted).lower() if isinstance(converted, bool) else str(converted)
         yield rule.finding(
-            f"'{ast.get_source_segment(source, node)}' is {outcome} true: $(eval) makes {kind} of argument '{name}' "
-            f"before it is compared with a text; compare with {plain}",
+            f"'{ast.get_source_segment(source, node)}' is {outcome} true: $(eval) converts argument '{name}' to {kind} "
+            f"before the comparison; compare with {plain}",
             launch_file.document.location(value.span),
             fixes=_compare_with(launch_file, value, written, plain),
         )

@@ -29,7 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not below and not _lives(tree, namespace):
             if tree.complete:
                 yield rule.finding(
-                    f"nothing of this launch is below '{namespace}': there is nothing here to clear parameters for",
+                    f"clear_params has no effect: this launch has no node or parameter below '{namespace}'",
                     use.location,
                     related=include_chain(use.origin),
                 )
@@ -60,7 +60,7 @@ def _kept(rule: Rule, use: Use, namespace: str, kept: list[Param]) -> Finding:
     shown = quoted(param.name for param in kept[:3])
     more = f" and {len(kept) - 3} more" if len(kept) > 3 else ""
     return rule.finding(
-        f"{shown}{more} set before this will not be cleared: roslaunch deletes '{namespace}' before it sets anything",
+        f"clear_params does not clear {shown}{more}: roslaunch deletes '{namespace}' before it sets any parameter",
         use.location,
         related=(*(Related(f"'{p.name}' is set here", p.origin[-1]) for p in kept[:3]), *include_chain(use.origin)),
     )

@@ -32,12 +32,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         old = _old_language(launch_file)
         for tag in old.masters:
             fix = Fix("Remove <master>", (remove_tag(document, tag.span),), True)
-            message = "roslaunch ignores <master>: it is defunct since ROS Fuerte"
+            message = "<master> is removed since ROS Fuerte; roslaunch ignores it"
             yield rule.finding(message, context.location(path, tag.head_span), severity="info", fixes=(fix,))
         if context.environment.distro not in _OLDER_THAN_MELODIC:
             for span in old.in_order:
                 place = context.location(path, span)
-                message = "xacro processes in order since ROS Melodic: --inorder has no effect"
+                message = "'--inorder' has no effect: xacro processes in order since ROS Melodic"
                 yield rule.finding(message, place, fixes=(Fix("Remove --inorder", (Edit(place, ""),), True),))
 
 
@@ -98,7 +98,7 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
             if param is None:
                 continue
             yield rule.finding(
-                "joint_state_publisher has no parameter 'use_gui' since ROS Noetic; for the window run "
+                "parameter 'use_gui' of joint_state_publisher is removed since ROS Noetic; for the window run "
                 "joint_state_publisher_gui of the package of that name",
                 param.place,
                 severity="warning" if param.value is True else None,

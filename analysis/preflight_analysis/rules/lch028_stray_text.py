@@ -25,10 +25,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # What stands in a section of character data was put there to be left out.
         put = document is not None and document.text[: location.span.start].rstrip().endswith("<![CDATA[")
         lost = not put and _TAG.match(text) is not None
-        hint = "; is a '<' missing before it?" if lost else ""
-        message = (
-            f"the text '{shortened(text)}' in <{problem.kind.tag}> means nothing: roslaunch does not look at it{hint}"
-        )
+        hint = "; insert the missing '<'" if lost else ""
+        message = f"stray text '{shortened(text)}' in <{problem.kind.tag}>: roslaunch ignores it{hint}"
         severity: Severity | None = "hint" if put or _REMARK.match(text) else None
         fixes = _fixes(context, location, text, lost)
         yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)
@@ -37,10 +35,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _fixes(context: Context, place: Location, text: str, lost: bool) -> Iterator[Fix]:
     if lost:
         start = place.span.start
-        yield Fix("Insert the '<'", (Edit(context.location(place.file, Span(start, start)), "<"),), True)
+        yield Fix("Insert '<'", (Edit(context.location(place.file, Span(start, start)), "<"),), True)
     elif _REMARK.match(text) and "--" not in text:
         # A comment in XML cannot have two dashes in it.
-        yield Fix("Make it a comment", (Edit(place, f"<!-- {text.lstrip('#/ ')} -->"),), True)
+        yield Fix("Convert the text to a comment", (Edit(place, f"<!-- {text.lstrip('#/ ')} -->"),), True)
 
 
 RULE = Rule(

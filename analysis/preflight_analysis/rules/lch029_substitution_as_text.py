@@ -34,8 +34,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         text, meant = problem.kind.text, problem.kind.meant
         place = problem.location
         exact = context.text(place) == text
-        fixes = (Fix(f"Write '{meant}'", (Edit(place, meant),), True),) if exact else ()
-        message = f"'{text}' is no substitution: roslaunch takes it as text; '{meant}' is one"
+        fixes = (Fix(f"Replace with '{meant}'", (Edit(place, meant),), True),) if exact else ()
+        message = f"'{text}' is not a substitution; roslaunch treats it as literal text; did you mean '{meant}'?"
         yield problem_finding(rule, problem, message, fixes=fixes)
     of_tree = context.kept.each(_left_in, context.tree.all_params)
     of_nodes = context.kept.each(_left_in_node, context.tree.nodes)
@@ -80,13 +80,13 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     )
     if tag is not None and not python and not unknown and document is not None:
         edit = insert_attribute(tag.action, document, attribute, "true")
-        fixes = (Fix(f'Write {attribute}="true" in the tag', (edit,), True),)
+        fixes = (Fix(f'Add {attribute}="true" to the tag', (edit,), True),)
     needed = f"ParameterFile(..., {attribute}=True)" if python else f'<{tag_name} {attribute}="true">'
     place = _place(context, param, text)
-    related = (Related("the file is given here", where),) if place.file != where.file else ()
+    related = (Related("the file is loaded here", where),) if place.file != where.file else ()
     yield rule.finding(
-        f"'{text}' stays text: substitutions in YAML are made with {needed} only"
-        + ("; the launch file has no such argument" if unknown else ""),
+        f"'{text}' is treated as literal text; substitutions in YAML need {needed}"
+        + ("; the launch file does not declare the argument" if unknown else ""),
         place,
         severity="info" if _is_of_idle_controller(context, param) else None,
         confidence="likely",

@@ -40,8 +40,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     ):
         return
     yield rule.finding(
-        "/use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
-        "`rosbag play --clock` beside it, time stands still",
+        "'/use_sim_time' is true, but '/clock' has no publisher in this launch; time does not advance without a "
+        "simulator or `rosbag play --clock`",
         param.place,
         confidence="likely" if graph.complete else "possible",
         related=include_chain(param.origin),

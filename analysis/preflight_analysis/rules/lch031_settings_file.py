@@ -9,7 +9,7 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for message, location in context.settings_problems:
-        yield rule.finding(f"in the settings: {message}", location)
+        yield rule.finding(f"{message}", location)
 
 
 RULE = Rule(

@@ -33,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity, confidence = ("warning", "likely") if there else ("info", "possible")
                 message = _import(context, failed, problem.location.file, has_ros=there)
             case PythonException(error, said, frames, absent):
-                message = ": ".join(filter(None, (error, said))) if error else f"the launch file cannot be run: {said}"
+                message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near = _near_file(context, error, said)
                 if near is not None:
                     message += f"; did you mean '{shown(near, context)}'?"
@@ -78,22 +78,22 @@ def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros:
     """What is missing, what that means for the rest of the file, and what to do about it."""
     said = failed.message
     module = failed.module.partition(".")[0]
-    message = f"the launch file cannot be run here, so it counts as far as its text tells: {said}"
+    message = f"{said}; the launch file is read statically, results may be incomplete"
     if failed.stood_in_for:
-        message = f"what depends on module '{failed.module}' is unknown: {said}"
+        message = f"{said}; values that depend on module '{failed.module}' are unresolved"
     if _LAUNCH.match(module):
-        return f"{message}; {module} has it neither in Humble nor in Jazzy, Kilted or Rolling"
+        return f"{message}; no {module} of Humble, Jazzy, Kilted or Rolling has it"
     if not said.startswith("No module named"):
         return message
     if module in context.environment.packages:
-        return f"{message}; package '{module}' is in the workspace and is not built"
+        return f"{message}; package '{module}' of the workspace is not built"
     if not has_ros:
-        return f"{message}; no ROS is installed here, which most modules of launch files come with"
+        return f"{message}; ROS is not installed here"
     owner = package_around(context.environment, file)
     names = {module, f"python3-{module}", f"python3-{module.replace('_', '-')}"}
     if owner is None or names.isdisjoint(owner.dependencies):
-        return f"{message}; install what it is part of, and name that in the package.xml of the package"
-    return f"{message}; package.xml names it: install it with `rosdep install --from-paths src --ignore-src`"
+        return f"{message}; install its package and add it to package.xml"
+    return f"{message}; install it with `rosdep install --from-paths src --ignore-src`"
 
 
 RULE = Rule(

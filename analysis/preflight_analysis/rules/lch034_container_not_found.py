@@ -56,13 +56,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # What an argument says may be the container of another launch, which includes this file.
         text = context.text(location)
         given = "$(" in text or load.written not in text
-        message = f"no node '{full}' is started by this launch, into which {loaded} are to be loaded"
+        message = f"container '{full}' is not started by this launch; it is the target of {loaded}"
         if near and names.leaf(near[0]) == leaf and tree.ros.ament and not load.written.startswith("/"):
-            message += "; a target without a leading slash is below '/', whatever namespace surrounds it"
+            message += "; a target without a leading slash is resolved in '/'"
         elsewhere = called_elsewhere(context, full) if not near else None
         if elsewhere is not None:
             message += f"; other launch files of the package load into '{elsewhere}'"
-        related = tuple(Related(f"the {container} that there is", containers[name].location) for name in near)
+        related = tuple(Related(f"the {container} of this launch", containers[name].location) for name in near)
         fixes = rename(context, location, load.written, near[0]) if near else ()
         if elsewhere is not None:
             fixes = rename(context, location, names.leaf(load.written), elsewhere)

@@ -62,7 +62,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if near is not None or context.tree.complete:
             meant.update({near} if near is not None else ())
             yield rule.finding(
-                f"{manager.name} waits for '{name}', which is no node of this launch{did_you_mean(near)}",
+                f"'{name}' is not a node of this launch; {manager.name} waits for it{did_you_mean(near)}",
                 param.place,
                 severity="warning" if near is not None else "info",
                 confidence="likely" if context.tree.complete else "possible",
@@ -75,10 +75,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # A launch of such a node alone is for somebody who activates it by hand.
     alone = len(waiting) < len(nodes) and context.graph is not None and context.graph.likely_complete
     for node in waiting:
-        who = f"the lifecycle managers have {quoted(list(managed)[:3])}" if managed else "there is no lifecycle manager"
+        who = f"the lifecycle managers manage {quoted(list(managed)[:3])}" if managed else "no lifecycle manager"
         yield rule.finding(
-            f"{node.name} is a lifecycle node, which does nothing until it is activated, and nothing in this launch "
-            f"activates it: {who}",
+            f"lifecycle node {node.name} is never activated by this launch ({who}); it does nothing until it is active",
             attribute_location(context, node, "exec"),
             severity="warning" if alone else None,
             confidence="likely" if context.tree.complete else "possible",

@@ -24,12 +24,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         leaf = names.leaf(node.name)
         spaces = {names.canonicalize(f"/{each.space}") for each in renamed} if node.namespace == "/" else {""}
         same = len(spaces) < len(renamed)
-        what = f"all of them have the name '{node.name}'" if same and len(spaces) == 1 else f"all are called '{leaf}'"
+        what = f"duplicate node name '{node.name}'" if same and len(spaces) == 1 else f"each is '{leaf}'"
         seen = interface.source == "trace" and not interface.stand_ins
         yield rule.finding(
-            f"this process has the nodes {quoted(given)}, and 'name' is for each of them: {what}, and what is meant "
-            f"for one by its own name does not reach it; leave 'name' out, and rename one by a remap from "
-            f"'{given[0]}:__node' to '{leaf}'",
+            f"'name' renames all nodes of this process ({quoted(given)}): {what}; to rename one, remap "
+            f"'{given[0]}:__node' to '{leaf}' instead",
             context.location(node.location.file, span),
             severity=None if same and not inferred else "info",
             confidence="possible" if inferred else "certain" if seen else "likely",

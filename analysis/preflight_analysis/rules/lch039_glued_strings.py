@@ -30,10 +30,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for first, span, parts in _glued(launch_file) if path.endswith(".py") else ():
             comma = context.location(path, Span(first, first))
             yield rule.finding(
-                f"{quoted(parts)} are one string, '{shortened(''.join(parts))}': the comma between them is missing",
+                f"missing comma: {quoted(parts)} are one string '{shortened(''.join(parts))}'",
                 context.location(path, span),
                 confidence="likely",
-                fixes=(Fix("Insert the comma", (Edit(comma, ","),), True),),
+                fixes=(Fix("Insert ','", (Edit(comma, ","),), True),),
             )
     if not context.tree.ros.own_parameters:
         yield from _in_parameters(rule, context)
@@ -49,8 +49,7 @@ def _in_parameters(rule: Rule, context: Context) -> Iterator[Finding]:
         kind = _BOOLEAN if any(isinstance(item, bool) for item in value) else _NUMBER
         if all(len(text.split()) > 1 and all(map(kind.fullmatch, text.split())) for text in texts):
             yield rule.finding(
-                f"{quoted(texts[0].split())} are one text among the values of '{param.name}': the comma between them "
-                "is missing",
+                f"{quoted(texts[0].split())} are one text in '{param.name}': the comma between them is missing",
                 param.place,
                 confidence="likely",
                 related=include_chain(param.origin),

@@ -50,8 +50,8 @@ class _Finder(ast.NodeVisitor):
                 advice = f"; write {instead}Substitution(...)" if self._kind(node.values[-1]) is not None else ""
                 self._say(
                     node,
-                    f"Python's '{word}' drops '{self._written(lost)}': {kind} is always true here, its value is known "
-                    f"only while the launch runs{advice}",
+                    f"Python's '{word}' drops '{self._written(lost)}': {kind} is always true before the launch "
+                    f"runs{advice}",
                 )
                 return
 
@@ -61,8 +61,8 @@ class _Finder(ast.NodeVisitor):
         if kind is not None:
             self._say(
                 node,
-                f"this is always False: {kind} is always true here, its value is known only while the "
-                "launch runs; use UnlessCondition or NotSubstitution",
+                f"'not' is always False: {kind} is always true before the launch runs; use UnlessCondition or "
+                "NotSubstitution",
             )
 
     def visit_IfExp(self, node: ast.IfExp) -> None:
@@ -83,8 +83,8 @@ class _Finder(ast.NodeVisitor):
                 equal = isinstance(node.ops[0], ast.NotEq)
                 self._say(
                     node,
-                    f"this is always {equal}: {kind} equals nothing here, its value is known only while the launch "
-                    "runs; use EqualsSubstitution, or perform(context) in an OpaqueFunction",
+                    f"comparison is always {equal}: {kind} has no value before the launch runs; use "
+                    "EqualsSubstitution, or perform(context) in an OpaqueFunction",
                 )
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
@@ -99,15 +99,15 @@ class _Finder(ast.NodeVisitor):
     def _test(self, node: ast.expr) -> None:
         kind = self._kind(node)
         if kind is not None:
-            self._say(node, f"{kind} is always true here: its value is known only while the launch runs")
+            self._say(node, f"{kind} is always true before the launch runs")
 
     def _in_text(self, text: ast.expr, values: Iterable[ast.expr]) -> None:
         kind = next(filter(None, map(self._kind, values)), None)
         if kind is not None:
             self._say(
                 text,
-                f"the text gets the name of a Python object and not the value: that of {kind} is known only while the "
-                "launch runs; give a list of texts and substitutions",
+                f"{kind} has no value before the launch runs: the text contains a Python object; write a list of "
+                "texts and substitutions",
             )
 
     def _kind(self, node: ast.expr) -> str | None:

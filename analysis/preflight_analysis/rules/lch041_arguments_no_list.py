@@ -41,16 +41,16 @@ def _no_lists(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
         for keyword in node.keywords if isinstance(node, ast.Call) and made is not None else ():
             why = _problem(keyword.value) if keyword.arg in _TAKE_LISTS.get(made or "", ()) else None
             if why is not None:
-                found.append((source.whole_span(keyword.value), f"'{keyword.arg}' takes a list: {why}"))
+                found.append((source.whole_span(keyword.value), f"'{keyword.arg}' requires a list: {why}"))
     return tuple(found)
 
 
 def _problem(given: ast.expr) -> str | None:
     text = isinstance(given, ast.Constant) and isinstance(given.value, str) and len(given.value) > 1
     if text or isinstance(given, ast.JoinedStr):
-        return "of a text each character is one argument"
+        return "each character of a text becomes one argument"
     if isinstance(given, ast.Set) and len(given.elts) > 1:
-        return "a set has no order, its items come in another one at each launch"
+        return "the order of a set differs at each launch"
     return None
 
 

@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for lost in _lost(launch_file) if path.endswith(".py") else ():
             yield rule.finding(
-                f"this {lost.kind} is never launched: '{lost.name}' is assigned again before anything uses it",
+                f"'{lost.name}' is assigned again before its first use: this {lost.kind} is never launched",
                 context.location(path, lost.span),
                 confidence="likely",
                 related=(Related("assigned again here", context.location(path, lost.again)),),

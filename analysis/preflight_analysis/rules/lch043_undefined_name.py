@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for name, near, span, called in _undefined(launch_file) if path.endswith(".py") and path not in raised else ():
             yield rule.finding(
-                f"nothing defines '{name}': a NameError where the launch comes to it{did_you_mean(near)}",
+                f"undefined name '{name}'; this line raises a NameError{did_you_mean(near)}",
                 context.location(path, span),
                 severity="error" if called else "info",
                 confidence="likely",

@@ -52,7 +52,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             message = prm012.MESSAGE.format(name, MARK)
             yield prm012.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
         for what, span in file.refused[:1]:
-            message = f"{what}; the client libraries refuse the whole file for it, and no node that gets it starts"
+            message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
             yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
         for missing in document.once(prm018.missing_in):
             yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")

@@ -64,9 +64,11 @@ def _finding(
     if near is None:
         return _not_here(rule, context, name, location, related, stops=stops)
     fixes = rename(context, location, name, near)
-    hint = f"; the folder {renamed.share} holds package '{renamed.name}'" if renamed is not None else did_you_mean(near)
+    hint = (
+        f"; the folder {renamed.share} contains package '{renamed.name}'" if renamed is not None else did_you_mean(near)
+    )
     return rule.finding(
-        f"package '{name}' is not among the {len(context.environment.packages)} packages of this environment{hint}",
+        f"package '{name}' not found among {len(context.environment.packages)} packages{hint}",
         location,
         related=related,
         fixes=fixes,
@@ -83,20 +85,20 @@ def _not_here(
     lack: Lack | None = lack_of_package(context, name)
     severity: Severity | None = None
     fixes: tuple[Fix, ...] = ()
-    text = f"package '{name}' is neither installed here nor in the workspace"
+    text = f"package '{name}' is neither installed nor in the workspace"
     if having:
         package = debian_package_of(context, name)
-        which = f": {package}" if package else f"; it is released for {' and '.join(having)}"
-        text = f"package '{name}' is not installed here{which}"
+        which = f"; install {package}" if package else f"; it is released for {' and '.join(having)}"
+        text = f"package '{name}' is not installed{which}"
     elif name in context.once(_named_by_manifests):
-        text += ", and no distribution has released it"
+        text += " nor released for any distribution"
     elif (having_it := has_what_is_asked_of(context, location.file, name)) is not None:
         other, path = having_it
-        text += f", and no distribution has released it; package '{other.name}' has '{path}'{did_you_mean(other.name)}"
+        text += f" nor released for any distribution; package '{other.name}' has '{path}'{did_you_mean(other.name)}"
         fixes = rename(context, location, name, other.name, preferred=False)
         lack, severity, confidence = None, "warning", "possible"
     else:
-        text += f"; no distribution has released it, and no {MANIFEST} of the workspace names it"
+        text += f"; it is not released for any distribution, and no {MANIFEST} of the workspace names it"
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
         if context.once(_strangers) == {name}:
             near = _of_like_words(context, name)

@@ -19,7 +19,7 @@ from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
 
 _NO_PROGRAMS = (".h", ".hh", ".hpp", ".c", ".cc", ".cpp", ".cxx", ".txt", ".md", ".rst", ".launch", ".xml", ".yaml")
 """Files that may be executable, by some slip, and that nobody means as one."""
-_SPACES = {1: "devel and install spaces", 2: "installed ones"}
+_SPACES = {1: "devel and install spaces", 2: "install spaces"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -28,7 +28,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if node.executable.isspace() and not node.unknowns:
             place = attribute_location(context, node, context.tree.ros.executable)
-            yield rule.finding("the name of the executable is blank", place, related=include_chain(node.origin))
+            yield rule.finding("executable name is blank", place, related=include_chain(node.origin))
             continue
         if found.path is not None or found.package_path is None or not program_known(node):
             continue
@@ -45,9 +45,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         chain = include_chain(node.origin)
         if is_no_program:
             path = found.not_executable[0]
-            message = f"'{path}' is not executable; chmod +x {path}"
+            message = f"file '{path}' is not executable; run `chmod +x {path}`"
             if made_of is not None:
-                message += ", or it starts from the install space alone: CMakeLists.txt installs it as a program"
+                message += ", or start it from the install space: CMakeLists.txt installs it as a program"
             sure: Confidence = "certain" if made_of is None else "likely"
             severity: Severity | None = None if made_of is None else "warning"
             yield rule.finding(message, location, severity=severity, confidence=sure, related=chain)
@@ -78,8 +78,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             slip = near is not None and (is_slip(node.executable, near) or is_slip(_stem(node.executable), _stem(near)))
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
         yield rule.finding(
-            f"package '{node.package}' has no executable '{node.executable}'; looked at its {len(names)} executables "
-            f"in {found.package_path} and the {_SPACES[context.tree.generation]}{hint}",
+            f"executable '{node.executable}' not found in package '{node.package}' ({len(names)} executables in "
+            f"{found.package_path} and the {_SPACES[context.tree.generation]}){hint}",
             location,
             confidence="likely" if node.unknowns else "certain",
             related=chain,
@@ -124,11 +124,11 @@ def _other_package(context: Context, executables: ExecutableNames, node: LaunchN
 def _unbuilt(name: str, package: str, made_of: Made | None, folder: str) -> str:
     lists = f"CMakeLists.txt of package '{package}'"
     if made_of is None:
-        return f"'{name}' is not built yet: {lists} names it"
+        return f"executable '{name}' is not built yet: {lists} names it"
     source = relpath(made_of.source, folder)
     if made_of.by_build:
-        return f"'{name}' is not built yet: {lists} makes it of {source}"
-    return f"'{name}' is not installed yet: {lists} installs {source} as this"
+        return f"executable '{name}' is not built yet: {lists} builds it from {source}"
+    return f"executable '{name}' is not installed yet: {lists} installs it from {source}"
 
 
 def _is_own(context: Context, package: Package) -> bool:

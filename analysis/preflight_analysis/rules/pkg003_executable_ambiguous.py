@@ -21,9 +21,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             package = node.resolved.package_path or ""
             rest = ", ".join(f"'{os.path.relpath(path, package)}'" for path in others)
             yield rule.finding(
-                f"package '{node.package}' has {len(others) + 1} different executables '{node.executable}'; "
-                f"'{os.path.relpath(first, package)}' is run here, {rest} would be where the folders are listed in "
-                "another order",
+                f"ambiguous executable '{node.executable}': package '{node.package}' has {len(others) + 1} different "
+                f"files; '{os.path.relpath(first, package)}' runs here, another machine may run {rest}",
                 attribute_location(context, node, "type"),
                 related=include_chain(node.origin),
             )

@@ -48,8 +48,7 @@ def _findings(
 ) -> tuple[Finding, ...]:
     return tuple(
         rule.finding(
-            f"package '{name}' is not among the dependencies that the {os.path.basename(owner.manifest)} of "
-            f"'{owner.name}' names",
+            f"package '{name}' is not a dependency in {os.path.basename(owner.manifest)} of '{owner.name}'",
             launch_file.document.location(span),
             fixes=_fixes(manifest, owner, name, launch_file.path),
         )

@@ -36,12 +36,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         below, places = os.path.relpath(path, package.share), installed_at(disk, package, path)
         if below in places or installed_from(disk, package, below) is not None or installs_more(disk, package):
             continue
-        message = f"'{below}' is in the source of package '{package.name}', but its {_build_file(package)} "
+        message = f"file '{below}' is not installed in the share folder: {_build_file(package)} of '{package.name}' "
         if places:
             yield rule.finding(f"{message}installs it as '{places[0]}'", use.location)
         else:
             fixes = _fixes(context, package, below)
-            yield rule.finding(f"{message}does not install it", use.location, fixes=fixes)
+            yield rule.finding(f"{message}does not list it", use.location, fixes=fixes)
     for path, launch_file in context.launch_files.items():
         package = _package_of(context, path) if path not in named and launch_file.root is not None else None
         if package is None or launch_file.root is None:
@@ -53,7 +53,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             and not installs_more(disk, package)
         ):
             yield rule.finding(
-                f"'{below}' is not installed by the {_build_file(package)} of package '{package.name}': "
+                f"launch file '{below}' is not installed by {_build_file(package)} of '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",
                 context.location(path, launch_file.root.head_span),
                 confidence="likely",
@@ -96,7 +96,7 @@ def _fixes(context: Context, package: Package, below: str) -> tuple[Fix, ...]:
         return ()
     folder = os.path.dirname(below)
     edit = _in_setup(found, package, below, folder) if python else _in_cmake(found, below, folder)
-    return (Fix(f"Install {below} in {os.path.basename(path)}", (edit,), True),) if edit is not None else ()
+    return (Fix(f"Install '{below}' in {os.path.basename(path)}", (edit,), True),) if edit is not None else ()
 
 
 def _in_setup(found: Document, package: Package, below: str, folder: str) -> Edit | None:

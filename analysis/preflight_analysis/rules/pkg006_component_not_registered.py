@@ -25,7 +25,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = nearest_class(node.plugin, registered)
         location = attribute_location(context, node, "plugin")
         yield rule.finding(
-            f"package '{node.package}' registers no component '{node.plugin}'"
+            f"component '{node.plugin}' is not registered by package '{node.package}'"
             f"{did_you_mean(near) if near else '; it registers ' + _named(registered)}",
             location,
             severity=None if near else "warning",

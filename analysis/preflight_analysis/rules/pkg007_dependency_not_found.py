@@ -32,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue  # a private package, as most that nobody has released
             location = manifest.location(span)
             yield rule.finding(
-                f"neither the workspace nor any distribution has a package '{name}'{did_you_mean(near)}",
+                f"unknown package '{name}': not in the workspace nor any distribution{did_you_mean(near)}",
                 location,
                 confidence="likely",
                 fixes=(Fix(f"Replace '{name}' with '{near}'", (Edit(location, near),), True),),

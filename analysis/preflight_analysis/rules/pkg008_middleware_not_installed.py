@@ -28,8 +28,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         setter = "your environment" if name == of_user else "the launch"
         others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
         yield rule.finding(
-            f"middleware '{name}', which {setter} sets for {nodes[0].name}{others}, is not installed"
-            f"{did_you_mean(near)}",
+            f"middleware '{name}' is not installed; {setter} sets it for {nodes[0].name}{others}{did_you_mean(near)}",
             nodes[0].location,
             related=include_chain(nodes[0].origin),
             lack=lack_of_package(context, name) if near is None else None,

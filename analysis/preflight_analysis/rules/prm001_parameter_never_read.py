@@ -55,8 +55,8 @@ def _as_on_the_command_line(
         above, _, leaf = param.name.rpartition("/")
         if above in nodes and param.name not in read and _ARGUMENT.fullmatch(leaf):
             yield rule.finding(
-                f"a parameter '{leaf}' is mostly '{leaf[1:]}': only among the arguments of a node private ones begin "
-                f"with '_' ('{leaf}:=...')",
+                f"parameter '{leaf}' begins with '_', which is the form of a node's arguments ('{leaf}:=...'); did you "
+                f"mean '{leaf[1:]}'?",
                 param.place,
                 confidence="likely",
                 related=include_chain(param.origin),
@@ -66,10 +66,10 @@ def _as_on_the_command_line(
 
 def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
     param, holder = unread.param, unread.holder
-    who = holder.name if holder is not None else "no node"
+    who = holder.name if holder is not None else "any node"
     until = "in its source" if in_source else "before its event loop"
     return rule.finding(
-        f"{who} does not read parameter '{param.name}' {until}, nor does any other node",
+        f"unused parameter '{param.name}': not read by {who} {until}, nor by any other node",
         param.place,
         severity="hint",
         confidence="possible",
@@ -175,15 +175,14 @@ def _finding(
     sure = sure or ("likely" if holder is not None or (graph.complete and unread.alone) else "possible")
     if holder is not None:
         message = (
-            f"{holder.name} does not read parameter '{param.name}'; did you mean '{read.name}', which it reads and "
+            f"parameter '{param.name}' is not read by {holder.name}; did you mean '{read.name}', which it reads and "
             f"which is not set{_default(read)}?"
         )
     elif read.use.access == "search":
-        message = f"no node reads parameter '{param.name}'; did you mean '{name}', for which {read.node.name} searches?"
+        message = f"unused parameter '{param.name}'; did you mean '{name}', for which {read.node.name} searches?"
     else:
         message = (
-            f"no node reads parameter '{param.name}'; {read.node.name} reads '{read.name}', which is not set"
-            f"{_default(read)}"
+            f"unused parameter '{param.name}'; {read.node.name} reads '{read.name}', which is not set{_default(read)}"
         )
     return rule.finding(
         message,

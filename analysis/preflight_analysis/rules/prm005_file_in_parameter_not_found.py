@@ -83,23 +83,26 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             location = _where_written(context, given, path, values)
             related = include_chain((*named.origin[:-1], location))
             if location != given:
-                related = (Related(f"{named.what} is given here", given), *related)
+                related = (Related(f"{named.what} is set here", given), *related)
             near = nearest_file(context.disk, path, context.environment)
             hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
             severity: Severity | None = None
             if near is None and _is_fetched(path):
-                severity, hint = "info", "; it may have to be fetched first"
+                severity, hint = "info", "; fetch it first"
             elif near is None and is_ignored(context.disk, path):
-                severity, hint = "info", "; git ignores it, so it may be made on each machine"
+                severity, hint = "info", "; git ignores it, so each machine may create it"
             elif near is None and depends_on_working_folder(context, location):
-                severity, hint = "info", "; it depends on the folder where the launch is started"
+                severity, hint = "info", "; the path depends on the folder where the launch is started"
             elif near is None and _CALIBRATION in named.what:
-                severity, hint = "info", "; a calibration of the camera writes it"
+                severity, hint = "info", "; the calibration of the camera creates it"
             elif near is None and (others := others_in_vain(context, location, path)):
-                severity, hint = "info", f"; nor do those that {others} other packages give for it: a node may write it"
+                severity, hint = (
+                    "info",
+                    f"; the files that {others} other packages set for it do not exist either, so a node may create it",
+                )
             elif near is None and _may_be_made(path, context):
-                severity, hint = "hint", "; building the package may make it"
+                severity, hint = "hint", "; the build of the package may create it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
             yield rule.finding(message, location, severity=severity, confidence="likely", related=related, fixes=fixes)
 

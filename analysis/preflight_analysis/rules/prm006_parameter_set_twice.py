@@ -70,11 +70,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if found is not None:
                 severity, why = found
                 yield rule.finding(
-                    f"'{as_written(param.name)}' is set to {_shown(old.value)} here, which does not count: {why}, to "
-                    f"{_shown(param.value)}",
+                    f"overridden: parameter '{as_written(param.name)}' {why} to {_shown(param.value)}, not "
+                    f"{_shown(old.value)}",
                     loser.place,
                     severity=severity,
-                    related=(Related("the one that counts", winner.place), *include_chain(old.origin)),
+                    related=(Related("the value that applies", winner.place), *include_chain(old.origin)),
                 )
 
 
@@ -102,11 +102,11 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             reported.add(at)
             yield rule.finding(
-                f"'{param.name}' of {node.name} is set to {_shown(old.value)} here, which does not count: {why}, "
-                f"to {_shown(param.value)}",
+                f"overridden: parameter '{param.name}' of {node.name} {why} to {_shown(param.value)}, not "
+                f"{_shown(old.value)}",
                 lost.place,
                 severity="info" if lost.of_launch_file and not _is_inside(lost.place, node) else None,
-                related=(Related("the one that counts", counts.place), *include_chain(old.origin)),
+                related=(Related("the value that applies", counts.place), *include_chain(old.origin)),
             )
 
 
@@ -159,13 +159,13 @@ def _why_lost(lost: _Ros2Setting, counts: _Ros2Setting, *, own: bool) -> str | N
     if counts.index > lost.index:
         if not own:
             return None
-        return "the parameter file that is given after it sets it again" if counts.path else "it is set again below"
+        return "is set again by a later parameter file" if counts.path else "is set again below"
     if counts.index == lost.index:
         if counts.key == lost.key or "*" in lost.key or lost.path is None:
             return None
-        return f"'{counts.key}' stands below it in the file, fits the node as well and sets it"
-    by = f"'{counts.key}' of the file before it" if counts.path else f"the value for '{counts.key}' before it"
-    return f"{by} counts more than '{lost.key}', which was met still earlier, and sets it"
+        return f"is set again by the later key '{counts.key}'"
+    by = f"key '{counts.key}' of an earlier file" if counts.path else f"the earlier value for '{counts.key}'"
+    return f"is set by {by}, which overrides '{lost.key}',"
 
 
 def _is_own(lost: _Ros2Setting, counts: _Ros2Setting, node: LaunchNode, context: Context) -> bool:
@@ -190,8 +190,8 @@ def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_finding(
             rule,
             problem,
-            f"'{problem.kind.name}' stands twice in this dictionary: the later one counts, all of this is dropped",
-            related=(Related("the one that counts", problem.kind.second),),
+            f"duplicate key '{problem.kind.name}' in this dictionary: the later one overrides this one",
+            related=(Related("the value that applies", problem.kind.second),),
         )
 
 
@@ -215,9 +215,9 @@ def _surprise(tags: Tags, loser: _Setting, winner: _Setting) -> tuple[Severity, 
     if len(winner.chain) == common < len(loser.chain):
         return None
     if len(loser.chain) == common < len(winner.chain):
-        return "warning", "an include that comes later sets it again"
+        return "warning", "is set again by a later include"
     if len(winner.chain) > common:
-        return "hint", "another included file sets it again"
+        return "hint", "is set again by another included file"
     return _in_one_file(loser, winner)
 
 
@@ -236,20 +236,20 @@ def _in_one_file(loser: _Setting, winner: _Setting) -> tuple[Severity, str] | No
         return None  # a `~param` around the nodes, as a default that one of them replaces
     if winner.tag.action.head_span > loser.tag.action.head_span:
         if winner.loads_file:
-            return "warning", "the file that is loaded later sets it again"
+            return "warning", "is set again by a later file"
         if loser.is_rosparam:
-            return "hint", f"a <{winner.tag.action.kind}> after it sets it again"
-        return "warning", "it is set again below"
+            return "hint", f"is set again by a later <{winner.tag.action.kind}>"
+        return "warning", "is set again below"
     if in_winners_node:
-        return "warning", "in a <node> each <param> comes after the <rosparam>s, and sets it"
+        return "warning", "is set by the <param> of the <node>, which comes after each <rosparam>,"
     if loser.in_node:
-        return "warning", "a <param> of a ~name around a <node> comes after the <rosparam>s in it, and sets it"
-    return "warning", "a <param> of a ~name before it is for the node, which comes later, and sets it"
+        return "warning", "is set by the <param> around the <node>, which comes after each <rosparam>,"
+    return "warning", "is set by an earlier <param> for the node, which comes later,"
 
 
 def _shown(value: object) -> str:
     if isinstance(value, CommandValue):
-        return "what a command prints"
+        return "the output of a command"
     if isinstance(value, (bytes, list)):
         return "another value" if isinstance(value, bytes) else f"a list of {len(value)}"
     text = str(value).lower() if isinstance(value, bool) else str(value)

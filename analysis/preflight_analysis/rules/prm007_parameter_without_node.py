@@ -45,7 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             place = params[0].place
             yield rule.finding(
-                f"no node of this launch is called '{prefix}' or is in that namespace, for which {_what(params)}",
+                f"'{prefix}' is neither a node nor a namespace of this launch ({_what(params)})",
                 place,
                 severity="hint",
                 confidence="possible",
@@ -60,7 +60,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         places = [_prefix_place(context, param, leaf) for param in params]
         related = [related_node(n) for n in tree.nodes if n.name == meant][-1:]
         yield rule.finding(
-            f"no node is called '{prefix}', for which {_what(params)}; did you mean '{meant}'?",
+            f"'{prefix}' is not a node of this launch ({_what(params)}); did you mean '{meant}'?",
             places[0],
             confidence="likely",
             related=(*related, *include_chain(params[0].origin)),
@@ -168,8 +168,8 @@ def _written(context: Context, param: Param) -> str:
 
 
 def _what(params: list[Param]) -> str:
-    more = f" and {len(params) - 1} more are" if len(params) > 1 else " is"
-    return f"parameter '{params[0].name}'{more} set"
+    more = f" and {len(params) - 1} more" if len(params) > 1 else ""
+    return f"parameter '{params[0].name}'{more}"
 
 
 def _prefix_place(context: Context, param: Param, leaf: str) -> Location:

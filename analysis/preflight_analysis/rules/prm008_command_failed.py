@@ -42,7 +42,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case CommandMissing(line):
                 yield _missing(rule, context, line, problem.origin, stops=problem.fatal)
             case MalformedCommand(message):
-                yield problem_finding(rule, problem, f"the command cannot be split into words: {message}")
+                yield problem_finding(rule, problem, f"malformed command: {message}")
             case CommandFailed() as failed:
                 yield _failed(rule, context, problem, failed)
     # A program that is named with its folder is looked for without running anything.
@@ -63,12 +63,12 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
         path = found["after"] or found["before"]
         lack = _variable_in(context, path, problem.origin) or lack_of_made(context, path) or lack_of_file(context, path)
         if lack is None and is_ignored(context.disk, path):
-            severity, message = "info", f"{message}; git ignores the file, so it may be made on each machine"
+            severity, message = "info", f"{message}; git ignores the file, so each machine may create it"
     elif any(_NO_INPUT in line for line in failed.stderr):
         # An argument whose default is empty is how Python launch files say that it has to be given.
         empty = [name for name, arg in context.tree.args.items() if not arg.value]
         severity = "info" if empty else None
-        message += f"; {quoted(empty)} may have to be given" if empty else ""
+        message += f"; set argument {quoted(empty)}" if empty else ""
     return problem_finding(rule, problem, message, severity=severity, lack=lack)
 
 
@@ -102,19 +102,21 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
     near = lack = None
     if "/" not in program:
         lack = lack_of_program(context, program)
-        message = f"there is no program '{program}' on the PATH of this environment"
+        message = f"program '{program}' is not on the PATH of this environment"
         if lack.remedy:
             message += f"; install it: {lack.remedy}"
     elif context.disk.is_file(program):
-        message = f"'{shown(program, context)}' is not executable; chmod +x {program}"
+        message = f"program '{shown(program, context)}' is not executable; run `chmod +x {program}`"
     elif package := _will_build(context, program):
-        message = f"'{shown(program, context)}' is not built yet: CMakeLists.txt of package '{package}' names it"
+        message = (
+            f"program '{shown(program, context)}' is not built yet: CMakeLists.txt of package '{package}' names it"
+        )
         confidence, lack = "likely", lack_of_build(context, package)
     else:
         near = _near(context, program)
         noetic = context.environment.distro in (None, "noetic")
-        removed = "; ROS Noetic has no xacro.py any more" if name == "xacro.py" and noetic else ""
-        message = f"there is no program '{shown(program, context)}'{removed}{did_you_mean(near)}"
+        removed = "; xacro.py is removed since ROS Noetic" if name == "xacro.py" and noetic else ""
+        message = f"program '{shown(program, context)}' does not exist{removed}{did_you_mean(near)}"
         lack = lack_of_file(context, program) if near is None and not removed else None
     location: Location = origin[-1]
     return rule.finding(

@@ -90,8 +90,8 @@ def _finding(
     if read.use.assumed:
         severity, confidence = ("info" if severity == "warning" else severity), "possible"
     return rule.finding(
-        f"'{param.name}' is {_shown(param.value)}, {_kind(param.value)}, but {read.node.name} reads it with the "
-        f"default {_shown(read.use.default)}, {_kind(read.use.default)}{why}",
+        f"type mismatch of parameter '{param.name}': {_shown(param.value)} is {_kind(param.value)}, {read.node.name} "
+        f"expects {_kind(read.use.default)} (default {_shown(read.use.default)}){why}",
         param.place,
         severity=severity,
         confidence=confidence,
@@ -107,7 +107,7 @@ def _difference(value: Any, default: Any) -> tuple[Severity, Confidence, str] | 
     match default:
         case bool():
             if isinstance(value, str) and value.strip().lower() in _BOOLEAN_WORDS:
-                return "warning", "likely", ": any text that is not empty counts as true"
+                return "warning", "likely", "; any text that is not empty is true"
         case int() | float():
             if isinstance(value, str):
                 if _OTHER_NUMBER.fullmatch(value.strip()):
@@ -120,7 +120,7 @@ def _difference(value: Any, default: Any) -> tuple[Severity, Confidence, str] | 
                 return "warning", "likely", ""
         case list():
             if isinstance(value, str) and value.strip().startswith("["):
-                return "warning", "likely", ': a <param> is never a list; write <rosparam param="...">[...]</rosparam>'
+                return "warning", "likely", '; a <param> is never a list: write <rosparam param="...">[...]</rosparam>'
             if isinstance(value, str | int | float | dict):
                 return "warning", "likely", ""
         case dict():

@@ -56,8 +56,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _hint(rule: Rule, node: LaunchNode, params: tuple[str, ...]) -> Finding:
     one = len(params) == 1
     return rule.finding(
-        f"{node.name} reads parameter{'' if one else 's'} {quoted(params)} without a default, and nothing sets "
-        f"{'it' if one else 'them'}",
+        f"parameter{'' if one else 's'} {quoted(params)} {'is' if one else 'are'} not set; {node.name} reads "
+        f"{'it' if one else 'them'} without a default",
         node.location,
         severity="hint",
         confidence="possible",
@@ -75,7 +75,7 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
             if use.name in given:
                 continue
             yield rule.finding(
-                f"{node.name} declares parameter '{use.name[1:]}' without a default, and nothing sets it: it stops "
+                f"required parameter '{use.name[1:]}' is not set; {node.name} declares it without a default and exits "
                 f"({use.refused})",
                 node.location,
                 severity="error",
@@ -103,9 +103,9 @@ def _of_sources(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]
             continue  # PRM013 says it at the name that was meant for it
         one = len(names_missing) == 1
         yield rule.finding(
-            f"{node.name} declares parameter{'' if one else 's'} {quoted([name[1:] for name in names_missing])} by "
-            f"{'its' if one else 'their'} type alone, and nothing sets {'it' if one else 'them'}: rclcpp throws an "
-            "exception there",
+            f"required parameter{'' if one else 's'} {quoted([name[1:] for name in names_missing])} "
+            f"{'is' if one else 'are'} not set; {node.name} declares {'it' if one else 'them'} by type only, and "
+            "rclcpp throws an exception",
             node.location,
             confidence="likely",
             related=include_chain(node.origin),
@@ -155,8 +155,8 @@ def _misspelt(read: ParamRead, private: Iterable[Param]) -> Param | None:
 
 def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, died: str) -> Finding:
     node: LaunchNode = read.node
-    reads = "reads parameter '{}' without a default" if read.use.mandatory else "asks for parameter '{}'"
-    message = f"{node.name} {reads.format(read.name)}, and nothing sets it; it ended with: {died}"
+    reads = "reads it without a default" if read.use.mandatory else "reads it"
+    message = f"required parameter '{read.name}' is not set; {node.name} {reads} and exits: {died}"
     if meant is None:
         return rule.finding(
             message,
@@ -165,7 +165,7 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
             related=(related_param_read(read), *include_chain(node.origin)),
         )
     return rule.finding(
-        f"{message}. '{meant.name}' is set, which no node reads: did you mean '{read.name}' there?",
+        f"unused parameter '{meant.name}'; did you mean '{read.name}'? {node.name} {reads} and exits: {died}",
         meant.place,
         confidence="likely",
         related=(related_param_read(read), *include_chain(meant.origin)),

@@ -112,10 +112,10 @@ def _meant(name: str, lost: Sequence[Section], *, shared: bool) -> Section | Non
 def _about_key(rule: Rule, context: Context, path: str, section: Section, ignoring: list[_Given]) -> Finding:
     nodes = [each.node.name for each in ignoring]
     *some, last = nodes[:_SHOWN] if len(nodes) <= _SHOWN else (*nodes[:_SHOWN], "others")
-    does = f"{', '.join(some)} and {last} do, and ignore it" if some else f"{last} does, and ignores it"
+    getters = f"{', '.join(some)} and {last}" if some else last
     inferred = any(each.node.name_inferred for each in ignoring)
     return rule.finding(
-        f"'{section.pattern}' is no node that gets this file: {does}",
+        f"section '{section.pattern}' applies to no node that gets this file (only {getters})",
         context.location(path, section.spans[-1]),
         severity="info" if inferred else "warning",
         confidence="possible" if inferred else "certain",
@@ -130,15 +130,15 @@ def _about_file(
 ) -> Finding:
     node = given.node
     named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
-    inferred = "; its source calls it so" if node.name_inferred else ""
+    inferred = "; the name is from its source" if node.name_inferred else ""
     key = meant or sections[0]
     return rule.finding(
-        f"the file has nothing for {node.name}, which therefore ignores it; it is for {named}{inferred}",
+        f"no section of this file applies to {node.name}; it has sections for {named}{inferred}",
         given.location,
         severity="info" if inferred else "warning",
         confidence="possible" if inferred else "certain",
         related=(
-            Related("the key" if meant is not None else "its first key", context.location(path, key.spans[-1])),
+            Related("the section" if meant is not None else "its first section", context.location(path, key.spans[-1])),
             *include_chain(node.origin),
         ),
         fixes=_rewrite(context, path, meant, node.name) if meant is not None else (),
@@ -157,7 +157,7 @@ def _rewrite(context: Context, path: str, section: Section, name: str | None) ->
         return ()
     key = name.removeprefix("/") if name.count("/") == 1 else name
     edit = Edit(context.location(path, section.spans[0]), key)
-    return (Fix(f"Write '{key}' as the key", (edit,), True),)
+    return (Fix(f"Replace the key with '{key}'", (edit,), True),)
 
 
 RULE = Rule(

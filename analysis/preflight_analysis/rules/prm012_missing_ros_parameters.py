@@ -8,7 +8,7 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Context, Rule
 
-MESSAGE = "'{}' does not stand below '{}', which has to follow the node's name: the file is refused"
+MESSAGE = "parameter '{}' is not below '{}'; rcl refuses the whole file"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -64,7 +64,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             use = declared.get(near) if near is not None else None
             related = [related_node(node)]
             yield rule.finding(
-                f"{node.name} declares no parameter '{param.name}': its value is ignored{did_you_mean(near)}",
+                f"parameter '{param.name}' is not declared by {node.name}; its value is ignored{did_you_mean(near)}",
                 param.place,
                 severity=severity,
                 confidence="likely" if in_full or (use is not None and not use.inferred) else "possible",
@@ -76,7 +76,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _clock(rule: Rule, context: Context, node: LaunchNode, param: Param) -> Finding:
     """A slip of the one parameter that each node has, be the node known or not."""
     return rule.finding(
-        f"'{param.name}' of {node.name} is no '{_CLOCK}', which each node has: it goes by the clock of the machine",
+        f"parameter '{param.name}' of {node.name} has no effect; did you mean '{_CLOCK}'?",
         param.place,
         confidence="likely",
         related=include_chain(node.origin),

@@ -22,7 +22,7 @@ _NAMES = {
 }
 _OF_ALL_NODES = {"use_sim_time": ParamUse("~use_sim_time", "get", False, has_default=True, builtin=True)}
 """What the client libraries declare for each node, whatever is known of it."""
-_ENDS = "the node stops when it declares it (InvalidParameterTypeException)"
+_ENDS = "the node exits (InvalidParameterTypeException)"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -43,7 +43,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             passed = param.value if place.file in files or node.container else as_passed(param.value)
             message = _wrong(param, passed, wanted, node)
             if message is None and use.refused is not None:
-                message = f"{node.name} stops when it declares '{param.name}': {use.refused}"
+                message = f"parameter '{param.name}' is refused, and {node.name} exits: {use.refused}"
             if message is None or (place, wanted) in reported:
                 continue  # what is written once for several nodes is wrong for each
             reported.add((place, wanted))
@@ -66,19 +66,20 @@ def _wrong(param: Param, passed: Any, wanted: str, node: LaunchNode) -> str | No
     """What is wrong with the value that arrives at the node; None if it fits, or if nobody can tell."""
     if isinstance(passed, (list, tuple)) and not passed:
         return (
-            f"'{param.name}' is an empty list, which has no type: {node.name} declares it as {_named(wanted)}, and "
-            "gets no value (rclpy) or stops (rclcpp)"
+            f"type mismatch of parameter '{param.name}': an empty list has no type, {node.name} declares "
+            f"{_named(wanted)}; rclpy ignores the value, rclcpp exits"
         )
     given = _type(passed)
     if given is None or given == wanted:
         return None
-    declares = f"{node.name} declares it as {_named(wanted)}"
+    declares = f"{node.name} declares {_named(wanted)}"
     if _type(param.value) == wanted:
         return (
-            f"'{param.name}' is {_named(wanted)} here, but launch hands over {_shown(param.value)} without quotes, "
-            f"which rcl reads as {_named(given)}, and {declares}: {_ENDS}; write it, in quotes, into a parameter file"
+            f"type mismatch of parameter '{param.name}': launch passes {_shown(param.value)} without quotes, and rcl "
+            f"reads {_named(given)}; {declares}, {_ENDS}; set it in a parameter file, in quotes"
         )
-    return f"'{param.name}' is {_named(given)}, and {declares}: {_ENDS}{_hint(passed, given, wanted)}"
+    hint = _hint(passed, given, wanted)
+    return f"type mismatch of parameter '{param.name}': got {_named(given)}, {declares}; {_ENDS}{hint}"
 
 
 def _hint(passed: Any, given: str, wanted: str) -> str:

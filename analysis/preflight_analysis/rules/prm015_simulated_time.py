@@ -38,10 +38,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         given = _given(context, param.place)
         related = include_chain(node.origin)
         if given != param.place:
-            related = (Related(f"{node.name} gets it here", param.place), *related)
+            related = (Related(f"set for {node.name} here", param.place), *related)
         yield rule.finding(
-            "use_sim_time is true, and no node of this launch publishes /clock: without a simulator or "
-            "`ros2 bag play --clock` beside it, time stands still",
+            "'use_sim_time' is true, but '/clock' has no publisher in this launch; time does not advance without a "
+            "simulator or `ros2 bag play --clock`",
             given,
             severity="info",
             confidence="likely" if graph.complete else "possible",
@@ -54,8 +54,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if has_clock and off and len(off) <= len(on):
         shown = ", ".join(node.name for node in off[:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
         yield rule.finding(
-            f"use_sim_time is true for {_counted(len(on))} of this launch and not for {shown}: their times do not "
-            "match",
+            f"'use_sim_time' is not true for {shown}, but for {_counted(len(on))} of this launch; their times differ",
             off[0].location,
             severity="info",
             confidence="possible",

@@ -26,10 +26,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if at in reported or (substituted and "$(" in document.text[span.start : span.end]):
                 continue  # what a substitution comes to may be fine
             reported.add(at)
-            who = "the node does not start" if len(given) == 1 else f"none of the {len(given)} nodes that get it starts"
+            who = f"{given[0][0].name} does" if len(given) == 1 else f"its {len(given)} nodes do"
             more = f" (and {len(given) - _SHOWN} more nodes)" if len(given) > _SHOWN else ""
             yield rule.finding(
-                f"{what}; the client libraries refuse the whole file for it, and {who}",
+                f"{what}; rcl refuses the whole file, and {who} not start",
                 at,
                 related=[
                     Related(f"{node.name} gets the file here{more if index == _SHOWN else ''}", source.origin[-1])
@@ -62,8 +62,8 @@ def _values(rule: Rule, context: Context) -> Iterator[Finding]:
                     continue
                 reported.add(place)
                 yield rule.finding(
-                    f"'{param.name}' arrives as {refused}, as launch hands it over without quotes: {node.name} does "
-                    "not start; write it, in quotes, into a parameter file",
+                    f"parameter '{param.name}' arrives as {refused}, because launch passes it without quotes; "
+                    f"{node.name} does not start; set it in a parameter file, in quotes",
                     place,
                     related=include_chain(node.origin),
                 )

@@ -36,13 +36,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _wrong(param: Param, use: ParamUse, node: LaunchNode) -> str | None:
     """What is wrong with the value; None if nothing is."""
-    value = f"'{param.name}' is {shorten(str(param.value), 60, placeholder='...')}"
+    value = f"parameter '{param.name}' is {shorten(str(param.value), 60, placeholder='...')}"
     outside = _outside(param.value, use.range) if use.range and _is_of_its_type(param.value, use) else None
     if outside is not None:
-        return f"{value}, which is {outside}: {node.name} declares it for {use.range}, and stops when it declares it"
+        return f"{value}, {outside}: {node.name} declares {use.range} and exits"
     if use.refused is None or use.type is not None or use.mandatory:
         return None
-    return f"{value}, which {node.name} refuses: it stops when it declares it, {use.refused}"
+    return f"{value}, which {node.name} refuses, and exits: {use.refused}"
 
 
 def _is_of_its_type(value: object, use: ParamUse) -> bool:
@@ -63,7 +63,7 @@ def _outside(value: float, allowed: Range) -> str | None:
         nearest = allowed.low + round((value - allowed.low) / allowed.step) * allowed.step
     except OverflowError:
         return None  # so many steps that any value is one of them
-    return None if _is_close(value, nearest) else "none of the steps"
+    return None if _is_close(value, nearest) else "between the steps"
 
 
 def _is_close(value: float, other: float) -> bool:

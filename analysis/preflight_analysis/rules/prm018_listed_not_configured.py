@@ -51,10 +51,10 @@ class Missing(NamedTuple):
     def message(self) -> str:
         """What is wrong with it."""
         ready = [name for name, _ in self.ready]
-        hint = f"; {quoted(ready)} is configured and in no list" if len(ready) == 1 else ""
+        hint = f"; {quoted(ready)} is configured but not listed" if len(ready) == 1 else ""
         return (
-            f"'{self.name}' is listed in '{self.listed_in}', and there is no parameter '{self.parameter}' as the others"
-            f" have it: nothing can be loaded for it{hint}"
+            f"'{self.name}' in '{self.listed_in}' has no parameter '{self.parameter}', so nothing is loaded for "
+            f"it{hint}"
         )
 
 
@@ -102,8 +102,8 @@ def _of_moveit(rule: Rule, context: Context) -> Iterator[Finding]:
             of_file = any(source.path == param.place.file for source in node.param_sources)
             for name in lacking if len(lacking) == len(listed) or not of_file else ():
                 yield rule.finding(
-                    f"'{name}' is listed in '{param.name}', and there is no '{_MOVEIT}.{name}' beside it: MoveIt "
-                    "has no such controller",
+                    f"'{name}' in '{param.name}' has no section '{_MOVEIT}.{name}'; MoveIt does not know the "
+                    "controller",
                     param.place,
                     confidence="likely",
                     related=include_chain(node.origin),

@@ -95,7 +95,7 @@ def _finding(
     some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
     return rule.finding(
         f"{missing}: the controller is not loaded; "
-        + (f"did you mean '{near}'?" if near is not None else f"it knows {some}"),
+        + (f"did you mean '{near}'?" if near is not None else f"it has types for {some}"),
         spawner.location,
         confidence="likely",
         related=(*related, *include_chain(spawner.origin)),

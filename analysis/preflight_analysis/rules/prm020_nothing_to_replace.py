@@ -30,7 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_finding(
             rule,
             problem,
-            f"{by} replaces nothing: {there} has no {what} '{name}'{did_you_mean(near)}",
+            f"{what} '{name}' of {by} replaces nothing: {there} does not contain it{did_you_mean(near)}",
             severity="warning" if near is not None else "hint",
             confidence="likely" if near is not None else "possible",
             fixes=rename(context, place, name, near) if near is not None else (),

@@ -54,10 +54,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if meant is None:
                 continue
             place = context.location(path, named.span)
-            by = "its plugin descriptions list" if own else f"the catalogue of {distro} knows"
+            by = "its plugin descriptions" if own else f"the catalogue of {distro}"
             yield rule.finding(
-                f"package '{named.package}' has no {named.kind} '{named.type}', as far as {by}; "
-                f"did you mean '{meant}'?",
+                f"unknown {named.kind} '{named.type}' of package '{named.package}'; did you mean '{meant}'? "
+                f"Source: {by}",
                 place,
                 confidence="likely" if own or environment.distro == distro else "possible",
                 related=(getter,),

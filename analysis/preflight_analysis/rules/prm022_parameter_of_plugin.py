@@ -36,8 +36,8 @@ class Wrong(NamedTuple):
     def message(self) -> str:
         """What is wrong with it."""
         return (
-            f"plugin '{self.plugin.name}' declares no parameter '{self.name}': its value is ignored; did you mean "
-            f"'{self.meant}'? Known by {self.plugin.evidence}"
+            f"parameter '{self.name}' is not declared by plugin '{self.plugin.name}'; did you mean '{self.meant}'? "
+            f"Source: {self.plugin.evidence}"
         )
 
     @property

@@ -31,7 +31,7 @@ _NODES = (
     Retired(
         "robot_state_publisher",
         "state_publisher",
-        "'state_publisher' was removed from robot_state_publisher in ROS Noetic; use 'robot_state_publisher'",
+        "executable 'state_publisher' is removed since ROS Noetic; use 'robot_state_publisher'",
         "https://docs.ros.org/en/latest/changelogs/robot_state_publisher/changelog.html (1.15.0)",
         instead_executable="robot_state_publisher",
         removed=True,
@@ -40,7 +40,7 @@ _NODES = (
     Retired(
         "gazebo",
         None,
-        "the nodes of package 'gazebo' are in 'gazebo_ros' since ROS Hydro",
+        "package 'gazebo' is removed since ROS Hydro; use 'gazebo_ros'",
         "https://github.com/ros-simulation/gazebo_ros_pkgs/pull/34",
         instead_package="gazebo_ros",
         removed=True,
@@ -48,14 +48,14 @@ _NODES = (
     Retired(
         "tf",
         "static_transform_publisher",
-        "tf is deprecated since ROS Hydro; tf2_ros has a 'static_transform_publisher' that publishes once, latched, "
-        "and takes no period",
+        "'static_transform_publisher' of tf is deprecated since ROS Hydro; use that of tf2_ros, which publishes once "
+        "and has no period",
         "http://wiki.ros.org/tf2/Migration",
     ),
     Retired(
         "robot_pose_ekf",
         None,
-        "robot_pose_ekf was dropped from the navigation stack in ROS Melodic in favour of robot_localization",
+        "package 'robot_pose_ekf' is removed since ROS Melodic; use 'robot_localization'",
         "https://github.com/ros-planning/navigation/issues/701",
     ),
 )

@@ -39,7 +39,7 @@ def _why_not_there(node: LaunchNode, executables: ExecutableNames) -> str:
     if not registered:
         return f"no component of package {node.package!r} is known here"
     near = nearest_class(node.plugin, registered)
-    return f"package {node.package!r} registers no component {node.plugin!r}{did_you_mean(near)}"
+    return f"component {node.plugin!r} is not registered by package {node.package!r}{did_you_mean(near)}"
 
 
 @lru_cache(maxsize=1024)

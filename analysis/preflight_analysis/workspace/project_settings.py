@@ -108,13 +108,13 @@ def project_settings_of(db: Database, folder: str) -> ProjectSettings:
 
 def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettings:
     if not isinstance(found, Text):
-        unreadable = SettingsProblem(f"the file {found.reason}", 1)
+        unreadable = SettingsProblem(f"settings file {found.reason}", 1)
         return ProjectSettings(path, (), () if found.kind == "missing" else (unreadable,))
     try:
         document = compose(found.text)
     except CONSTRUCTION_ERRORS as error:
         mark = getattr(error, "problem_mark", None)
-        reason = getattr(error, "problem", None) or "it is no YAML"
+        reason = getattr(error, "problem", None) or "invalid YAML"
         problem = SettingsProblem(str(reason), mark.line + 1 if mark else 1)
         return ProjectSettings(path, (), (problem,), text=found.text)
     problems: list[SettingsProblem] = []
@@ -127,19 +127,19 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
         if key.value == "nodes" and isinstance(value, yaml.SequenceNode):
             nodes += (node for item in value.value if (node := _node(item, problems)) is not None)
         elif key.value == "nodes":
-            problems.append(_problem(value, "nodes is a list"))
+            problems.append(_problem(value, "invalid value of 'nodes': expected a list"))
         elif key.value == "severities":
             everywhere.append(Severities(_severities(value, problems)))
         elif key.value == "paths" and isinstance(value, yaml.SequenceNode):
             by_path += (each for item in value.value if (each := _of_path(item, folder, problems)) is not None)
         elif key.value == "paths":
-            problems.append(_problem(value, "paths is a list"))
+            problems.append(_problem(value, "invalid value of 'paths': expected a list"))
         elif key.value == "external":
             external += _external(value, problems)
         elif key.value != "roots":
-            problems.append(_problem(key, f"'{key.value}' is no setting; there are: {', '.join(KEYS)}"))
+            problems.append(_problem(key, f"unknown setting '{key.value}'; expected one of: {', '.join(KEYS)}"))
         elif not isinstance(value, yaml.SequenceNode):
-            problems.append(_problem(value, "roots is a list of launch files"))
+            problems.append(_problem(value, "invalid value of 'roots': expected a list of launch files"))
         else:
             roots += (root for entry in value.value if (root := _root(entry, folder, problems)) is not None)
     return ProjectSettings(
@@ -202,9 +202,9 @@ def _node(node: yaml.Node, problems: list[SettingsProblem]) -> NodeSettings | No
             found += (item for each in value.value if (item := _item(key.value, each, problems)) is not None)
         else:
             allowed = ", ".join(("package", "executable", "name", *GROUPS))
-            problems.append(_problem(key, f"'{key.value}' does not belong into a node like this; it has {allowed}"))
+            problems.append(_problem(key, f"unknown key '{key.value}' of a node; expected {allowed}"))
     if "name" not in who and not {"package", "executable"} <= who.keys():
-        problems.append(_problem(node, "a node needs a package and an executable, or a name"))
+        problems.append(_problem(node, "'package' and 'executable', or 'name', of a node are missing"))
         return None
     return NodeSettings(
         who.get("package"),
@@ -231,15 +231,15 @@ def _item(group: str, node: yaml.Node, problems: list[SettingsProblem]) -> Endpo
 def _external(node: yaml.Node, problems: list[SettingsProblem]) -> Iterator[str]:
     for key, value in _entries(node, problems, "external"):
         if key.value != "topics":
-            problems.append(_problem(key, f"'{key.value}' does not belong into external; it has topics"))
+            problems.append(_problem(key, f"unknown key '{key.value}' of 'external'; expected topics"))
         elif not isinstance(value, yaml.SequenceNode):
-            problems.append(_problem(value, "topics is a list of names"))
+            problems.append(_problem(value, "invalid value of 'topics': expected a list of names"))
         else:
             for item in value.value:
                 if isinstance(item, yaml.ScalarNode) and item.value:
                     yield "/" + item.value.lstrip("/")
                 else:
-                    problems.append(_problem(item, "a topic is a name or a pattern"))
+                    problems.append(_problem(item, "invalid item of 'topics': expected a name or a pattern"))
 
 
 def _severities(node: yaml.Node, problems: list[SettingsProblem]) -> dict[str, Severity | None]:
@@ -247,9 +247,9 @@ def _severities(node: yaml.Node, problems: list[SettingsProblem]) -> dict[str, S
     for key, value in _entries(node, problems, "severities"):
         wanted = value.value if isinstance(value, yaml.ScalarNode) else ""
         if key.value != ALL and rule_by_id(key.value) is None:
-            problems.append(_problem(key, f"there is no rule '{key.value}'"))
+            problems.append(_problem(key, f"unknown rule '{key.value}'"))
         elif wanted not in CHOICES:
-            problems.append(_problem(value, f"a severity is one of {', '.join(CHOICES)}"))
+            problems.append(_problem(value, f"invalid severity of '{key.value}'; expected one of {', '.join(CHOICES)}"))
         else:
             found[key.value] = CHOICES[wanted]
     return found
@@ -264,9 +264,9 @@ def _of_path(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> S
         elif key.value == "severities":
             severities |= _severities(value, problems)
         else:
-            problems.append(_problem(key, f"'{key.value}' does not belong into a path; it has path and severities"))
+            problems.append(_problem(key, f"unknown key '{key.value}' of 'paths'; expected path and severities"))
     if pattern is None:
-        problems.append(_problem(node, "a path has its pattern as 'path'"))
+        problems.append(_problem(node, "key 'path' is missing in an item of 'paths'"))
         return None
     return Severities(severities, pattern)
 
@@ -284,11 +284,11 @@ def _root(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> Root
                 if isinstance(text, yaml.ScalarNode):
                     args[name.value] = text.value
                 else:
-                    problems.append(_problem(text, f"the value of '{name.value}' is a text, as on a command line"))
+                    problems.append(_problem(text, f"invalid value of argument '{name.value}': expected a text"))
         else:
-            problems.append(_problem(key, f"'{key.value}' does not belong into a root; it has file and args"))
+            problems.append(_problem(key, f"unknown key '{key.value}' of 'roots'; expected file and args"))
     if file is None:
-        problems.append(_problem(node, "a root is a path, or has one as 'file'"))
+        problems.append(_problem(node, "key 'file' is missing in an item of 'roots'"))
         return None
     return Root.of(_path(folder, file), args)
 
@@ -305,9 +305,9 @@ def _entries(
             if isinstance(key, yaml.ScalarNode):
                 yield key, value
             else:
-                problems.append(_problem(key, "a name is expected here"))
+                problems.append(_problem(key, "invalid key: expected a name"))
     elif node is not None:
-        problems.append(_problem(node, f"{what}: names with values are expected here"))
+        problems.append(_problem(node, f"invalid value of {what}: expected names with values"))
 
 
 def _problem(node: yaml.Node, message: str) -> SettingsProblem:
