@@ -19,7 +19,7 @@ def test_what_looks_like_a_substitution_and_is_none() -> None:
                                    ^^^^^^^^^ warning[LCH029] '$(dirname' is not a substitution; roslaunch treats it as
             <param name="e" value="$(arg port)"/>
             <param name="f" value="(arg port)"/>
-                                   ^^^^^^^^^^ warning[LCH029] '(arg port)' is no substitution: roslaunch takes it
+                                   ^^^^^^^^^^ warning[LCH029] '(arg port)' is not a substitution; roslaunch treats it
           </node>
         </launch>
     """

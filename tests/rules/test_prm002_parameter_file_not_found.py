@@ -44,7 +44,7 @@ def test_a_file_that_another_package_of_the_same_name_has(tmp_path: Path) -> Non
     environment = Environment(1, "noetic", {}, (), {"p": new}, {"p": (old,)}, (), (), None)
     findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
     said = {finding.severity: finding.message for finding in findings if finding.rule == "PRM002"}
-    assert said["warning"].endswith(f"another package of that name has it, in '{old.share}'")
+    assert said["warning"].endswith(f"another package of that name has it in '{old.share}'")
     assert "no.yaml" in said["error"]
 
 

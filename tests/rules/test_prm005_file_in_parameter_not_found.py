@@ -194,7 +194,7 @@ def test_files_that_no_package_has_for_the_same_argument(tmp_path: Path) -> None
     (finding,) = of_package(tmp_path, text, *names)
     assert (finding.severity, finding.message.partition("; ")[2]) == (
         "info",
-        "nor do those that 3 other packages give for it: a node may write it",
+        "3 other packages set missing files for it too, so a node may create it",
     )
     for name in names:
         (tmp_path / name / "config" / "plan.txt").touch()
@@ -206,7 +206,7 @@ def test_the_calibration_of_a_camera_is_written_when_that_is_calibrated() -> Non
     check("""
         <launch>
           <param name="camera_info_url" value="package://p/calibration/left.ini"/>
-                                               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] a calibration of the camera
+                                               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] file
           <node pkg="p" type="t" name="n"/>
         </launch>
     """)

@@ -97,10 +97,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             elif near is None and _CALIBRATION in named.what:
                 severity, hint = "info", "; the calibration of the camera creates it"
             elif near is None and (others := others_in_vain(context, location, path)):
-                severity, hint = (
-                    "info",
-                    f"; the files that {others} other packages set for it do not exist either, so a node may create it",
-                )
+                severity = "info"
+                hint = f"; {others} other packages set missing files for it too, so a node may create it"
             elif near is None and _may_be_made(path, context):
                 severity, hint = "hint", "; the build of the package may create it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"

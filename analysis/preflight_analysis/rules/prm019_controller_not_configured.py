@@ -47,7 +47,7 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
             if f"{full}/type" in params:
                 continue
             if context.tree.complete or nearest(controller, known) is not None:
-                missing = f"nothing sets '{full}/type', which the controller manager asks for"
+                missing = f"parameter '{full}/type' is not set, and the controller manager reads it"
                 yield _finding(rule, node, missing, controller, known)
 
 
@@ -83,8 +83,8 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         for controller in each.controllers if known else ():
             if controller not in known:
                 files = [source.origin[-1] for source in manager.param_sources if source.path is not None]
-                related = [Related(f"{manager.name} gets its parameters here", path) for path in files[:1]]
-                missing = f"{manager.name} has no parameter '{controller}.type'"
+                related = [Related(f"parameters of {manager.name}", path) for path in files[:1]]
+                missing = f"parameter '{controller}.type' of {manager.name} is not set"
                 yield _finding(rule, nodes[at], missing, controller, known, related)
 
 
