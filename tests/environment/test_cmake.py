@@ -65,6 +65,17 @@ def test_executables_and_the_libraries_of_the_package_they_are_linked_with(harne
     assert build.library("demo_core.so") is library and build.library("other") is None
 
 
+def test_a_program_of_cartographer_s_macro_has_the_library_of_its_project(harness: Harness) -> None:
+    build = harness.build(
+        """
+        project(maps)
+        add_library(${PROJECT_NAME} src/core.cpp)
+        google_binary(map_node SRCS src/main.cc)
+        """
+    )
+    assert harness.sources(build, "map_node") == ["src/main.cc", "src/core.cpp"]
+
+
 def test_variables_lists_and_globs(harness: Harness) -> None:
     for name in ("src/b.cpp", "src/a.cpp", "src/deep/c.cpp", "src/a.hpp", "gen/x.cpp"):
         harness.write(name)

@@ -214,6 +214,10 @@ def test_the_data_has_what_others_are_called_now(monkeypatch: pytest.MonkeyPatch
     for kind, table in (("executables", renamed._RENAMED), ("components", renamed._COMPONENTS)):
         for package, name in table.values():
             assert name in packages.interfaces_of(package, "jazzy")[kind], (package, name)
+    for package, name in renamed._OF_ROS1.values():
+        assert name in packages.interfaces_of(package, "noetic")["executables"], (package, name)
+    for word, package in renamed._OF_NODELETS.items():
+        assert any(name.startswith(f"{word}/") for name in packages.interfaces_of(package, "noetic")["nodelets"])
 
 
 def test_a_package_of_the_workspace_is_what_it_is_there(tmp_path: Path) -> None:

@@ -123,3 +123,30 @@ def test_a_file_that_is_no_list_of_bridges(tmp_path: Path, config: str) -> None:
         '<node pkg="ros_gz_bridge" exec="parameter_bridge"><param name="config_file" value="$(dirname)/bridge.yaml"/>'
     )
     assert bridged(tmp_path, f"{node}</node>", config) == {}
+
+
+def ends_of(folder: Path, node: str, name: str) -> set[tuple[str, str, str | None]]:
+    graph = package_elsewhere.analysed(folder, f"<launch>{node}</launch>", name).graph
+    assert graph is not None
+    return {(end.role, end.name, end.type) for end in graph.interfaces[0].endpoints}
+
+
+def test_rostopic_publishes_what_it_is_told(tmp_path: Path) -> None:
+    node = '<node pkg="rostopic" type="rostopic" name="n" args="{}"/>'
+    pub = "pub -r 10 /start std_msgs/Bool true"
+    assert ends_of(tmp_path / "1", node.format(pub), "a.launch") == {("publisher", "/start", "std_msgs/Bool")}
+    for at, args in enumerate(("echo /start", "pub", "pub /start", "pub /start '{data: 1}'", "")):
+        assert not ends_of(tmp_path / f"{at}", node.format(args), "a.launch"), args
+
+
+def test_bridges_on_ros1(tmp_path: Path) -> None:
+    node = '<node pkg="ros_ign_bridge" type="parameter_bridge" name="n" args="/scan@sensor_msgs/LaserScan[ignition.X"/>'
+    assert ends_of(tmp_path, node, "a.launch") == {("publisher", "/scan", "sensor_msgs/LaserScan")}
+
+
+def test_images_of_gazebo(tmp_path: Path) -> None:
+    ros1 = '<node pkg="ros_ign_image" type="image_bridge" name="n" args="/front /rear"/>'
+    image = "sensor_msgs/Image"
+    assert ends_of(tmp_path / "1", ros1, "a.launch") == {("publisher", "/front", image), ("publisher", "/rear", image)}
+    ros2 = '<node pkg="ros_gz_image" exec="image_bridge" name="n" args="/front"/>'
+    assert ("publisher", "/front", "sensor_msgs/msg/Image") in ends_of(tmp_path / "2", ros2, "a.launch.xml")

@@ -4,14 +4,16 @@ By what the projects say themselves: scripts of ROS 2 have been installed withou
 `view_frames.py`); nav2's migration guide (`configuration/migration/Galactic.rst`: recoveries server to behavior
 server); the change from `ros_ign` to `ros_gz` (`ros_gz`, README.md); rtabmap_ros 0.21, which was taken apart to
 packages (`CHANGELOG.rst`); MoveIt's MIGRATION.md (servo); cartographer_ros and velodyne_pointcloud, which gave their
-executables other names than on ROS 1 (`CMakeLists.txt`).
+executables other names than on ROS 1 (`CMakeLists.txt`). On ROS 1 robot_state_publisher's `state_publisher`, which is
+gone since 1.15.0 (`CHANGELOG.rst`), and the nodes of the package `gazebo`, which are gazebo_ros's since Hydro
+(https://classic.gazebosim.org/tutorials?tut=ros_overview).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-_DISTRIBUTION = "jazzy"
+_NEW, _OLD = "jazzy", "noetic"
 _SCRIPT = ".py"
 _RTABMAP: Mapping[str, tuple[str, ...]] = {
     "rtabmap_slam": ("rtabmap",),
@@ -43,9 +45,25 @@ _COMPONENTS: Mapping[tuple[str, str], tuple[str, str]] = {
 }
 
 
+_OF_ROS1: Mapping[tuple[str, str], tuple[str, str]] = {
+    ("robot_state_publisher", "state_publisher"): ("robot_state_publisher", "robot_state_publisher"),
+    ("gazebo", "spawn_model"): ("gazebo_ros", "spawn_model"),
+    ("gazebo", "gazebo"): ("gazebo_ros", "gazebo"),
+}
+_OF_NODELETS: Mapping[str, str] = {"pcl": "pcl_ros"}
+"""Packages of nodelets whose names begin with another word than theirs."""
+
+
 def other_names(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[str, str]]:
-    """The packages and names under which a distribution may have a node: `kind` is `executables` or `components`."""
-    if distro != _DISTRIBUTION:
+    """The packages and names under which a distribution may have a node: `kind` is `executables`, `components` or
+    `nodelets`."""
+    if distro == _OLD:
+        if kind == "executables" and (package, name) in _OF_ROS1:
+            yield _OF_ROS1[package, name]
+        elif kind == "nodelets" and package in _OF_NODELETS:
+            yield _OF_NODELETS[package], name
+        return
+    if distro != _NEW:
         return
     table = _RENAMED if kind == "executables" else _COMPONENTS if kind == "components" else {}
     if (package, name) in table:

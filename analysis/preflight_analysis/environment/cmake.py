@@ -220,6 +220,9 @@ class _Lists:
                 variables[variable] = joined([variables.get(variable, ""), *found])
             case ("add_executable" | "add_library") as kind, [target, *rest]:
                 self._target(target, "executable" if kind == "add_executable" else "library", rest, folder)
+            case "google_binary", [target, *rest]:  # cartographer's, which links the library of the project
+                self._target(target, "executable", rest, folder)
+                self._targets[target].links.append(variables.get("PROJECT_NAME", ""))
             case "target_sources", [target, *rest] if target in self._targets:
                 self._targets[target].sources += source_files(self._disk, rest, folder)
             case ("include_directories", paths) | ("target_include_directories", [_, *paths]):

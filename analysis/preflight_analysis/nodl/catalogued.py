@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.catalogue.released import DISTRIBUTIONS
 from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
@@ -47,6 +48,8 @@ class Catalogued:
     """Ends that parameters name where they are set, of which those with a default are among `endpoints`."""
     typed: tuple[tuple[Endpoint, str, Mapping[str, str]], ...] = ()
     """Ends whose type a parameter decides, with what it is by the value in words."""
+    of_others: bool = False
+    """ROS 2: whether there are parameters of further nodes, below the namespace of this one."""
 
 
 def from_catalogue(
@@ -79,7 +82,11 @@ def _filled_in(
         found = next(filter(None, others), None)
     if found is None:
         return interface
-    does = (_as_set(node, given, found), *_controllers(node, distro, is_used=is_used))
+    found = _as_set(node, given, found)
+    if found.of_others:
+        params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
+        found = replace(found, params=tuple(params))
+    does = (found, *_controllers(node, distro, is_used=is_used))
     whole = interface.with_more(
         "catalogue",
         tuple(end for each in does for end in each.endpoints),
@@ -243,7 +250,12 @@ def _catalogued(
             for made, each in ends
             for name, types in each.get(_TYPED_BY, {}).items()
         ),
+        kind != "plugins" and distro in DISTRIBUTIONS[2] and any(map(_is_relative, found.get("parameters", ()))),
     )
+
+
+def _is_relative(param: str) -> bool:
+    return not param.startswith(("~", "/"))
 
 
 def _param(name: str, about: Mapping[str, Any], evidence: str, *, is_used: bool) -> ParamUse:

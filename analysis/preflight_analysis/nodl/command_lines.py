@@ -1,13 +1,14 @@
-"""Topics that nodes are given by their command lines: those of topic_tools, and bridges to Gazebo.
+"""Topics that nodes are given by their command lines: those of topic_tools, of bridges to Gazebo, and rostopic's.
 
-http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools. Such a node takes any type, and its source
+http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools, http://wiki.ros.org/rostopic,
+https://docs.ros.org/en/jazzy/p/ros_gz_image/. Such a node takes any type, and its source
 does not say which topics: the command line does, where the node was not run.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import compress
 
@@ -44,14 +45,55 @@ def with_command_lines(
 def _endpoints(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> tuple[Endpoint, ...]:
     if is_bridge(node):
         return tuple(bridged(node, config, kinds_in_types))
-    if node.package != "topic_tools" or node.unknowns:
+    made = _MAKING.get(node.package)
+    if made is None or node.unknowns:
         return ()
-    return tuple(Endpoint(role, name, _ANY) for role, name in dict.fromkeys(_of_tool(node)) if _TOPIC.fullmatch(name))
-
-
-def _of_tool(node: LaunchNode) -> Iterator[tuple[Role, str]]:
     # Remaps and private parameters (`_lazy:=true`) may stand anywhere.
     given = [word for word in split_args(node.args) if ":=" not in word]
+    ends = dict.fromkeys(made(node, given, kinds_in_types))
+    return tuple(Endpoint(role, name, type_) for role, name, type_ in ends if _TOPIC.fullmatch(name))
+
+
+_Made = Iterator[tuple[Role, str, str]]
+"""Role, name and type of each end."""
+
+
+def _of_rostopic(node: LaunchNode, words: list[str], _: bool) -> _Made:
+    """`rostopic pub [OPTION]... TOPIC TYPE [ARGS...]`."""
+    command, *rest = words or [""]
+    given = iter(rest) if node.executable == "rostopic" and command == "pub" else iter(())
+    for word in given:
+        if word in _WITH_VALUE:
+            next(given, None)
+        elif not word.startswith("-"):
+            type_ = next(given, "")
+            if _TYPE.fullmatch(type_):
+                yield "publisher", word, type_
+            return
+
+
+def _of_images(node: LaunchNode, words: list[str], kinds_in_types: bool) -> _Made:
+    """Each topic of images in Gazebo that an `image_bridge` names is one in ROS."""
+    for name in words if node.executable == "image_bridge" else ():
+        if not name.startswith("-"):
+            yield "publisher", name, "sensor_msgs/msg/Image" if kinds_in_types else "sensor_msgs/Image"
+
+
+def _of_topic_tools(node: LaunchNode, words: list[str], _: bool) -> _Made:
+    for role, name in _of_tool(node, words):
+        yield role, name, _ANY
+
+
+_MAKING: Mapping[str, Callable[[LaunchNode, list[str], bool], _Made]] = {
+    "topic_tools": _of_topic_tools,
+    "rostopic": _of_rostopic,
+    **dict.fromkeys(("ros_gz_image", "ros_ign_image"), _of_images),
+}
+_WITH_VALUE = ("-r", "--rate", "-f", "--file", "-s", "--substitute")
+_TYPE = re.compile(r"\w+/\w+")
+
+
+def _of_tool(node: LaunchNode, given: list[str]) -> Iterator[tuple[Role, str]]:
     own = {param.name: param.value for param in node.params if isinstance(param.value, str)}
     if node.executable == "mux":
         yield from ((("publisher" if at == 0 else "subscriber"), name) for at, name in enumerate(given))

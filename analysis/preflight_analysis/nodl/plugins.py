@@ -17,6 +17,12 @@ _PACKAGES = {"mppi": "nav2_mppi_controller"}
 """Packages of plugins whose namespace is another one."""
 
 
+def package_of(name: str) -> str:
+    """The package of the plugin `package::Name` by convention; empty where the name has none."""
+    owner, colons, rest = name.partition("::")
+    return _PACKAGES.get(owner, owner) if colons and rest else ""
+
+
 class PluginIndex:
     """The plugins that are known. Implements `rules.rule.Plugins`."""
 
@@ -28,9 +34,8 @@ class PluginIndex:
     def plugin(self, name: str) -> Plugin | None:
         """The plugin `package::Name`, also written `package/Name`."""
         name = name.replace("/", "::")
-        owner = name.partition("::")[0]
-        package = _PACKAGES.get(owner, owner)
-        if not package or not name.removeprefix(owner):
+        package = package_of(name)
+        if not package:
             return None
         here = self._environment.packages.get(package)
         if here is not None and self._is_ours(here):

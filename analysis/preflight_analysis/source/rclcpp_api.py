@@ -47,7 +47,7 @@ PLUGINS: Mapping[str, str] = {
         ),
         "initialize",
     ),
-    "mppi::critics::CriticFunction": "on_configure",
+    **dict.fromkeys(("mppi::critics::CriticFunction", "nav2_core::NavigatorBase"), "on_configure"),
 }
 """The base classes of plugins that get a node and the name below which they declare its parameters, and by which of
 their methods."""

@@ -38,7 +38,9 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
+from preflight_analysis.nodl.loaded_plugins import LoadedPlugins
 from preflight_analysis.nodl.plugins import PluginIndex
+from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
@@ -374,7 +376,11 @@ class Workspace:
         sources = SourceAnalysis(environment, self.sources)
         interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
         interfaces = (*interfaces, *(NOT_RUN for _ in tree.simulated)) if tree.simulated else interfaces
-        return with_command_lines(tree, from_catalogue(tree, interfaces, environment, kept), documents, kept)
+        interfaces = from_catalogue(tree, interfaces, environment, kept)
+        if tree.generation == 1:
+            interfaces = with_simulated_controllers(tree, interfaces, environment)
+        interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
+        return with_command_lines(tree, interfaces, documents, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

@@ -1,0 +1,153 @@
+"""What the plugins of a node make in it: costmaps subscribe to what their layers' parameters name (ROS 2).
+
+https://docs.nav2.org/configuration/: a node has lists of names, `NAME.plugin` has the type of one, and what stands
+below its name are its parameters. Costmaps are nodes of their own within that of a server.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import compress
+from typing import Any, NamedTuple
+
+from preflight_analysis.catalogue.packages import distribution_of
+from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.nodl.catalogued import Catalogued, catalogued
+from preflight_analysis.nodl.plugins import package_of
+from preflight_analysis.rules.plugin_params import KIND, LISTED
+from preflight_analysis.source.analyse import SourceAnalysis
+from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.tracing.interface import Endpoint, Interface
+
+_NAME = "{}"
+_OWN = ""
+"""Stands for the node of the launch file among those that it has."""
+_MOST = 64
+"""Plugins of a node."""
+
+
+class _Host(NamedTuple):
+    """A node that loads plugins. `defaults` are those of its parameters."""
+
+    name: str
+    defaults: Mapping[str, Any]
+
+
+class LoadedPlugins:
+    """Adds to interfaces what plugins make."""
+
+    def __init__(self, environment: Environment, sources: SourceAnalysis) -> None:
+        self._environment = environment
+        self._sources = sources
+
+    def fill_in(
+        self, tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document], kept: Kept
+    ) -> Sequence[Interface]:
+        """The interfaces of the nodes of `tree`, in order, with what the plugins make of those that no run told of."""
+        if not tree.ros.own_parameters:
+            return interfaces
+        hosts = kept.each(_hosts, interfaces)
+        if not any(hosts):
+            return interfaces
+        whole = list(interfaces)
+        for at, (node, of_node) in compress(
+            enumerate(zip(tree.nodes_and_simulated, hosts, strict=True)), map(bool, hosts)
+        ):
+            ends = {(end.role, end.name): end for host in of_node for end in self._ends(node, host, documents)}
+            if ends:
+                whole[at] = whole[at].with_more(whole[at].source, tuple(ends.values()), ())
+        return whole
+
+    def _ends(self, node: LaunchNode, host: _Host, documents: Mapping[str, Document]) -> Iterator[Endpoint]:
+        given = {p.name: p.value for p in node.params} if host.name == _OWN else _given(node, host.name, documents)
+        values = {**host.defaults, **given}
+        listed = {item for name, value in values.items() if not name.endswith(KIND) for item in _items(value)}
+        for name, type_ in [*_types(values, listed)][:_MOST]:
+            below = {key[len(name) + 1 :]: value for key, value in values.items() if key.startswith(f"{name}.")}
+            for end in self._ends_of(name, type_, below):
+                yield end if host.name == _OWN else replace(end, name=names.resolve(end.name, host.name))
+
+    def _ends_of(self, name: str, type_: str, below: Mapping[str, Any]) -> Iterator[Endpoint]:
+        package = package_of(type_)
+        here = self._environment.packages.get(package)
+        if here is not None and here.is_within(self._environment.workspace):
+            # Loads the parser, which who has no plugins does without.
+            from preflight_analysis.source.cpp_analysis import PLUGIN_NODE  # noqa: PLC0415
+
+            params = LaunchParams({f"{PLUGIN_NODE}/{name}.{key}": value for key, value in below.items()})
+            said = self._sources.plugin(type_, name, params, package)
+            for end in said.endpoints if said is not None else ():
+                if not end.builtin:
+                    yield replace(end, inferred=True)
+            return
+        distro = distribution_of(2, self._environment.distro)
+        found = catalogued(package, "plugins", type_, distro, is_used=self._environment.distro == distro)
+        if found is not None:
+            yield from _as_loaded(name, found, below)
+
+
+def _hosts(interface: Interface) -> tuple[_Host, ...]:
+    """The node and those within it that have plugins by default, or may have; none of what a run told."""
+    if interface.source not in ("source", "catalogue"):
+        return ()
+    found: dict[str, dict[str, Any]] = {}
+    for use in interface.params:
+        host, slash, name = (_OWN, "/", use.name[1:]) if use.name[:1] == "~" else use.name.rpartition("/")
+        if slash and name and use.has_default:
+            found.setdefault(host, {})[name] = use.default
+    return tuple(_Host(host, values) for host, values in found.items() if any(map(_is_kind, values)))
+
+
+def _is_kind(param: str) -> bool:
+    return param.endswith(KIND)
+
+
+def _given(node: LaunchNode, host: str, documents: Mapping[str, Document]) -> Mapping[str, Any]:
+    """What the files of a node have for one within it."""
+    paths = dict.fromkeys(source.path for source in node.param_sources if source.path is not None)
+    return {
+        param.name: param.value
+        for document in map(documents.get, paths)
+        if document is not None
+        for section in read_param_file(document).reaching(host)
+        for param in section.params
+    }
+
+
+def _types(values: Mapping[str, Any], listed: set[str]) -> Iterator[tuple[str, str]]:
+    """The names of the plugins that are loaded, with their types."""
+    for param, value in values.items():
+        name = param.removesuffix(KIND)
+        if name != param and name in listed and isinstance(value, str):
+            yield name, value.replace("/", "::")
+
+
+def _items(value: Any) -> Sequence[str]:
+    """What a list of texts has, or a text with spaces in between."""
+    items = value.split() if isinstance(value, str) else value if isinstance(value, (list, tuple)) else ()
+    return [each for each in items if isinstance(each, str)][:_MOST]
+
+
+def _as_loaded(name: str, found: Catalogued, below: Mapping[str, Any]) -> Iterator[Endpoint]:
+    """With the name that the plugin is loaded by, once for each item of what it has lists of."""
+    named = {id(end): param for param, end in found.by_parameter}
+    typed = {id(end): (param, types) for end, param, types in found.typed}
+    for end in (*found.endpoints, *(end for _, end in found.by_parameter if not end.name)):
+        by, (kind, types) = named.get(id(end), ""), typed.get(id(end), ("", {}))
+        listed = next((match for each in (end.name, by, kind) if (match := LISTED.match(each))), None)
+        for item in _items(below.get(listed[1])) if listed is not None else (None,):
+
+            def made(text: str, item: str | None = item) -> str:
+                return LISTED.sub(lambda _: item or "", text).replace(_NAME, name)
+
+            called = below.get(made(by)) if by else None
+            called = called if isinstance(called, str) and called else made(end.name)
+            type_ = types.get(str(below.get(made(kind))).lower(), end.type) if kind else end.type
+            if called and names.is_legal(called):
+                yield replace(end, name=called, type=type_)

@@ -1,0 +1,135 @@
+"""Controllers of ros_control that run inside of Gazebo (ROS 1): they are ends of the simulator's node.
+
+A robot description asks for them by the plugin `gazebo_ros_control`, which has a controller manager in the robot's
+namespace, and `controller_manager`'s scripts load controllers there, by their parameter `NAME/type`.
+https://classic.gazebosim.org/tutorials?tut=ros_control, http://wiki.ros.org/controller_manager
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+from preflight_analysis.catalogue.packages import distribution_of
+from preflight_analysis.documents.xml import without_comments
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.nodl.catalogued import catalogued
+from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.request import split_args
+
+_SIMULATOR = frozenset({("gazebo_ros", name) for name in ("gazebo", "gzserver", "debug")})
+_PLUGIN = re.compile(r"<plugin\b[^>]*gazebo_ros_control.{0,2000}?(?:</plugin>|/>)", re.DOTALL)
+_SPACE = re.compile(r"<robotNamespace>\s*([\w/~]*)\s*</robotNamespace>")
+_DESCRIPTION = "robot_description"
+_KEPT = 64
+_PACKAGES = (
+    *("joint_state_controller", "joint_trajectory_controller", "effort_controllers", "position_controllers"),
+    *("velocity_controllers", "gripper_action_controller", "diff_drive_controller", "ackermann_steering_controller"),
+)
+"""Of controllers that the catalogue has; that of some has another name than their package."""
+_WITH_VALUE = ("--namespace", "--timeout", "--shutdown-timeout", "--wait-for")
+_SERVICES = (
+    *((name, name) for name in ("list_controllers", "list_controller_types", "load_controller", "unload_controller")),
+    ("switch_controller", "switch_controller"),
+    ("reload_controller_libraries", "reload_controller_libraries"),
+)
+
+
+class _Asked(NamedTuple):
+    """What a script asks a manager for: its namespace, and the names of controllers below that."""
+
+    space: str
+    controllers: tuple[str, ...]
+
+
+def with_simulated_controllers(
+    tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment
+) -> Sequence[Interface]:
+    """The interfaces of the nodes of `tree`, in order; that of a simulator has the ends of the controllers that scripts
+    load in it. Which robots it has nobody knows before: they may be there."""
+    at = next((at for at, node in enumerate(tree.nodes) if (node.package, node.executable) in _SIMULATOR), None)
+    if at is None or interfaces[at].complete:
+        return interfaces
+    asked = [each for node in tree.nodes if (each := _asked_of(node)) is not None]
+    spaces = _spaces(tree, tree.nodes[at]) if asked else None
+    found: list[Endpoint] = []
+    for each in asked:
+        if spaces is None or each.space in spaces:
+            found += _of_manager(each.space)
+            for name in each.controllers:
+                type_ = tree.params.get(names.join(each.space, f"{name}/type"))
+                if type_ is not None and isinstance(type_.value, str):
+                    found += _of_controller(names.join(each.space, name), type_.value, environment)
+    if not found:
+        return interfaces
+    whole = list(interfaces)
+    more = {(end.role, end.name): end for end in found}
+    whole[at] = whole[at].with_more("catalogue", tuple(more.values()), ())
+    return whole
+
+
+def _asked_of(node: LaunchNode) -> _Asked | None:
+    if node.package != "controller_manager" or node.unknowns or "$(" in node.args:
+        return None
+    words = [*split_args(node.args)]
+    if node.executable == "controller_manager":
+        command, *words = words or [""]
+        if command not in ("spawn", "load"):
+            return None
+    elif node.executable != "spawner":
+        return None
+    space, controllers = "", []
+    given = iter(words)
+    for word in given:
+        option, equals, value = word.partition("=")
+        if option in _WITH_VALUE:
+            value = value if equals else next(given, "")
+            space = value if option == "--namespace" else space
+        elif not word.startswith(("-", "_")) and ":=" not in word:
+            controllers.append(word)
+    return _Asked(names.join(node.namespace, space).rstrip("/") or "/", tuple(controllers))
+
+
+def _spaces(tree: LaunchTree, simulator: LaunchNode) -> set[str] | None:
+    """The namespaces of the managers of all robots whose description is known; None where one is not."""
+    found: set[str] = set()
+    for param in tree.all_params:
+        if _DESCRIPTION not in param.name.rpartition("/")[2]:
+            continue
+        if not isinstance(param.value, str):
+            return None
+        for space in _spaces_in(param.value):
+            if space is None:
+                return None
+            found.add(names.join(simulator.namespace, space).rstrip("/") or "/")
+    return found
+
+
+@lru_cache(maxsize=_KEPT)
+def _spaces_in(description: str) -> tuple[str | None, ...]:
+    """The namespaces of the managers of a robot; None for the name that it is spawned by."""
+    found = map(_SPACE.search, _PLUGIN.findall(without_comments(description)))
+    return tuple(space[1] if space is not None else None for space in found)
+
+
+def _of_manager(space: str) -> Iterator[Endpoint]:
+    for name, kind in _SERVICES:
+        type_ = f"controller_manager_msgs/{''.join(map(str.title, kind.split('_')))}"
+        yield Endpoint(
+            "service", names.join(space, f"controller_manager/{name}"), type_, inferred=True, conditional=True
+        )
+
+
+def _of_controller(name: str, type_: str, environment: Environment) -> Iterator[Endpoint]:
+    distro = distribution_of(1, environment.distro)
+    for package in (type_.partition("/")[0], *_PACKAGES):
+        found = catalogued(package, "controllers", type_, distro, is_used=environment.distro == distro)
+        if found is not None:
+            for end in found.endpoints:
+                yield replace(end, name=names.resolve(end.name, name), conditional=True)
+            return
