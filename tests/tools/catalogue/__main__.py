@@ -1,8 +1,9 @@
 """Writes the catalogue of what everybody uses: `make catalogue SOURCES=FOLDER`.
 
-  python tests/tools/catalogue --sources FOLDER [released] [messages] [interfaces] [launches]...
+  python tests/tools/catalogue --sources FOLDER [--only OWNER/NAME]... [released] [messages] [interfaces] [launches]...
 
-The folder has snapshots of public repositories, `OWNER+NAME/repo`. Facts alone are taken from them: names, types,
+The folder has snapshots of public repositories, `OWNER+NAME/repo`. What is known of a repository that it lacks, or
+that `--only` does not name, stays as it is. Facts alone are taken from them: names, types,
 defaults, ranges, conditions and QoS, by this project's own analysis. `catalogue/data/README.md` says more.
 """
 
@@ -31,10 +32,11 @@ def main() -> None:
     """Write the parts that are asked for, all without any."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sources", type=Path, required=True)
+    parser.add_argument("--only", action="append", default=[], help="OWNER/NAME; all that are there without")
     parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help="default: all")
     options = parser.parse_args()
     for part in options.parts or PARTS:
-        PARTS[part](options.sources)
+        PARTS[part](options.sources, options.only)
 
 
 if __name__ == "__main__":

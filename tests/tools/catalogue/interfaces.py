@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import tempfile
 import threading
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,13 +21,23 @@ from preflight_analysis.environment.model import Environment, Package, Packages
 from preflight_analysis.nodl.groups import GROUPS
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, SourceKey
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.source.plugins import plugin_params
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
 
+from tools.catalogue.plugins import plugins_of
 from tools.catalogue.repositories import Snapshot
-from tools.catalogue.sources import DECLARED, GENERATIONS, NAMED, OF_TESTS, OTHER_VERSIONS, RUN, SOURCES
+from tools.catalogue.sources import (
+    CONTROLLERS,
+    DECLARED,
+    GENERATIONS,
+    MANIFESTS,
+    NAMED,
+    OF_TESTS,
+    OTHER_VERSIONS,
+    RUN,
+    SOURCES,
+)
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
 _ARGUMENTS = ("preflight_first", "preflight_second")
@@ -51,6 +60,10 @@ class Laid:
     environment: Environment
     sources: Mapping[str, tuple[str, str, str]]
 
+    def has(self, repository: str) -> bool:
+        """Whether the snapshot of a repository is among them."""
+        return any(repository == name for name, _, _ in self.sources.values())
+
     def source_of(self, package: Package) -> tuple[str, str, str]:
         """Repository, commit and date."""
         return self.sources[self.folder_of(package)]
@@ -60,15 +73,17 @@ class Laid:
         return Path(package.share).relative_to(self.folder / "src").parts[0]
 
 
-def write_interfaces(sources: Path) -> None:
-    """Write the data of all packages anew."""
-    shutil.rmtree(INTERFACES, ignore_errors=True)
+def write_interfaces(sources: Path, only: Collection[str]) -> None:
+    """Write the data of all packages anew whose repositories are there."""
     for distro in GENERATIONS:
         with tempfile.TemporaryDirectory() as folder, ProcessPoolExecutor(2) as pool:
-            laid = lay_out(sources, distro, Path(folder))
+            laid = lay_out(sources, distro, Path(folder), only)
+            for path in (INTERFACES / distro).glob("*.json"):
+                if laid.has(json.loads(path.read_text())["source"][0]):
+                    path.unlink()
             repositories = sorted(laid.sources)
             done = pool.map(_of_repository, [laid] * len(repositories), repositories)
-            elsewhere = _elsewhere(sources, pool) if GENERATIONS[distro] == 2 else {}
+            elsewhere = _elsewhere(sources, laid, pool)
             count = sum(
                 _write(laid, package, _with_elsewhere(found, package.name, elsewhere))
                 for found_all in done
@@ -81,9 +96,10 @@ Elsewhere = dict[tuple[str, str], set[str]]
 """The parameters of a plugin of a package."""
 
 
-def _elsewhere(sources: Path, pool: ProcessPoolExecutor) -> Elsewhere:
+def _elsewhere(sources: Path, laid: Laid, pool: ProcessPoolExecutor) -> Elsewhere:
     """What plugins declare in other versions than the one that is looked at."""
-    rows = [(repository, ref) for repository, refs in OTHER_VERSIONS.items() for ref in refs]
+    others = OTHER_VERSIONS.get(laid.distro, {})
+    rows = [(repository, ref) for repository, refs in others.items() if laid.has(repository) for ref in refs]
     found: Elsewhere = {}
     for each in pool.map(_of_version, [sources] * len(rows), rows):
         for of, params in each.items():
@@ -115,15 +131,17 @@ def _with_elsewhere(
     return {**found, "plugins": plugins}
 
 
-def lay_out(sources: Path, distro: str, folder: Path) -> Laid:
-    """The workspace, below a folder."""
+def lay_out(sources: Path, distro: str, folder: Path, only: Collection[str] = ()) -> Laid:
+    """The workspace, below a folder, of the repositories that are there; of `only` where any are named."""
     of: dict[str, tuple[str, str, str]] = {}
-    for repository, branches in SOURCES.items():
-        if distro in branches:
-            snapshot = Snapshot.of(sources, repository, branches[distro])
-            name = repository.replace("/", "+")
-            snapshot.unpack(folder / "src" / name)
-            of[name] = (repository, snapshot.commit, snapshot.date)
+    branches = {repository: of_distro[distro] for repository, of_distro in SOURCES.items() if distro in of_distro}
+    for snapshot in Snapshot.of_all(sources, branches, only):
+        name = snapshot.repository.replace("/", "+")
+        snapshot.unpack(folder / "src" / name)
+        manifest = MANIFESTS.get(snapshot.repository, {}).get(distro)
+        if manifest is not None:
+            (folder / "src" / name / manifest).rename(folder / "src" / name / "package.xml")
+        of[name] = (snapshot.repository, snapshot.commit, snapshot.date)
     variables = {"ROS_DISTRO": distro, "ROS_VERSION": str(GENERATIONS[distro])}
     environment = detect_environment(str(folder), variables, root=str(folder / "nowhere"))
     return Laid(distro, folder, environment, of)
@@ -163,20 +181,22 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         path = found.path or next(iter(found.not_executable), None)
         if _NO_NODES.search(name) or (path is not None and _IN_TESTS.search(path.removeprefix(package.share))):
             continue
-        # ROS 1's nodes resolve names themselves: what is resolved within the namespace was given as a relative name.
-        called_as = f"/{_NAME}" if package.is_ament else f"{_SPACE}{_NAME}"
-        key = SourceKey(path, found.entry_point, package.name, name, None, called_as, "", ())
+        # What nodes resolve within the namespace themselves was given as a relative name.
+        key = SourceKey(path, found.entry_point, package.name, name, None, f"{_SPACE}{_NAME}", "", ())
         said = _read(analysis, [key, *(key._replace(args=" ".join(_ARGUMENTS[:count])) for count in (1, 2))])
         arguments = RUN.get(environment.distro or "", {}).get(package.name, {}).get(name)
         if said is None and arguments is not None:
             said = _run(environment, key._replace(args=arguments))
         called = NAMED.get(environment.distro or "", {}).get(package.name, {}).get(name)
+        declared = DECLARED.get(environment.distro or "", {}).get(package.name, {}).get(name, {})
+        if said is None and declared:
+            said = {}
         if said is not None:
             _add_named_by_parameters(analysis, key, said, typed=package.is_ament)
-            _add_declared(said, DECLARED.get(environment.distro or "", {}).get(package.name, {}).get(name, {}))
+            _add_declared(said, declared)
             executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
     for cls in index.components(package.name):
-        key = SourceKey(None, None, package.name, "", cls, f"/{_NAME}", "", ())
+        key = SourceKey(None, None, package.name, "", cls, f"{_SPACE}{_NAME}", "", ())
         said = _read(analysis, [key])
         if said is not None:
             _add_named_by_parameters(analysis, key, said, typed=True)
@@ -186,7 +206,12 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         said = _read(analysis, [key])
         if said is not None:
             _add_named_by_parameters(analysis, key, said, typed=False)
-            nodelets[plugin] = said
+            _add_declared(said, DECLARED.get(environment.distro or "", {}).get(package.name, {}).get(plugin, {}))
+            if {end.get("name") for group in GROUPS.values() for end in said.get(group, ())} - {"/tf", "/tf_static"}:
+                nodelets[plugin] = said
+    if not package.is_ament and package.name in CONTROLLERS:
+        exported = analysis.exported(package.name)
+        controllers |= {name: said for name, said in CONTROLLERS[package.name].items() if name in exported}
     for controller in analysis.controllers(package.name) if package.is_ament else ():
         said = _controller(analysis, SourceKey(None, None, package.name, "", controller, f"/{_NAME}", "", ()))
         if said is not None:
@@ -201,11 +226,10 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
 
 
 def _plugins(analysis: SourceAnalysis, package: Package) -> Iterator[tuple[str, dict[str, Any]]]:
-    """The parameters of the plugins that nodes load, by their names, as they stand below that of the plugin."""
-    for name in analysis.plugins(package.name):
-        found = plugin_params(analysis, name, package.name) or {}
+    """What the plugins do that nodes load, by their names."""
+    for name, ends, found in plugins_of(analysis, package):
         uses = (replace(use, name=param) for param, use in found.items())
-        yield name.replace("/", "::"), {"parameters": _params(uses)} if found else {}
+        yield name, {**ends, **({"parameters": _params(uses)} if found else {})}
 
 
 def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | None:
@@ -292,7 +316,7 @@ def _read(
 def _run(environment: Environment, key: SourceKey) -> dict[str, Any] | None:
     """The facts of a run in the sandbox, with stand-ins for what is not installed."""
     request = TraceRequest(
-        f"{_SPACE}{key.name.lstrip('/')}",
+        key.name,
         key.package,
         key.path or "",
         tuple(key.args.split()),
@@ -378,7 +402,9 @@ def _of_arguments(name: str) -> bool:
 
 
 def _is_fact(value: Any) -> bool:
-    """Whether a default is a plain value, and short: a text of others is none."""
+    """Whether a default is a plain value, and short: a text of others is none, nor is one made of the node's name."""
     if isinstance(value, list):
         return len(value) <= 64 and all(map(_is_fact, value))
-    return isinstance(value, (bool, int, float)) or (isinstance(value, str) and len(value) <= 100 and "\n" not in value)
+    if isinstance(value, str):
+        return len(value) <= 100 and "\n" not in value and _NAME not in value
+    return isinstance(value, (bool, int, float))

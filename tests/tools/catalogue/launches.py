@@ -12,7 +12,7 @@ import shutil
 import tempfile
 import threading
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -44,7 +44,7 @@ _LONGEST = 200
 _TOGETHER = 8
 _SAYS_NOTHING = frozenset({"log", "log_info", "unknown"})
 _OF_PEOPLE = frozenset({"description", "doc", "deprecated"})
-_TEST_FOLDERS = frozenset({"test", "tests", "testing"})
+_TEST_FOLDERS = frozenset({"sample", "test", "tests", "testing"})
 _MARKED = re.compile(r"the (share folder of|variable) ([\w-]+)\Z")
 _MEANT = {"share folder of": "find-pkg-share", "variable": "env"}
 _OF_NAV2 = frozenset({"RewrittenYaml", "ReplaceString", "HasNodeParams", "LaunchConfigAsBool"})
@@ -52,18 +52,25 @@ _OF_NAV2 = frozenset({"RewrittenYaml", "ReplaceString", "HasNodeParams", "Launch
 _WHERE = re.compile(r"\$\(dirname\)")
 
 
-def write_launches(sources: Path) -> None:
-    """Write the data of all packages anew."""
-    shutil.rmtree(LAUNCHES, ignore_errors=True)
+def write_launches(sources: Path, only: Collection[str]) -> None:
+    """Write the data of all packages anew whose repositories are there."""
     for distro, generation in GENERATIONS.items():
         with tempfile.TemporaryDirectory() as folder:
-            laid = lay_out(sources, distro, Path(folder))
+            laid = lay_out(sources, distro, Path(folder), only)
+            for package in (LAUNCHES / distro).glob("*"):
+                if laid.has(_repository_of(package)):
+                    shutil.rmtree(package)
             count, left_out = 0, Counter[str]()
             for name in sorted(laid.sources):
                 maker = _Maker(laid, name, generation, Path(folder) / "cache")
                 count += sum(_write(laid, file, rows) for file, rows in maker.all())
                 left_out += maker.left_out
             print(f"{distro}: {count} launch files; left out: {dict(left_out)}", flush=True)
+
+
+def _repository_of(package: Path) -> str:
+    """That the data of a package is made of."""
+    return str(json.loads(next(package.rglob("*.json")).read_text())[0][0])
 
 
 def _write(laid: Laid, file: tuple[Package, str], rows: list[Any]) -> int:

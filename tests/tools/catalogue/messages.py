@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Collection
 from pathlib import Path, PurePosixPath
 
 from preflight_analysis.environment.packages import MANIFEST
@@ -18,24 +19,34 @@ _MEMBER = re.compile(r"[A-Za-z][\w/]*(?:<=\d+)?(?:\[(?:<=)?\d*\])?\s+[A-Za-z]\w*
 _TEXT = re.compile(r"(w?string(?:<=\d+)?)\s+([A-Za-z]\w*)\s*=\s*(.*)\Z")
 
 
-def write_messages(sources: Path) -> None:
-    """Write the data anew."""
+def write_messages(sources: Path, only: Collection[str]) -> None:
+    """Write the data of all packages anew whose repositories are there."""
+    kept = json.loads(DEFINITIONS.read_text()) if DEFINITIONS.exists() else {"": []}
     found: dict[str, dict[int, str]] = {}
-    made_of = []
-    for repository, branches in SOURCES.items():
-        for distro, branch in branches.items():
-            snapshot = Snapshot.of(sources, repository, branch)
+    made_of: dict[tuple[str, int], str] = {}
+    for distro, generation in GENERATIONS.items():
+        branches = {repository: of_distro[distro] for repository, of_distro in SOURCES.items() if distro in of_distro}
+        for snapshot in Snapshot.of_all(sources, branches, only):
             of_repository = definitions_of(snapshot)
             if of_repository:
-                made_of.append(f"{repository} {snapshot.commit}")
+                made_of[snapshot.repository, generation] = snapshot.commit
             for name, text in of_repository.items():
-                found.setdefault(name, {}).setdefault(GENERATIONS[distro], text)
-    data: dict[str, object] = {"": made_of}
+                found.setdefault(name, {}).setdefault(generation, text)
+    anew = {(name.partition("/")[0], generation) for name, texts in found.items() for generation in texts}
+    for name, of in kept.items():
+        texts = of if isinstance(of, dict) else dict.fromkeys(map(str, GENERATIONS.values()), of)
+        for generation, text in texts.items() if name else ():
+            if (name.partition("/")[0], int(generation)) not in anew:
+                found.setdefault(name, {})[int(generation)] = text
+    renewed = {repository for repository, _ in made_of}
+    rows = [row for row in kept[""] if row.partition(" ")[0] not in renewed]
+    rows += [f"{repository} {commit}" for (repository, _), commit in made_of.items()]
+    order = {repository: at for at, repository in enumerate(SOURCES)}
+    data: dict[str, object] = {"": sorted(rows, key=lambda row: order.get(row.partition(" ")[0], -1))}
     for name, texts in sorted(found.items()):
         same = len(texts) == len(GENERATIONS) and len(set(texts.values())) == 1
         data[name] = texts[1] if same else {str(generation): text for generation, text in sorted(texts.items())}
     lines = ",\n".join(f"{json.dumps(name)}: {json.dumps(of)}" for name, of in data.items())
-    DEFINITIONS.parent.mkdir(parents=True, exist_ok=True)
     DEFINITIONS.write_text(f"{{\n{lines}\n}}\n")
     print(f"{DEFINITIONS.name}: {len(found)} definitions, {DEFINITIONS.stat().st_size} bytes")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 
 import yaml
@@ -13,9 +14,13 @@ REPOSITORY = "ros/rosdistro"
 _KEYS = ("rosdep/base.yaml", "rosdep/python.yaml", "rosdep/ruby.yaml")
 
 
-def write_released(sources: Path) -> None:
-    """Write the data anew."""
-    snapshot = Snapshot.of(sources, REPOSITORY)
+def write_released(sources: Path, only: Collection[str]) -> None:
+    """Write the data anew, where the index is there."""
+    for snapshot in Snapshot.of_all(sources, {REPOSITORY: "HEAD"}, only):
+        _write(snapshot)
+
+
+def _write(snapshot: Snapshot) -> None:
     letters: dict[str, list[str]] = {}
     for distro, letter in (each for of in DISTRIBUTIONS.values() for each in of.items()):
         index = yaml.load(snapshot.text(f"{distro}/distribution.yaml"), yaml.CSafeLoader)

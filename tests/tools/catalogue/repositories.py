@@ -6,6 +6,7 @@ import io
 import os
 import re
 import subprocess
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,6 +42,16 @@ class Snapshot:
             if found:
                 return cls(repository, git, found[0], found[1])
         raise KeyError(f"{repository} has no {ref}")
+
+    @classmethod
+    def of_all(cls, sources: Path, branches: Mapping[str, str], only: Collection[str] = ()) -> Iterator[Self]:
+        """Those of repositories, each at its branch, that are there; of `only` where any are named."""
+        for repository, ref in branches.items():
+            if not only or repository in only:
+                try:
+                    yield cls.of(sources, repository, ref)
+                except FileNotFoundError as error:
+                    print(f"what is known of it stays: {error}", flush=True)
 
     def text(self, path: str) -> str:
         """The text of a file."""

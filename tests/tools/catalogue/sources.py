@@ -128,6 +128,21 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "PickNikRobotics/picknik_controllers": {"jazzy": "main"},
     "open-rmf/rmf_ros2": {"jazzy": "jazzy"},
     "open-rmf/rmf_traffic_editor": {"jazzy": "jazzy"},
+    "ros/geometry": {"noetic": "noetic-devel"},
+    "ros-perception/image_transport_plugins": {"noetic": "noetic-devel", "jazzy": "rolling"},
+    "ros-perception/slam_karto": {"noetic": "melodic-devel"},
+    "CCNYRoboticsLab/scan_tools": {"noetic": "ros1"},
+    "OctoMap/octomap_mapping": {"noetic": "kinetic-devel", "jazzy": "ros2"},
+    "ros-drivers/audio_common": {"noetic": "master", "jazzy": "ros2"},
+    "ros-drivers/pointgrey_camera_driver": {"noetic": "noetic-devel"},
+    "arebgun/dynamixel_motor": {"noetic": "master"},
+    "yujinrobot/yujin_ocs": {"noetic": "devel"},
+    "jsk-ros-pkg/jsk_common": {"noetic": "master"},
+    "jsk-ros-pkg/jsk_recognition": {"noetic": "master"},
+    "autowarefoundation/autoware_core": {"jazzy": "1.7.2"},
+    "autowarefoundation/autoware.universe": {"jazzy": "main"},
+    "MapIV/eagleye": {"jazzy": "main-ros2"},
+    "tier4/nebula": {"jazzy": "main"},
 }
 """A branch of another distribution's name is the one that the packages of this are released from, or the nearest."""
 RUN: Mapping[str, Mapping[str, Mapping[str, str]]] = {
@@ -139,6 +154,7 @@ RUN: Mapping[str, Mapping[str, Mapping[str, str]]] = {
             "hardware_spawner": "preflight_first --activate",
         },
     },
+    "noetic": {"gazebo_ros": {"spawn_model": "-urdf -param robot_description -model preflight_first"}},
 }
 """Nodes in Python that do what their arguments say, and the source alone tells nothing of: by distribution, package and
 executable the arguments with which they are run."""
@@ -146,6 +162,96 @@ NAMED: Mapping[str, Mapping[str, Mapping[str, str]]] = {
     "jazzy": {"controller_manager": {"ros2_control_node": "controller_manager"}},
 }
 """Executables whose library names their node: by distribution, package and executable the name."""
+_TRAJECTORY = {
+    "publishers": [{"name": "~state", "type": "control_msgs/JointTrajectoryControllerState"}],
+    "subscriptions": [{"name": "~command", "type": "trajectory_msgs/JointTrajectory"}],
+    "service_servers": [{"name": "~query_state", "type": "control_msgs/QueryTrajectoryState"}],
+    "action_servers": [{"name": "~follow_joint_trajectory", "type": "control_msgs/FollowJointTrajectoryAction"}],
+}
+_NUMBER = {"subscriptions": [{"name": "~command", "type": "std_msgs/Float64"}]}
+_NUMBERS = {"subscriptions": [{"name": "~command", "type": "std_msgs/Float64MultiArray"}]}
+_LOOP = {**_NUMBER, "publishers": [{"name": "~state", "type": "control_msgs/JointControllerState"}]}
+_DRIVE = {
+    "publishers": [{"name": "~odom", "type": "nav_msgs/Odometry"}, {"name": "/tf", "type": "tf/tfMessage"}],
+    "subscriptions": [{"name": "~cmd_vel", "type": "geometry_msgs/Twist"}],
+}
+_GRIPPER = {"action_servers": [{"name": "~gripper_cmd", "type": "control_msgs/GripperCommandAction"}]}
+CONTROLLERS: Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]] = {
+    "joint_state_controller": {
+        "joint_state_controller/JointStateController": {
+            "publishers": [{"name": "joint_states", "type": "sensor_msgs/JointState"}]
+        }
+    },
+    "joint_trajectory_controller": {
+        f"{kind}_controllers/JointTrajectoryController": _TRAJECTORY
+        for kind in ("effort", "pos_vel", "pos_vel_acc", "position", "velocity")
+    },
+    "effort_controllers": {
+        "effort_controllers/JointEffortController": _NUMBER,
+        "effort_controllers/JointGroupEffortController": _NUMBERS,
+        "effort_controllers/JointGroupPositionController": _NUMBERS,
+        "effort_controllers/JointPositionController": _LOOP,
+        "effort_controllers/JointVelocityController": _LOOP,
+    },
+    "position_controllers": {
+        "position_controllers/JointGroupPositionController": _NUMBERS,
+        "position_controllers/JointPositionController": _NUMBER,
+    },
+    "velocity_controllers": {
+        "velocity_controllers/JointGroupVelocityController": _NUMBERS,
+        "velocity_controllers/JointPositionController": _LOOP,
+        "velocity_controllers/JointVelocityController": _NUMBER,
+    },
+    "gripper_action_controller": {
+        f"{kind}_controllers/GripperActionController": _GRIPPER for kind in ("effort", "position")
+    },
+    "diff_drive_controller": {"diff_drive_controller/DiffDriveController": _DRIVE},
+    "ackermann_steering_controller": {"ackermann_steering_controller/AckermannSteeringController": _DRIVE},
+}
+"""Controllers of ros_control (ROS 1), by package: what they make below their own name (`~`), and in the namespace of
+their manager. They refuse to start without parameters of a real robot, and many are templates, so that the analysis
+does not read them (http://wiki.ros.org/ros_controllers, ros_controllers at noetic-devel: `init` of each)."""
+MANIFESTS: Mapping[str, Mapping[str, str]] = {
+    "Livox-SDK/livox_ros_driver2": {"noetic": "package_ROS1.xml", "jazzy": "package_ROS2.xml"},
+}
+"""Repositories whose script makes `package.xml`: of what, by distribution."""
+_OF_GAZEBO = {
+    **{
+        name: f"gazebo_msgs/{''.join(map(str.title, name.split('_')))}"
+        for name in (
+            *("delete_model", "delete_light", "get_model_properties", "get_model_state", "get_world_properties"),
+            *("get_joint_properties", "get_link_properties", "get_link_state", "get_light_properties"),
+            *("set_light_properties", "get_physics_properties", "set_link_properties", "set_physics_properties"),
+            *("set_model_state", "set_model_configuration", "set_joint_properties", "set_link_state"),
+            *("apply_body_wrench", "apply_joint_effort"),
+        )
+    },
+    **dict.fromkeys(("spawn_sdf_model", "spawn_urdf_model"), "gazebo_msgs/SpawnModel"),
+    **dict.fromkeys(("reset_simulation", "reset_world", "pause_physics", "unpause_physics"), "std_srvs/Empty"),
+    "clear_joint_forces": "gazebo_msgs/JointRequest",
+    "clear_body_wrenches": "gazebo_msgs/BodyRequest",
+}
+_GAZEBO = {
+    # https://classic.gazebosim.org/tutorials?tut=ros_comm: what its system plugin offers, which the scripts load
+    "publishers": [
+        {"name": "/clock", "type": "rosgraph_msgs/Clock"},
+        {"name": "~link_states", "type": "gazebo_msgs/LinkStates"},
+        {"name": "~model_states", "type": "gazebo_msgs/ModelStates"},
+    ],
+    "subscriptions": [
+        {"name": "~set_link_state", "type": "gazebo_msgs/LinkState"},
+        {"name": "~set_model_state", "type": "gazebo_msgs/ModelState"},
+    ],
+    "service_servers": [{"name": f"~{name}", "type": type_} for name, type_ in _OF_GAZEBO.items()],
+}
+_CLOUDS = {
+    # http://wiki.ros.org/pcl_ros: filters take the clouds in once somebody takes them out
+    "publishers": [{"name": "~output", "type": "sensor_msgs/PointCloud2"}],
+    "subscriptions": [
+        {"name": "~input", "type": "sensor_msgs/PointCloud2"},
+        {"name": "~indices", "type": "pcl_msgs/PointIndices", "conditional": True},
+    ],
+}
 _STAMPED = {"true": "geometry_msgs/msg/TwistStamped", "false": "geometry_msgs/msg/Twist"}
 DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]]] = {
     "jazzy": {
@@ -177,13 +283,27 @@ DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[s
                 ],
             },
         },
+        "gazebo_ros": dict.fromkeys(("gazebo", "gzserver", "debug"), _GAZEBO),
+        "pcl_ros": dict.fromkeys(
+            (
+                *("pcl/PassThrough", "pcl/VoxelGrid", "pcl/ProjectInliers", "pcl/ExtractIndices", "pcl/CropBox"),
+                *("pcl/RadiusOutlierRemoval", "pcl/StatisticalOutlierRemoval"),
+            ),
+            _CLOUDS,
+        ),
+        # http://wiki.ros.org/tf#static_transform_publisher: its arguments are the transform
+        "tf": {"static_transform_publisher": {"publishers": [{"name": "/tf", "type": "tf2_msgs/TFMessage"}]}},
     },
 }
-"""Ends that parameters name of which the source has a list: by distribution, package and executable, in the groups of
-NoDL. `*` is for any name, and in ROS 1 for each item of a list; `typed_by` is the parameter that decides the type, and
-the type by its value."""
-OTHER_VERSIONS = {"ros-navigation/navigation2": ("humble", "kilted", "main")}
-"""Further branches of a repository that are in use: a parameter that a plugin has there is no misspelt one here."""
+"""Ends that parameters name of which the source has a list, of scripts that start other programs, and of nodes that
+their arguments make, or that a library of another repository does: by distribution, package and executable or nodelet,
+in the groups of NoDL. `*` is for any name, and in ROS 1 for each item of a list; `typed_by` is the parameter
+that decides the type, and the type by its value."""
+VALUES: Mapping[str, Sequence[str]] = {"data_type": ("LaserScan", "PointCloud2")}
+"""What parameters of plugins have of which types depend, by the last part of their names: sources of costmaps."""
+OTHER_VERSIONS = {"jazzy": {"ros-navigation/navigation2": ("humble", "kilted", "main")}}
+"""By distribution further branches of a repository that are in use: a parameter that a plugin has there is no misspelt
+one here."""
 GENERATIONS = {"noetic": 1, "jazzy": 2}
-OF_TESTS = re.compile(r"(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
-"""Names of packages that nobody launches."""
+OF_TESTS = re.compile(r"(?<!\Aros2_controllers)(?:\b|_)(?:test|tests|benchmarking|moveit_resources)(?:\b|_)")
+"""Names of packages that nobody launches. The nodes of `ros2_controllers_test_nodes` are launched as they are."""
