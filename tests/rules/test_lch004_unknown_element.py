@@ -20,7 +20,7 @@ def test_the_name_of_an_element_is_mended_in_both_of_its_tags(tag: str, after: s
 
 
 def test_an_unknown_element_and_the_nearest_one() -> None:
-    (finding, other) = check("""
+    (finding, other, _) = check("""
         <launch>
           <node pkg="p" type="t" name="n">
             <parm name="rate" value="10"/>
@@ -28,6 +28,8 @@ def test_an_unknown_element_and_the_nearest_one() -> None:
           </node>
           <robots/>
            ^^^^^^ warning[LCH004] unknown element <robots> in <launch>; roslaunch skips it
+          <rtconnect from="a.rtc:out" to="b.rtc:in"/>
+           ^^^^^^^^^ hint[LCH004] roslaunch skips it; rtmlaunch reads it
         </launch>
     """)
     assert other.fixes == ()

@@ -132,3 +132,14 @@ def test_an_argument_that_is_empty_has_to_be_given(tmp_path: Path, file: str, se
     workspace = Workspace(detect_environment(None, {"ROS_VERSION": "1"}, (str(tmp_path),)), Sources())
     (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "LCH013"]
     assert (finding.severity, "set argument 'robot'" in finding.message) == (severity, severity == "info")
+
+
+def test_a_variable_that_is_not_set_has_to_be(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+    (tmp_path / "pads").mkdir()
+    (tmp_path / "pads" / "xbox.launch").write_text("<launch/>")
+    path = tmp_path / "main.launch"
+    path.write_text('<launch><include file="$(find p)/pads/$(optenv GAMEPAD).launch"/></launch>')
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "1"}, (str(tmp_path),)), Sources())
+    (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "LCH013"]
+    assert (finding.severity, "set variable 'GAMEPAD'" in finding.message) == ("info", True)

@@ -46,6 +46,21 @@ def test_a_name_from_before_a_rename() -> None:
     assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' with 'ca_tools'", False)]
 
 
+def test_a_word_that_the_folder_of_the_project_has_is_no_likeness() -> None:
+    (finding,) = check("""
+        //- /rpg_svo/svo/launch/live.launch
+        <launch>
+          <include file="$(find rpg_calib)/launch/joy.launch"/>
+                         ^^^^^^^^^^^^^^^^^ info[PKG001] no package.xml of the workspace names it
+        </launch>
+        //- /rpg_svo/svo/package.xml
+        <package/>
+        //- /rpg_svo/rpg_common/package.xml
+        <package/>
+    """)
+    assert finding.fixes == ()
+
+
 @pytest.mark.parametrize(("file", "severity"), [("base.yaml", "warning"), ("other.yaml", "hint")])
 def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     tmp_path: Path, file: str, severity: str

@@ -46,6 +46,17 @@ def test_the_section_of_a_node_that_a_condition_leaves_out() -> None:
 
 
 @pytest.mark.silent
+def test_the_section_of_a_controller_that_a_spawner_is_given() -> None:
+    check("""
+        <launch>
+          <rosparam>{pan_controller: {joint_name: pan}}</rosparam>
+          <node pkg="p" type="spawner" name="s" args="--port a pan_controller"/>
+          <node pkg="p" type="t" name="face_controller"/>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
 def test_parameters_that_need_no_node() -> None:
     check("""
         <launch>

@@ -33,7 +33,6 @@ def test_a_number_that_roslaunch_takes_for_a_text() -> None:
     ("value", "default"),
     [
         ("fast", "10"),
-        ("", "2.5"),
         ("off", "true"),
         ("no", "false"),
         ("[1, 2]", "[0.0, 0.0]"),
@@ -65,6 +64,11 @@ def test_values_that_will_do(value: str, default: str) -> None:
 
 def test_a_text_where_zero_may_stand_for_not_set_is_a_hint() -> None:
     assert _kinds("/dev/ttyUSB0", "0") == [("hint", "possible")]
+
+
+def test_an_empty_text_for_a_number_is_information() -> None:
+    """`$(optenv PORT)` without the variable."""
+    assert _kinds("", "1883") == [("info", "possible")]
 
 
 def test_lists_from_yaml() -> None:

@@ -24,6 +24,7 @@ from preflight_analysis.rules.rule import Check, Context, Rule
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
 
+_OPTIONAL = re.compile(r"\$\(optenv (\w+) *\)")
 _GAP = re.compile(r"(?:\A()(?=[._-])|([._-])(?=[._-]))")
 """Where the name of a file lacks a part: `_map.yaml`, `map_.yaml`."""
 
@@ -49,7 +50,7 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
             elif near is None and is_ignored(context.disk, path):
                 severity, message = "info", f"{message}; git ignores it, so each machine may create it"
             elif empty := _empty_arguments(context, path, problem.location, near):
-                severity, message = "info", f"{message}; set argument {quoted(empty)}"
+                severity, message = "info", f"{message}; set {empty}"
             elif (absent := _absent_top(context, path)) is not None:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
             elif near is None and depends_on_working_folder(context, problem.location):
@@ -72,26 +73,28 @@ def _in_namesake(context: Context, path: str) -> str | None:
     return next((each.share for each in others if context.disk.exists(os.path.join(each.share, below))), None)
 
 
-def _empty_arguments(context: Context, path: str, place: Location, near: str | None) -> list[str]:
-    """The arguments that are empty, where there is such a file with a folder, or a part of its name, more:
-    `config/rover/robot.yaml` for `config/robot.yaml`, `maps/hall.yaml` for `maps/.yaml`. Where another file may be
-    meant, `near`, only those that are written at the place."""
-    empty = [name for name, arg in context.tree.args.items() if arg.value == ""]
+def _empty_arguments(context: Context, path: str, place: Location, near: str | None) -> str:
+    """The arguments, or else the variables without a value, that are empty (`argument 'robot'`), where there is such a
+    file with a folder, or a part of its name, more: `config/rover/robot.yaml` for `config/robot.yaml`,
+    `maps/hall.yaml` for `maps/.yaml`. Where another file may be meant, `near`, only those that are written at the
+    place."""
+    empty, written = [name for name, arg in context.tree.args.items() if arg.value == ""], context.text(place)
     if near is not None:
-        written = context.text(place)
         empty = [name for name in empty if re.search(rf"\$\((?:arg|var) {re.escape(name)}[ )]", written)]
-    if not empty or package_folder(path, context.environment) is None:
-        return []
+    unset = [name for name in _OPTIONAL.findall(written) if name not in context.environment.variables]
+    if not (empty or unset) or package_folder(path, context.environment) is None:
+        return ""
+    said = f"variable {quoted(unset)}" if unset else f"argument {quoted(empty)}"
     folder, name = os.path.split(os.path.normpath(path))
     gap = _GAP.search(name)
     before, after = (name[: gap.end()], name[gap.end() :]) if gap is not None else ("", "")
     for there in files_in(context.disk, folder, deep=True):
         where, other = os.path.split(there)
         if where != folder and other == name:
-            return empty
+            return said
         if gap is not None and len(other) > len(name) and other.startswith(before) and other.endswith(after):
-            return empty
-    return []
+            return said
+    return ""
 
 
 def _absent_top(context: Context, path: str) -> str | None:

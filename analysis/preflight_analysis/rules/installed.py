@@ -102,10 +102,10 @@ def is_of_family(context: Context, name: str, near: str) -> bool:
     words = set(name.split("_")) - set(near.split("_"))
     others = context.once(_unknown_dependencies) - {name}
     in_other = any(not words.isdisjoint(other.split("_")) for other in others)
-    return in_other or not words.isdisjoint(context.once(_words_of_folders))
+    return in_other or not words.isdisjoint(context.once(words_of_folders))
 
 
-def _words_of_folders(context: Context) -> frozenset[str]:
+def words_of_folders(context: Context) -> frozenset[str]:
     """The words in the names of the folders that packages of the workspace are in."""
     own = (package.share for package in context.environment.packages.values() if not is_installed(context, package))
     folders = {os.path.dirname(share) for share in own}

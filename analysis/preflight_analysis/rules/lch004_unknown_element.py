@@ -17,6 +17,9 @@ from preflight_analysis.rules.problems import problem_finding, problems_of, rena
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
+_OF_OTHERS = {"rtactivate": "rtmlaunch", "rtconnect": "rtmlaunch"}
+"""Tags of launchers that use roslaunch's files (https://wiki.ros.org/openrtm_tools)."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
@@ -33,7 +36,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if near is not None:
             renamed = rename(context, problem.location, name, near)
             fixes = [_both_tags(context, tags, problem, near, fix) for fix in renamed]
-        severity: Severity | None = "error" if problem.fatal and near is not None else None
+        launcher = _OF_OTHERS.get(name)
+        if launcher is not None:
+            message += f"; {launcher} reads it"
+        severity: Severity | None = (
+            "hint" if launcher is not None else "error" if problem.fatal and near is not None else None
+        )
         confidence: Confidence = "certain"
         if problem.fatal and near is None and not has_ros(context):
             severity, confidence = "hint", "possible"

@@ -14,7 +14,13 @@ from preflight_analysis.findings.finding import Confidence, Finding, Fix, Relate
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.below_packages import has_what_is_asked_of
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
-from preflight_analysis.rules.installed import debian_package_of, is_of_family, lack_of_package, near_package
+from preflight_analysis.rules.installed import (
+    debian_package_of,
+    is_of_family,
+    lack_of_package,
+    near_package,
+    words_of_folders,
+)
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.places import attribute_location, program_known
 from preflight_analysis.rules.problems import include_chain, problems_of, rename
@@ -127,7 +133,9 @@ def _strangers(context: Context) -> frozenset[str]:
 
 
 def _of_like_words(context: Context, name: str) -> str | None:
-    """The one package of the workspace whose name differs in one word, or has some more: as before a rename."""
+    """The one package of the workspace whose name differs in one word, or has some more: as before a rename. A word
+    that all packages of the project may have, as its folder has it, tells nothing."""
+    generic = _GENERIC | context.once(words_of_folders)
     words, environment = name.split("_"), context.environment
     installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     here = []
@@ -137,7 +145,7 @@ def _of_like_words(context: Context, name: str) -> str | None:
         others = package.name.split("_")
         differing = sum(a != b for a, b in zip(words, others, strict=False))
         one_word = len(words) == len(others) > 1 and differing == 1
-        if (one_word or set(words) < set(others)) and not _GENERIC.issuperset(set(words) & set(others)):
+        if (one_word or set(words) < set(others)) and not generic.issuperset(set(words) & set(others)):
             here.append(package.name)
     return here[0] if len(here) == 1 else None
 

@@ -52,8 +52,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=include_chain(params[0].origin),
             )
             continue
-        if leaf in context.once(_left_out):
-            continue  # the section of a node that a condition leaves out
+        if leaf in context.once(_left_out) or leaf in context.once(_words_of_arguments):
+            continue  # the section of a node that a condition leaves out, or of a controller that a spawner is given
         meant = f"{parent}/{near}"
         if meant in context.once(_known):
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
@@ -72,6 +72,10 @@ def _left_out(context: Context) -> frozenset[str]:
     """The names that nodes have in the launch files, and none in the launch: conditions leave these out."""
     written = {name for launch_file in context.launch_files.values() for name in _names_of_nodes(launch_file)}
     return frozenset(written - {names.leaf(node.name) for node in context.tree.nodes})
+
+
+def _words_of_arguments(context: Context) -> frozenset[str]:
+    return frozenset(word for node in context.tree.nodes for word in node.args.split())
 
 
 @memoize_by_file

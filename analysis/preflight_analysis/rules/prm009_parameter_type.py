@@ -110,6 +110,8 @@ def _difference(value: Any, default: Any) -> tuple[Severity, Confidence, str] | 
                 return "warning", "likely", "; any text that is not empty is true"
         case int() | float():
             if isinstance(value, str):
+                if not value.strip():
+                    return "info", "possible", "; set the argument or variable that the value comes from"
                 if _OTHER_NUMBER.fullmatch(value.strip()):
                     return "warning", "possible", "; write it as a plain decimal number"
                 return ("warning", "likely", "") if default not in (0, -1) else ("hint", "possible", "")
