@@ -14,7 +14,7 @@ from support.editor_harness import Harness
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
 
-VERBS = [["check"], ["tree"], ["trace"], ["graph"], ["watch", "--once", "--timeout", "0.1"]]
+VERBS = [["check"], ["tree"], ["trace"], ["graph"], ["watch", "--once", "--timeout", "0.1"], ["doctor", "--no-run"]]
 BELOW = "launch/talker_listener.launch"
 
 
@@ -37,6 +37,16 @@ def test_relative_paths_are_those_below_the_workspace(harness: Harness, prefligh
     expected = {each.removeprefix(home) if each.startswith(home) else each for each in strings(absolute)}
     assert set(strings(relative)) == expected
     assert said("--paths", "absolute").keys() == absolute.keys()
+
+
+def test_the_paths_of_a_batch(harness: Harness, preflight: Run, tmp_path: Path) -> None:
+    jobs = tmp_path / "jobs.jsonl"
+    jobs.write_text(json.dumps({"file": str(harness.launch_file), "package_path": [str(harness.workspace)]}) + "\n")
+    absolute = json.loads(preflight("tree", "--no-run", "--batch", jobs).out)
+    relative = json.loads(preflight("tree", "--no-run", "--batch", jobs, "--paths", "relative").out)
+    home = f"{harness.workspace}/"
+    assert {each.removeprefix(home) for each in strings(absolute)} == set(strings(relative))
+    assert BELOW in set(strings(relative))
 
 
 def test_the_users_own_values_stay(tmp_path: Path) -> None:

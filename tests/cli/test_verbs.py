@@ -43,7 +43,7 @@ def test_graph_in_json(harness: Harness, preflight: Run) -> None:
 def test_graph_in_text(harness: Harness, preflight: Run) -> None:
     done = preflight("graph", harness.launch_file)
     assert (done.code, done.err) == (0, "")
-    assert "topic /chatter  std_msgs/String  /talker -> nobody" in done.out
+    assert "topic /chatter  std_msgs/String  /talker -> none" in done.out
     assert "/rosout" not in done.out
 
 

@@ -95,7 +95,7 @@ def test_those_that_cannot_be_run_are_captured_as_settings(system: Ros1System) -
     (system.package / ".git").mkdir()  # the top of the project
     done = preflight(system.environment, "graph", file, "--no-run")
     assert "node /robot/n  settings" in done.out
-    assert "topic /after  std_msgs/String  nobody -> /robot/n" in done.out
+    assert "topic /after  std_msgs/String  none -> /robot/n" in done.out
 
 
 def test_what_is_not_captured_is_told(system: Ros1System) -> None:

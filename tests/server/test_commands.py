@@ -57,7 +57,7 @@ async def test_nodes_run_with_what_the_command_printed(harness: Harness, robot: 
         editor.open(robot)
         text = await shown(editor, robot, "<param", "printed")
         assert '<link length="0.25" name="right_thumb"/>' in text
-        assert "links_1" in await shown(editor, robot, "<node", "Subscribes")
+        assert "links_1" in await shown(editor, robot, "<node", "Subscribers")
         assert editor.rules(robot) is not None
         assert not {"LCH018", "PRM008", "TRC001"} & set(editor.rules(robot) or ())
         assert all("links_1" in d.message for d in editor.diagnostics(robot) or () if d.code == "TOP001")

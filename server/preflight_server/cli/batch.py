@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import threading
@@ -13,7 +14,7 @@ from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.environment.detect import detect_environment, workspace_of
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
@@ -26,6 +27,7 @@ from preflight_analysis.workspace.workspace import Workspace
 
 from preflight_server.cli.errors import CLEAN, CannotDoError
 from preflight_server.cli.output import dumps_json, print_text
+from preflight_server.cli.paths import with_paths
 
 BASE_ENV: Mapping[str, str] = {
     "HOME": "/home/robot",
@@ -72,18 +74,18 @@ class Job:
     package_path: tuple[str, ...]
 
 
-def answer_all(jobs: Path, *, no_run: bool = False) -> int:
+def answer_all(jobs: Path, args: argparse.Namespace) -> int:
     """Answer all jobs, side by side where they have something run. Of what the files ask for only Python launch files
-    are run, unless `no_run`, each in a sandbox of its own. Raises `CannotDoError` if a line is no job."""
+    are run, unless with `--no-run`, each in a sandbox of its own. Raises `CannotDoError` if a line is no job."""
     given = tuple(_read(jobs))
     surroundings = lru_cache(maxsize=4)(_Surroundings)
     cancel = threading.Event()
 
     def answer(job: Job) -> str:
         around = surroundings(job.package_path, tuple(sorted(job.env.items())))
-        return _answer(job, around, cancel, no_run=no_run)
+        return _answer(job, around, cancel, args)
 
-    with ThreadPoolExecutor(1 if no_run else processors()) as pool:
+    with ThreadPoolExecutor(1 if args.no_run else processors()) as pool:
         try:
             for text in pool.map(answer, given):
                 print_text(text)
@@ -131,17 +133,18 @@ class _Surroundings:
         return detect_environment(None, variables, self._package_path, prefixes)
 
 
-def _answer(job: Job, around: _Surroundings, cancel: threading.Event, *, no_run: bool) -> str:
+def _answer(job: Job, around: _Surroundings, cancel: threading.Event, options: argparse.Namespace) -> str:
     generation = around.generation(job.file)
     args = arguments_of(generation, job.args)
     runner = around.runner(generation)
-    results = CommandResults(lambda: NO_RUN if no_run else None, _COMMAND)
+    results = CommandResults(lambda: NO_RUN if options.no_run else None, _COMMAND)
     workspace = Workspace(runner.environment, around.sources(generation), _CWD, results)
-    if no_run:
+    if options.no_run:
         analysis = workspace.static(job.file, args)
     else:
         analysis = resolve_commands(workspace, job.file, args, results, runner, cancel, only_launch_files=True)
-    return dumps_json(tree_json(analysis.tree, analysis.documents, analysis.findings), indent=None)
+    data = tree_json(analysis.tree, analysis.documents, analysis.findings)
+    return dumps_json(with_paths(data, options, [workspace_of(job.file)]), indent=None)
 
 
 def _read(jobs: Path) -> Iterator[Job]:

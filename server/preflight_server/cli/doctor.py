@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Mapping
 from typing import Any
 
 from preflight_analysis.environment.detect import detect
@@ -18,6 +19,7 @@ from preflight_server.cli.check import look_at
 from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
 from preflight_server.cli.launches import launches
 from preflight_server.cli.output import print_json, print_text
+from preflight_server.cli.paths import by_name, with_paths
 from preflight_server.doctor import page
 
 DESCRIPTION = """Report the environment that ros-preflight uses: distribution, package path, interpreter and sandbox.
@@ -49,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     folder = args.place if os.path.isdir(args.place) else environment.workspace
     lacks = _lacks(folder, args) if folder else Report((), {})
     if args.format == "json":
-        print_json(_json(environment, status, lacks))
+        print_json(_json(environment, status, lacks, args))
     else:
         print_text(page(environment, status, lacks.missing))
     missing = bool(environment.problems) or (status is not None and not status.works)
@@ -65,14 +67,18 @@ def _lacks(folder: str, args: argparse.Namespace) -> Report:
     return look_at(found, argparse.Namespace(no_run=True, jobs=args.jobs, changed_since=None))[0]
 
 
-def _json(environment: Environment, status: SandboxStatus | None, lacks: Report) -> dict[str, Any]:
-    return {
+def _json(
+    environment: Environment, status: SandboxStatus | None, lacks: Report, args: argparse.Namespace
+) -> Mapping[str, Any]:
+    homes = [environment.workspace] if environment.workspace else []
+    shares = {name: package.share for name, package in environment.packages.items()}
+    data = {
         "schema": SCHEMA,
         "generation": environment.generation,
         "distribution": environment.distro,
         "workspace": environment.workspace,
         "package_path": list(environment.package_path),
-        "packages": {name: package.share for name, package in environment.packages.items()},
+        "packages": by_name(shares, args, homes),
         "devel_spaces": list(environment.devel_spaces),
         "system_prefixes": list(environment.system_prefixes),
         "interpreter": environment.python,
@@ -89,3 +95,4 @@ def _json(environment: Environment, status: SandboxStatus | None, lacks: Report)
         },
         "traces": str(TraceCache().folder),
     }
+    return with_paths(data, args, homes)

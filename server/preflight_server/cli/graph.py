@@ -81,7 +81,6 @@ def _channels(kind: str, channels: Mapping[str, Channel]) -> Iterator[str]:
         if all(c.endpoint.builtin or c.action is not None for c in connections):
             continue  # an action is shown as such
         providers, consumers = (
-            ", ".join(sorted({c.node.name for c in side})) or "nobody"
-            for side in (channel.providers, channel.consumers)
+            ", ".join(sorted({c.node.name for c in side})) or "none" for side in (channel.providers, channel.consumers)
         )
-        yield f"{kind} {name}  {' | '.join(channel.types) or 'type not known'}  {providers} -> {consumers}"
+        yield f"{kind} {name}  {' | '.join(channel.types) or 'unknown type'}  {providers} -> {consumers}"

@@ -8,7 +8,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 ABSOLUTE, RELATIVE = "absolute", "relative"
-_OF_PATHS = frozenset({"file", "path", "includes", "roots", "param_files", "not_evaluated"})
+_OF_PATHS = frozenset(
+    {"file", "path", "includes", "roots", "param_files", "not_evaluated", "package_path", "devel_spaces"}
+)
 """The keys whose values are paths, in the documents of all verbs."""
 _OF_USERS = frozenset({"params", "args", "env", "default"})
 """The keys below which the names are the user's own."""
@@ -32,6 +34,11 @@ def with_paths(data: Mapping[str, Any], args: argparse.Namespace, workspaces: It
     homes = sorted({os.path.join(home, "") for home in workspaces}, key=len, reverse=True)
     found: Mapping[str, Any] = _relative(data, homes, False)
     return found
+
+
+def by_name(paths: Mapping[str, str], args: argparse.Namespace, workspaces: Iterable[str]) -> Mapping[str, Any]:
+    """Paths by name, such as the packages of `doctor`, as `--paths` wants them."""
+    return dict(zip(paths, with_paths({"path": [*paths.values()]}, args, workspaces)["path"], strict=True))
 
 
 def _relative(value: Any, homes: list[str], is_path: bool) -> Any:

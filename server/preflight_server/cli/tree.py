@@ -50,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
     if args.batch is not None:
         if args.file is not None or args.launch_args:
             raise CannotDoError("--batch takes its launch files from the jobs, not from the command line")
-        return answer_all(args.batch, no_run=args.no_run)
+        return answer_all(args.batch, args)
     if args.file is None:
         raise CannotDoError("name a launch file, or jobs with --batch")
     analysis = open_project(args).analysis
