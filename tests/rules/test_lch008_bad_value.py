@@ -161,3 +161,13 @@ def test_outputs_in_python() -> None:
                 Node(package="p", executable="f", output="both"),
             ])
     """)
+
+
+def test_a_namespace_that_is_empty_as_its_argument_is() -> None:
+    check("""
+        <launch>
+          <arg name="robot" default=""/>
+          <node pkg="p" type="t" name="n" ns="$(arg robot)"/>
+                                              ^^^^^^^^^^^^ info[LCH008] is empty; set argument 'robot'
+        </launch>
+    """)

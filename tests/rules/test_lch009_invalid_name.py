@@ -74,3 +74,13 @@ def test_names_with_digits_underscores_and_substitutions() -> None:
           <node pkg="p" type="t" name="$(anon n)"/>
         </launch>
     """)
+
+
+def test_a_name_that_is_not_allowed_while_its_argument_is_empty() -> None:
+    check("""
+        <launch>
+          <arg name="robot" default=""/>
+          <node pkg="p" type="t" name="$(arg robot)_plot"/>
+                                       ^^^^^^^^^^^^^^^^^ info[LCH009] set argument 'robot'
+        </launch>
+    """)

@@ -41,3 +41,19 @@ def test_what_is_used_or_chosen() -> None:
             unused = Node(package="p", executable="e")
             return LaunchDescription([*made, node])
     """)
+
+
+def test_the_same_action_again() -> None:
+    check("""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            drive = Node(package="p", executable="drive")
+            ^^^^^ hint[LCH042] the next one is the same
+            drive = Node(
+                package="p", executable="drive"
+            )
+            return LaunchDescription([drive])
+    """)

@@ -80,3 +80,15 @@ def test_a_file_that_imports_all_names_of_another() -> None:
         def generate_launch_description():
             return LaunchDescription([Something()])
     """)
+
+
+def test_what_only_a_program_does() -> None:
+    check(f"""
+        {_START}
+        def generate_launch_description():
+            return LaunchDescription([])
+
+        if __name__ == "__main__":
+            main()
+            ^^^^ info[LCH043] undefined name 'main'
+    """)

@@ -155,3 +155,9 @@ def test_a_blank_name() -> None:
         if each.rule == "PKG002"
     )
     assert (finding.severity, finding.message) == ("error", "executable name is blank")
+
+
+def test_a_name_that_has_to_be_given(launch: Path) -> None:
+    (finding,) = judge(launch, "/dev/null")
+    assert finding.severity == "info"
+    assert finding.message.endswith("; set the argument that names it")

@@ -99,3 +99,11 @@ def test_where_it_is_installed(tmp_path: Path, rules: str, said: list[str]) -> N
     for edit in (fix.edits[0] for finding in found for fix in finding.fixes):
         installed = f"install(DIRECTORY {'config' if 'config' in said[0] else 'launch'} DESTINATION {SHARE})\n\n"
         assert edit.text == installed
+
+
+def test_a_copy_of_a_launch_file_that_was_put_aside(workspace: Path) -> None:
+    launch = workspace / "src/robot/launch/robot.launch_original.xml"
+    launch.write_text("<launch/>")
+    environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
+    found = Workspace(environment, Sources()).static(str(launch)).findings
+    assert [(f.rule, f.severity) for f in found if f.rule == "PKG005"] == [("PKG005", "info")]

@@ -21,3 +21,18 @@ def test_parameters_that_are_yaml() -> None:
         //- /a.yaml
         # only a comment
     """)
+
+
+@pytest.mark.silent
+def test_a_tab_before_a_comment_is_a_blank_to_rcl() -> None:
+    check(
+        """
+        //- /main.launch.xml
+        <launch><node pkg="p" exec="t" name="n"><param from="/p/a.yaml"/></node></launch>
+        //- /p/a.yaml
+        n:
+          ros__parameters:
+            rate: 10 TAB # Hz
+            name: a
+    """.replace("TAB", "\t")
+    )

@@ -266,3 +266,18 @@ def test_a_file_in_the_folder_where_the_launch_is_started() -> None:
           <node pkg="p" type="t" name="n" args="$(arg solution)"/>
         </launch>
     """)
+
+
+def test_one_that_git_ignores_beside_another_elsewhere() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="filepath_gt" value="/p/data/state_groundtruth.txt"/>
+                                             ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] git ignores it
+          </node>
+        </launch>
+        //- /p/.gitignore
+        data/
+        //- /p/example/stamped_groundtruth.txt
+        1
+    """)

@@ -237,3 +237,16 @@ def test_a_node_that_crashes_without_the_value_of_a_failed_command_is_no_news_of
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "params": {"/model": null}}}
     """)
+
+
+def test_a_file_that_is_found_where_the_launch_file_is() -> None:
+    said = ["/usr/bin/cat: r.urdf: No such file or directory"]
+    command = {"status": "failed", "reason": "exit code 1", "stderr_tail": said}
+    check(f"""
+        <launch><param name="robot_description" command="cat r.urdf"/></launch>
+                                                         ^^^^^^^^^^ info[PRM008] depends on the folder
+        //- /r.urdf
+        <robot/>
+        //- commands
+        {json.dumps({"cat r.urdf": command})}
+    """)

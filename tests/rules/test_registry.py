@@ -11,12 +11,15 @@ from pathlib import Path
 
 import preflight_analysis.rules as package
 import pytest
+from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules import reference
 from preflight_analysis.rules.fix_availability import fix_availability
 from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import analyse, check, read_fixture
 
 ROOT = Path(__file__).parents[2]
@@ -158,3 +161,17 @@ def test_the_reference_is_written_and_stale_pages_go(tmp_path: Path) -> None:
     assert reference.main([str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == set(reference.pages())
     assert reference.main([]) == 2
+
+
+@pytest.mark.parametrize(("build_type", "severity"), [("ament_cmake", "info"), ("catkin", "error")])
+def test_what_colcon_ignores_in_a_workspace_that_it_builds(tmp_path: Path, build_type: str, severity: str) -> None:
+    for name, kind in (("base", build_type), ("old", "catkin")):
+        (tmp_path / "src" / name).mkdir(parents=True)
+        manifest = f"<package><name>{name}</name><export><build_type>{kind}</build_type></export></package>"
+        (tmp_path / "src" / name / "package.xml").write_text(manifest)
+    (tmp_path / "src/old/COLCON_IGNORE").touch()
+    launch = tmp_path / "src/old/a.launch"
+    launch.write_text('<launch><node pkg="p" type="t" name="$(arg camra)"/></launch>')
+    environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
+    found = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    assert [(f.rule, f.severity) for f in found if f.rule == "ARG001"] == [("ARG001", severity)]

@@ -75,3 +75,15 @@ def test_two_types_of_one_node() -> None:
     (finding,) = (each for each in found if each.rule == "TOP003")
     assert (finding.severity, finding.confidence) == ("error", "likely")
     assert finding.message == "type mismatch on '/mast': /simulator subscribes to both x/Position and x/Throttle"
+
+
+@pytest.mark.silent
+def test_a_type_as_either_generation_spells_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="a"/>
+          <node pkg="p" type="t" name="b"/>
+        </launch>
+        //- interfaces
+        {"/a": {"publishers": {"/pose": "x/msg/Pose"}}, "/b": {"subscribers": {"/pose": "x/Pose"}}}
+    """)

@@ -412,3 +412,27 @@ def test_a_test_that_fails_alone() -> None:
         //- interfaces
         {"/n": {"status": "exited", "exit_code": 1}}
     """)
+
+
+def test_a_crash_with_an_argument_that_is_not_known() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n" args="$(env NOT_SET)"/>
+                                                ^^^^^^^^^^^^^^ hint[LCH012]
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001]
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 2}}
+    """)
+
+
+def test_a_recording_on_a_disk_that_is_not_here() -> None:
+    said = "Error opening file: /media/patrick/RPNG FLASH 3/outdoor.bag"
+    check(f"""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] this machine has no '/media/patrick'
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
+    """)

@@ -43,7 +43,7 @@ def test_actions_are_evaluated_like_those_of_xml(harness: PythonHarness) -> None
         "DeclareLaunchArgument('robot', default_value='r1', choices=['r1', 'r2'])",
         "PushRosNamespace(LaunchConfiguration('robot'))",
         "SetParameter('use_sim_time', True)",
-        "Node(package='p', executable='x', name='one', arguments=['-a', ['--id=', LaunchConfiguration('robot')]],"
+        "Node(package='p', executable='x', name='one', arguments=['-a', '', ['--id=', LaunchConfiguration('robot')]],"
         " remappings=[('scan', '/lidar')], parameters=[PathJoinSubstitution([FindPackageShare('p'), 'config',"
         " 'p.yaml']), {'count': 1, 'text': '1', 'list': [1, 2.5], 'of': LaunchConfiguration('robot'),"
         " 'in': {'side': True}}])",
@@ -67,7 +67,7 @@ def test_actions_are_evaluated_like_those_of_xml(harness: PythonHarness) -> None
         "/r2/later": "node",
     }
     one = found["/r2/one"]
-    assert one.args == "-a --id=r2"
+    assert one.args == "-a '' --id=r2"
     assert [(remap.source, remap.target) for remap in one.remaps] == [("scan", "/lidar")]
     assert {param.name: param.value for param in one.params} == {
         "use_sim_time": True,

@@ -556,3 +556,16 @@ def test_python_packages_that_cmake_installs_are_imported(tmp_path: Path) -> Non
     (node,) = graph.processes
     assert [use.name for use in node.params if not use.builtin] == ["~path"]
     assert node.known_in_full
+
+
+@pytest.mark.parametrize(
+    ("end", "lacks"),
+    [
+        ("raise RuntimeError('pip3 install far_vision')", "the Python module far_vision"),
+        ("raise RuntimeError('no such map')", None),
+    ],
+)
+def test_a_crash_without_a_module_that_the_program_provides_for(tmp_path: Path, end: str, lacks: str | None) -> None:
+    imports = "try:\n    import far_vision\nexcept ImportError:\n    far_vision = None\n"
+    found = trace_without(write_node(tmp_path, f"{imports}import rospy\nrospy.init_node('n')\n{end}\n"))
+    assert (found.outcome.status, found.outcome.lacks) == ("crashed", lacks)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.span import Location, Origin
@@ -77,3 +78,10 @@ def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:
     child = f'<arg name={quoted_attribute(name)} value="{value}"/>'
     edit = insert_child(action, launch_file.document, child)
     return (Fix(f"Pass argument '{name}'" + (" on" if known else ""), (edit,), known),)
+
+
+def empty_arguments(context: Context, place: Location) -> list[str]:
+    """The arguments that are empty and that the value at a place is made of: their users give them."""
+    written = context.text(place)
+    empty = (name for name, arg in context.tree.args.items() if arg.value == "")
+    return [name for name in empty if re.search(rf"\$\((?:arg|var) {re.escape(name)}[ )]", written)]

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import BadValue
+from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _TRUTH = {
@@ -27,7 +28,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if bad.expected == "not empty":
             message = f"attribute '{bad.attribute}' of <{bad.tag}> is empty"
         fixes = rename(context, problem.location, bad.value, near) if near else ()
-        yield problem_finding(rule, problem, message + did_you_mean(near), fixes=fixes)
+        empty = empty_arguments(context, problem.location) if not bad.value else ()
+        message += f"; set argument {quoted(empty)}" if empty else did_you_mean(near)
+        yield problem_finding(rule, problem, message, severity="info" if empty else None, fixes=fixes)
 
 
 def _meant(bad: BadValue) -> str | None:

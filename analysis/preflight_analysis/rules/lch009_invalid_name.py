@@ -9,8 +9,9 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import InvalidName, Problem
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import insert_attribute
+from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.problems import as_written, problem_finding, problems_of
+from preflight_analysis.rules.problems import as_written, problem_finding, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -25,6 +26,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         invalid = problem.kind
         message = f"invalid {invalid.what} name '{as_written(invalid.name)}': {invalid.reason}"
         severity: Severity | None = None if problem.fatal else "warning"
+        if empty := empty_arguments(context, problem.location):
+            severity, message = "info", f"{message}; set argument {quoted(empty)}"
         yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
 
 

@@ -28,14 +28,18 @@ class _Lost(NamedTuple):
     kind: str
     span: Span
     again: Span
+    same: bool
+    """Whether it is the very same action: the second one takes its place."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for lost in _lost(launch_file) if path.endswith(".py") else ():
+            message = f"'{lost.name}' is assigned again before its first use: this {lost.kind} is never launched"
             yield rule.finding(
-                f"'{lost.name}' is assigned again before its first use: this {lost.kind} is never launched",
+                f"{message}, the next one is the same" if lost.same else message,
                 context.location(path, lost.span),
+                severity="hint" if lost.same else None,
                 confidence="likely",
                 related=(Related("assigned again here", context.location(path, lost.again)),),
             )
@@ -57,7 +61,7 @@ def _lost(launch_file: LaunchFile) -> tuple[_Lost, ...]:
 
 def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) -> Iterator[_Lost]:
     """Of two assignments in the same block the first one, if no statement between them speaks of the name."""
-    waiting: dict[str, tuple[ast.Name, str]] = {}
+    waiting: dict[str, tuple[ast.Name, str, str]] = {}
     for statement in block:
         target = statement.targets[0] if isinstance(statement, ast.Assign) and len(statement.targets) == 1 else None
         made = names.made_by(statement.value) if isinstance(statement, ast.Assign) else None
@@ -68,10 +72,12 @@ def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) ->
         if own is None:
             continue
         before = waiting.pop(own.id, None)
-        if made in _ACTIONS:
+        if made in _ACTIONS and isinstance(statement, ast.Assign):
+            text = ast.dump(statement.value)
             if before is not None:
-                yield _Lost(own.id, before[1], source.whole_span(before[0]), source.whole_span(own))
-            waiting[own.id] = (own, str(made))
+                first, kind, before_text = before
+                yield _Lost(own.id, kind, source.whole_span(first), source.whole_span(own), before_text == text)
+            waiting[own.id] = (own, str(made), text)
 
 
 RULE = Rule(
@@ -79,7 +85,7 @@ RULE = Rule(
     name="action-lost",
     severity="warning",
     what="Checks for an action in a Python launch file that is assigned to a variable, if the same block assigns "
-    "another action to that variable before any use.",
+    "another action to that variable before any use. If both are the same, the finding is a hint.",
     why="The name was copied with the line. The first node, process or include is never launched, and no tool "
     "reports it.",
     example='front = Node(package="camera", executable="front")\nfront = Node(package="camera", executable="rear")',

@@ -77,6 +77,7 @@ def _undefined(launch_file: LaunchFile) -> tuple[tuple[str, str | None, Span, bo
                     places[name] = node
     idle = [scopes[line] for _, line in missing if isinstance(scopes.get(line), _FUNCTIONS)]
     idle = [each for each in idle if not _is_spoken_of(source.module, each)]
+    idle += [each for each in source.module.body if isinstance(each, ast.If) and _is_of_a_program(each.test)]
     unused = {id(inner) for each in idle for inner in ast.walk(each)}
     return tuple(
         (name, nearest(name, defined), source.whole_span(node), id(node) not in unused)
@@ -89,6 +90,11 @@ def _is_spoken_of(module: ast.Module, function: ast.AST) -> bool:
     return name == "generate_launch_description" or any(
         isinstance(node, ast.Name) and node.id == name for node in ast.walk(module)
     )
+
+
+def _is_of_a_program(test: ast.expr) -> bool:
+    """`__name__ == "__main__"`, which no launch makes true."""
+    return isinstance(test, ast.Compare) and isinstance(test.left, ast.Name) and test.left.id == "__name__"
 
 
 def _tables(table: symtable.SymbolTable) -> Iterator[symtable.SymbolTable]:
@@ -122,7 +128,8 @@ RULE = Rule(
     severity="error",
     what="Checks for a name in a Python launch file that the file does not define, import or take as an argument. "
     "Branches that this launch does not take are checked too. Files that import `*` or create names at run time are "
-    "not checked, nor are annotations. In a function that the file does not use, the finding is information.",
+    "not checked, nor are annotations. In a function that the file does not use, or under "
+    "`if __name__ == '__main__'`, the finding is information.",
     why="Python raises a NameError only when it executes the line. The launch fails for users who set the argument "
     "that leads there.",
     example="def setup(context):\n    gz_paused = LaunchConfiguration('paused').perform(context)\n"

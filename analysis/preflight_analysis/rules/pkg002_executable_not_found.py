@@ -9,6 +9,7 @@ from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.rules.files import says_not_set
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import lack_of_build, lack_of_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
@@ -77,13 +78,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             hint = did_you_mean(near)
             slip = near is not None and (is_slip(node.executable, near) or is_slip(_stem(node.executable), _stem(near)))
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
+        placeholder = node.executable.startswith("/dev/") or says_not_set(node.executable)
+        if placeholder:
+            hint = "; set the argument that names it"
         yield rule.finding(
             f"executable '{node.executable}' not found in package '{node.package}' ({len(names)} executables in "
             f"{found.package_path} and the {_SPACES[context.tree.generation]}){hint}",
             location,
+            severity="info" if placeholder else None,
             confidence="likely" if node.unknowns else "certain",
             related=chain,
-            fixes=fixes,
+            fixes=() if placeholder else fixes,
         )
 
 

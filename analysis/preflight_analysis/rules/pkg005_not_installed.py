@@ -11,6 +11,7 @@ from preflight_analysis.environment.installed_paths import installed_at, install
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -52,10 +53,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             and not installed_at(disk, package, path)
             and not installs_more(disk, package)
         ):
+            # A copy that somebody put aside is no launch file by its name, and build files that name patterns leave it.
+            is_copy = not path.endswith(LAUNCH_SUFFIXES)
             yield rule.finding(
                 f"launch file '{below}' is not installed by {_build_file(package)} of '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",
                 context.location(path, launch_file.root.head_span),
+                severity="info" if is_copy else None,
                 confidence="likely",
                 fixes=_fixes(context, package, below),
             )

@@ -90,8 +90,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity: Severity | None = None
             if near is None and _is_fetched(path):
                 severity, hint = "info", "; fetch it first"
-            elif near is None and is_ignored(context.disk, path):
-                severity, hint = "info", "; git ignores it, so each machine may create it"
+            elif (near is None or not _is_beside(near, path)) and is_ignored(context.disk, path):
+                severity, fixes, hint = "info", (), "; git ignores it, so each machine may create it"
             elif near is None and depends_on_working_folder(context, location):
                 severity, hint = "info", "; the path depends on the folder where the launch is started"
             elif near is None and _CALIBRATION in named.what:
@@ -103,6 +103,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity, hint = "hint", "; the build of the package may create it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
             yield rule.finding(message, location, severity=severity, confidence="likely", related=related, fixes=fixes)
+
+
+def _is_beside(near: str, path: str) -> bool:
+    """Whether a file is in the same folder as another, or has its name elsewhere: one of a like name in another folder
+    tells less than that git ignores the path."""
+    return os.path.dirname(near) == os.path.dirname(path) or os.path.basename(near) == os.path.basename(path)
 
 
 def _in_params(context: Context) -> Iterator[_Named]:

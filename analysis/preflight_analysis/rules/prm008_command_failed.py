@@ -5,6 +5,7 @@ import re
 import shlex
 from collections.abc import Iterator
 
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand, Problem
@@ -30,6 +31,11 @@ _STDERR_LINES = 3
 _NO_FILE = re.compile(
     r"No such file or directory:? '?(?P<after>/[^'\s]+)|(?P<before>/[^'\s:]+): No such file or directory"
 )
+_NO_FILE_HERE = re.compile(
+    r"No such file or directory:? '?(?P<after>[\w.+-][^\s':]*)"
+    r"|(?<![^\s:'])(?P<before>[\w.+-][^\s':]*): No such file or directory"
+)
+"""With a path that is relative."""
 _NO_INPUT = "xacro: error: expected exactly one input file"
 _NONE = re.compile(r"(?<![A-Za-z])None(?![A-Za-z])")
 _GETENV = re.compile(r"(?:getenv|environ\.get)\(\s*['\"](\w+)['\"]\s*\)")
@@ -64,12 +70,24 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
         lack = _variable_in(context, path, problem.origin) or lack_of_made(context, path) or lack_of_file(context, path)
         if lack is None and is_ignored(context.disk, path):
             severity, message = "info", f"{message}; git ignores the file, so each machine may create it"
+    elif lack is None and any(_is_beside(context, problem.origin, line) for line in failed.stderr):
+        severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
     elif any(_NO_INPUT in line for line in failed.stderr):
         # An argument whose default is empty is how Python launch files say that it has to be given.
         empty = [name for name, arg in context.tree.args.items() if not arg.value]
         severity = "info" if empty else None
         message += f"; set argument {quoted(empty)}" if empty else ""
     return problem_finding(rule, problem, message, severity=severity, lack=lack)
+
+
+def _is_beside(context: Context, origin: Origin, said: str) -> bool:
+    """Whether what a command did not find has no folder, and is in that of the launch file: it is found by those who
+    start the launch there."""
+    found = _NO_FILE_HERE.search(said)
+    name = (found["after"] or found["before"]) if found is not None else None
+    folders = {os.path.dirname(place.file) for place in origin}
+    beside = (context.disk.text(os.path.join(folder, name)) for folder in folders) if name is not None else ()
+    return any(isinstance(each, Document) for each in beside)
 
 
 def _variable_in(context: Context, path: str, origin: Origin) -> Lack | None:

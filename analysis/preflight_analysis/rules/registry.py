@@ -18,6 +18,7 @@ import preflight_analysis.rules as package
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
@@ -28,6 +29,7 @@ from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain, numb
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
 _log = logging.getLogger(__name__)
+_GRAVE = ("error", "warning")
 _MOST_CONTEXTS = 5
 """Further includes that a finding tells of: a file may be included a thousand times."""
 _RULE_MODULE = re.compile(r"[a-z]{3}\d{3}_")
@@ -79,6 +81,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             chosen,
             tuple(ran) if silenced else (),
             path in guessed,
+            path in by_file and _is_set_aside(context, path, by_file[path]),
         )
     context.kept.end()
     return sorted_findings
@@ -167,9 +170,13 @@ def _of_file(
     rules: tuple[Rule, ...],
     ran: tuple[str, ...],
     is_guessed: bool,
+    is_set_aside: bool,
 ) -> tuple[Finding, ...]:
     """What is said of one file, of what the rules found there. `document` is that of a file with `suppressions`;
-    `is_guessed`: it is a program, and which branches it takes is not all known."""
+    `is_guessed`: it is a program, and which branches it takes is not all known; `is_set_aside`: the workspace does
+    not build what is around it."""
+    if is_set_aside:
+        findings = tuple(_information(f) if f.severity in _GRAVE else f for f in findings)
     if is_guessed:
         findings = tuple(replace(f, confidence="likely") if f.confidence == "certain" else f for f in findings)
     filtered = apply_suppressions(unique(findings), suppressions, document)
@@ -183,6 +190,14 @@ def _of_file(
     if others and counts is not None and counts.left_out is not None:
         kept.append(in_root(counts.left_out(counts, path, others), root))
     return tuple(sorted(kept, key=_place))
+
+
+def _is_set_aside(context: Context, path: str, findings: Iterable[Finding]) -> bool:
+    return any(each.severity in _GRAVE for each in findings) and is_set_aside(context.disk, context.environment, path)
+
+
+def _information(finding: Finding) -> Finding:
+    return replace(finding, severity="info", message=f"{finding.message} (colcon ignores this folder)")
 
 
 def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iterator[Finding]:

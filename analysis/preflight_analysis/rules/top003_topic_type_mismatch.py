@@ -10,7 +10,7 @@ from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.type_mismatch import mismatches
+from preflight_analysis.rules.type_mismatch import in_short, mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -37,7 +37,7 @@ def _of_one_node(channel: Channel) -> tuple[tuple[Connection, Connection], ...]:
             if end.endpoint.type in (None, "*") or end.endpoint.catalogued or end.action is not None:
                 continue
             other = first.setdefault(id(end.node), end)
-            if other.endpoint.type != end.endpoint.type:
+            if in_short(other.endpoint.type or "") != in_short(end.endpoint.type or ""):
                 found.append((other, end))
     return tuple(found)
 

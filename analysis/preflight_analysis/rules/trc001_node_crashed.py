@@ -6,6 +6,7 @@ from itertools import compress
 
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
@@ -50,6 +51,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or _is_of_another_program(outcome)
             or any(e.speculative for e in interface.endpoints)
             or node.kind == "test"
+            or "$(" in node.args
+            or is_unknown(node.args)
         )
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
         absent = absent_top_said(context.disk, told)

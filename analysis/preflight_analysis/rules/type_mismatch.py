@@ -74,12 +74,19 @@ def _difference(consumer: Connection, provider: Connection) -> str | None:
     if mine.type is None or theirs.type is None:
         # A roscpp client of a service knows no type, but what it sends is known by the sum.
         return f" (MD5 sums {theirs.md5} and {mine.md5})" if sums_differ else None
-    if mine.type != theirs.type:
+    if in_short(mine.type) != in_short(theirs.type):
         # Of a service only the sums are compared when it is called.
         return None if mine.role == "client" and mine.md5 and mine.md5 == theirs.md5 else ""
     if sums_differ:
         return f" (different definitions, MD5 sums {theirs.md5} and {mine.md5})"
     return None
+
+
+def in_short(name: str) -> str:
+    """A type's name without the folder that ROS 2 has in it: a launch file of a package for both generations may be
+    answered by nodes of either."""
+    package, _, rest = name.partition("/")
+    return f"{package}/{rest.rpartition('/')[2]}"
 
 
 def _confidence(graph: Graph, *connections: Connection) -> Confidence:

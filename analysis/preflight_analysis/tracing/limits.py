@@ -34,6 +34,7 @@ _SIGNS = (
         r"|Errno -[23]\b|Max retries exceeded|Could not resolve host",
         "a network",
     ),
+    (r"Namespace \w+ not available", "a library of GObject introspection that is not installed here"),
     (r"not a git repository", "the git repository, which the sandbox hides"),
     (r"Wrong input topic|does not appear to be published yet", "another node to publish a topic when it starts"),
 )

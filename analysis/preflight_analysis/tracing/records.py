@@ -94,6 +94,8 @@ class Gathered:
     """Parameters of ROS 2 by name and node, with their keys in `params`."""
     stand_ins: set[str] = field(default_factory=set)
     """Modules that were missing."""
+    lacked: set[str] = field(default_factory=set)
+    """Modules that were missing and that the program itself did without."""
     searched: dict[str, None] = field(default_factory=dict)
     """Where they could turn up."""
     loading: bool = False
@@ -144,6 +146,11 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
                 return False
             found.stand_ins.add(name)
             found.searched.update((path, None) for path in list(paths(record.get("paths")))[:MAX_STAND_INS])
+        case "lacked":
+            name = checked_text(record.get("name"), _MODULE)
+            if name is None or len(found.lacked) >= MAX_STAND_INS:
+                return False
+            found.lacked.add(name)
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
         case "files":

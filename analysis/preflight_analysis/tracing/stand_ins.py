@@ -13,13 +13,19 @@ from dataclasses import replace
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.agents.variables import STAND_INS
-from preflight_analysis.tracing.interface import Outcome
+from preflight_analysis.tracing.interface import Outcome, telling_line
 from preflight_analysis.tracing.records import Gathered
 
 _FILE = f"{recipes.ROS_HOME}/stand_ins.json"
 _MOST_NAMED = 3
 _OURS = re.compile(r"(Attribute|Type|Import|ModuleNotFound|NotImplemented|Recursion)Error\b")
 """What a stand-in that is not like the real thing would make a node end for."""
+
+_INSTALL = re.compile(
+    r"(?i)\bpip3? install\b|\bnot (?:be )?(?:installed|available|found|imported)\b|\b(?:un|in)available\b"
+    r"|\bis missing\b|\brequire[sd]?\b|'NoneType' object|\bname '\w+' is not defined"
+)
+"""How a program that goes on without a module says later that it cannot."""
 
 _OLD = re.compile(r"\b(Syntax|Indentation|Tab)Error\b|there is no '[^']*python2[^']*'")
 """What a program in Python 2 ends for that is run by Python 3, or by nothing."""
@@ -44,9 +50,11 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
         # What it would have done is in the module that is missing.
         outcome, failed = replace(outcome, status="crashed"), True
     ours = found.unknown or _OURS.search(outcome.reason or "") is not None
-    if not failed or not found.stand_ins or not ours:
+    modules = sorted(found.stand_ins) if ours else []
+    if not modules and _INSTALL.search(f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"):
+        modules = sorted(found.lacked)
+    if not failed or not modules:
         return outcome
-    modules = sorted(found.stand_ins)
     more = f" and {len(modules) - _MOST_NAMED} more" if len(modules) > _MOST_NAMED else ""
     plural = "s" if len(modules) > 1 else ""
     return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")

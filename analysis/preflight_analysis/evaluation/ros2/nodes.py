@@ -335,7 +335,9 @@ def _words(performer: Performer, action: Action, name: str) -> list[str]:
     (`ExecuteProcess._parse_cmdline`)."""
     given = [value for child in action.children if child.kind == "argument" and (value := child.value("value"))]
     if given:
-        texts = (performer.value(value).text for value in given)
+        texts = [performer.value(value).text for value in given]
+        if name == "args":
+            texts = [text or "''" for text in texts]  # a program gets one that is empty
         return [performer.state.located(text) if text.startswith("/") else text for text in texts]
     value = action.value(name)
     if value is None:

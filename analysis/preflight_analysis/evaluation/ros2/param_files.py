@@ -24,6 +24,8 @@ from preflight_analysis.evaluation.ros2 import rcl_yaml
 MARK = "ros__parameters"
 EVERY = "/**"
 """The key of what is for every node."""
+_TABS_AT_END = re.compile(r"(?<=\S)[ \t]*\t[ \t]*(?=#|$)", re.MULTILINE)
+"""Before a comment, or the end of a line that has something."""
 _MAX_DEPTH = 40
 _MAX_KEYS = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
@@ -119,6 +121,10 @@ def read_made_param_file(text: str) -> ParamFile:
 
 def _read(text: str) -> ParamFile:
     parsed = parse_yaml("", text)
+    if parsed.document.problems and "\t" in text:
+        # libyaml, by which rcl reads the file, takes a tab there for a blank (`yaml_parser_scan_to_next_token`).
+        read_by_libyaml = parse_yaml("", _TABS_AT_END.sub(_blanks, text))
+        parsed = parsed if read_by_libyaml.document.problems else read_by_libyaml
     problems = parsed.document.problems
     problem = (problems[0].message, problems[0].span) if problems else None
     reader = _Reader()
@@ -126,6 +132,10 @@ def _read(text: str) -> ParamFile:
         reader.nodes(parsed.node, (), (), 0)
     flat = _Reader().params(parsed.node) if not reader.sections and isinstance(parsed.node, yaml.MappingNode) else ()
     return ParamFile(tuple(reader.sections), problem, tuple(reader.unmarked), tuple(reader.refused), tuple(flat))
+
+
+def _blanks(found: re.Match[str]) -> str:
+    return " " * len(found[0])
 
 
 class _Reader:

@@ -30,10 +30,16 @@ Note = Callable[[str, str, int], None]
 
 class MissingModules(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """The last of `sys.meta_path`. `stands_in` says whether a module may have a stand-in that is missing in a package
-    which is there; where the package is missing as well it has one."""
+    which is there; where the package is missing as well it has one. `lacked` is told of a module without which the
+    program itself goes on."""
 
-    def __init__(self, note: Note, stands_in: Callable[[str], bool] = lambda name: False) -> None:
-        self._note, self._stands_in = note, stands_in
+    def __init__(
+        self,
+        note: Note,
+        stands_in: Callable[[str], bool] = lambda name: False,
+        lacked: Callable[[str], None] = lambda name: None,
+    ) -> None:
+        self._note, self._stands_in, self._lacked = note, stands_in, lacked
         self.noted: dict[str, None] = {}
 
     def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
@@ -44,7 +50,10 @@ class MissingModules(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         if not above and fullname in getattr(sys, "stdlib_module_names", ()):
             return None  # another system's
         frame = importer()
-        if frame is None or not _imports(frame, fullname) or _only_asks() or provided_for(frame, IMPORTS):
+        if frame is None or not _imports(frame, fullname) or _only_asks():
+            return None
+        if provided_for(frame, IMPORTS):
+            self._lacked(fullname)
             return None
         if not within and fullname not in self.noted:
             self.noted[fullname] = None

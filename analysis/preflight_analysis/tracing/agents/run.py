@@ -34,6 +34,7 @@ EVENTS = frozenset(
         "files",
         "wrote",
         "stood-in",
+        "lacked",
         "woven",
         "weave-failed",
     )

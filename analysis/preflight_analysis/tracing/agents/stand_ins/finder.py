@@ -112,12 +112,17 @@ def note(name: str, file: str = "", line: int = 0) -> None:
         channel.send("stood-in", name=top, paths=[p for p in sys.path if os.path.isabs(p) and not p.startswith(ours)])
 
 
+def lacked(name: str) -> None:
+    """Tell of a module without which the program itself goes on."""
+    channel.send("lacked", name=name.partition(".")[0])
+
+
 def install() -> None:
     """Be asked last, where the host says so."""
     with open(os.environ[STAND_INS], encoding="utf-8") as file:
         job = json.load(file)
     on_use.append(lambda: channel.send("asked", what="stand-in"))
     found = StandIns(job["generation"], job["packages"])
-    sys.meta_path += [found, MissingModules(note, found.stands_in)]
+    sys.meta_path += [found, MissingModules(note, found.stands_in, lacked)]
     if AGAIN in os.environ:
         put_rclpy_first()
