@@ -122,7 +122,8 @@ def rclpy_rows(sources: Path) -> Iterator[Row]:
             if ran.outcome.status == "spinning" and "rclpy" not in ran.stand_ins and said is not None:
                 ends: Ends = {(e.role, e.name, e.type) for e in ran.endpoints if not e.builtin}
                 params = {use.name for use in ran.params if not use.builtin}
-                yield _row(f"{package}/{name}", _NODE, ends, params, said)
+                # What is private is told below the name that the program gives its node.
+                yield _row(f"{package}/{name}", ran.own_name("/") or _NODE, ends, params, said)
 
 
 def _python_nodes(environment: Environment) -> Iterator[tuple[str, str, TraceRequest]]:

@@ -200,6 +200,7 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         said = _read(analysis, [key])
         if said is not None:
             _add_named_by_parameters(analysis, key, said, typed=True)
+            _add_declared(said, DECLARED.get(environment.distro or "", {}).get(package.name, {}).get(cls, {}))
             components[cls] = said
     for plugin in _nodelets(package) if not package.is_ament else ():
         key = SourceKey(None, None, "nodelet", "nodelet", None, f"{_SPACE}{_NAME}", f"standalone {plugin}", ())

@@ -252,9 +252,25 @@ _CLOUDS = {
         {"name": "~indices", "type": "pcl_msgs/PointIndices", "conditional": True},
     ],
 }
+_SOURCES = {
+    # https://docs.nav2.org/configuration/packages/configuring-collision-monitor.html: each source has a `type`
+    "subscriptions": [
+        {"named_by": "~*.topic"},
+        {"named_by": "~*.polygon_sub_topic", "type": "geometry_msgs/msg/PolygonStamped"},
+        {"named_by": "~*.footprint_topic", "type": "geometry_msgs/msg/PolygonStamped"},
+    ],
+    "publishers": [{"named_by": "~*.polygon_pub_topic", "type": "geometry_msgs/msg/PolygonStamped"}],
+}
 _STAMPED = {"true": "geometry_msgs/msg/TwistStamped", "false": "geometry_msgs/msg/Twist"}
 DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]]] = {
     "jazzy": {
+        "nav2_collision_monitor": dict.fromkeys(
+            (
+                *("collision_detector", "collision_monitor"),
+                *("nav2_collision_monitor::CollisionDetector", "nav2_collision_monitor::CollisionMonitor"),
+            ),
+            _SOURCES,
+        ),
         "twist_mux": {
             "twist_mux": {
                 # https://docs.ros.org/en/ros2_packages/jazzy/api/twist_mux/__CHANGELOG.html: `use_stamped` since 4.4.0
@@ -296,9 +312,9 @@ DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[s
     },
 }
 """Ends that parameters name of which the source has a list, of scripts that start other programs, and of nodes that
-their arguments make, or that a library of another repository does: by distribution, package and executable or nodelet,
-in the groups of NoDL. `*` is for any name, and in ROS 1 for each item of a list; `typed_by` is the parameter
-that decides the type, and the type by its value."""
+their arguments make, or that a library of another repository does: by distribution, package and executable, component
+or nodelet, in the groups of NoDL. `*` is for any name, and in ROS 1 for each item of a list; `typed_by` is the
+parameter that decides the type, and the type by its value."""
 VALUES: Mapping[str, Sequence[str]] = {"data_type": ("LaserScan", "PointCloud2")}
 """What parameters of plugins have of which types depend, by the last part of their names: sources of costmaps."""
 OTHER_VERSIONS = {"jazzy": {"ros-navigation/navigation2": ("humble", "kilted", "main")}}
