@@ -11,7 +11,7 @@ def test_findings_beyond_the_limit_are_counted() -> None:
     shown = [f for f in findings if f.rule != "LCH038"]
     (note,) = [f for f in findings if f.rule == "LCH038"]
     assert len(shown) == MAX_FINDINGS
-    assert note.message == "701 more findings of this file are left out: 701 of LCH004"
+    assert note.message == "701 more findings of this file are left out: 701 of 'LCH004'"
     assert note.severity == "warning"
     assert "LCH006" in {f.rule for f in shown}, "the most severe are shown, wherever they are"
 

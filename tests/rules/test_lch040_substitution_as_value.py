@@ -15,11 +15,11 @@ _START = """//- /robot.launch.py
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        ("IfCondition(sim) and UnlessCondition(sim)", "Python's 'and' drops 'IfCondition(sim)': a condition is always"),
+        ("IfCondition(sim) and UnlessCondition(sim)", "Python's 'and' drops 'IfCondition(sim)': 'IfCondition' is"),
         ("conditions.IfCondition(sim) or UnlessCondition(sim)", "Python's 'or' drops 'UnlessCondition(sim)'"),
-        ("not sim", "'not' is always False: a LaunchConfiguration is always true"),
-        ("sim == 'true'", "comparison is always False: a LaunchConfiguration has no value"),
-        ("'true' != sim", "comparison is always True: a LaunchConfiguration has no value"),
+        ("not sim", "'not' is always False: 'LaunchConfiguration' is always true"),
+        ("sim == 'true'", "comparison is always False: 'LaunchConfiguration' has no value"),
+        ("'true' != sim", "comparison is always True: 'LaunchConfiguration' has no value"),
         ("f'world_{sim}.sdf'", "the text contains a Python object"),
         ("str(sim)", "the text contains a Python object"),
     ],
@@ -40,7 +40,7 @@ def test_in_a_statement() -> None:
         {_START}
         def generate_launch_description():
             if LaunchConfiguration("sim"):
-               ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH040] a LaunchConfiguration is always true before the launch runs
+               ^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH040] 'LaunchConfiguration' is always true before the launch runs
                 return LaunchDescription([])
             return LaunchDescription([])
     """)

@@ -154,7 +154,7 @@ def test_a_blank_name() -> None:
         """)
         if each.rule == "PKG002"
     )
-    assert (finding.severity, finding.message) == ("error", "executable name is blank")
+    assert (finding.severity, finding.message) == ("error", "executable name of /spawner is blank")
 
 
 def test_a_name_that_has_to_be_given(launch: Path) -> None:

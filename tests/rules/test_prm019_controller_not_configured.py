@@ -133,7 +133,7 @@ _ROS1 = """
     ("args", "more", "said"),
     [
         ("elbowf_controller", "", "did you mean 'elbow_controller'?"),
-        ("wrist", "", "nothing sets '/arm/wrist/type'"),
+        ("wrist", "", "parameter '/arm/wrist/type' is not set"),
         ("elbowf_controller", '<include file="$(find elsewhere)/a.launch"/>', "did you mean 'elbow_controller'?"),
         ("wrist", '<include file="$(find elsewhere)/a.launch"/>', None),
         ("elbow_controller", "", None),

@@ -51,6 +51,8 @@ from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, M
 from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
 
+from support.messages import wording
+
 _FILE = re.compile(r"//- (\S+)\s*\Z")
 _EXPECTED = re.compile(r"\s*(\^+) (error|warning|info|hint)\[([A-Z]{3}\d{3})\] ?(.*)\Z")
 _ROLES: Mapping[str, Role] = {
@@ -205,8 +207,10 @@ def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assu
 
 
 def findings_of(text: str, **options: Any) -> list[Finding]:
-    """The findings of a fixture; what it expects is not looked at."""
-    return run_rules(analyse(read_fixture(text), **options))
+    """The findings of a fixture; what it expects is not looked at. How they are worded is."""
+    findings = run_rules(analyse(read_fixture(text), **options))
+    _check_wording(findings)
+    return findings
 
 
 def check(text: str, **options: Any) -> list[Finding]:
@@ -225,7 +229,13 @@ def check(text: str, **options: Any) -> list[Finding]:
             unmet.remove(met)
     complaint = [f"missing: {_shown(each)}" for each in unmet] + [f"not expected: {_shown(each)}" for each in extra]
     assert not complaint, "\n" + "\n".join(complaint)
+    _check_wording(findings)
     return findings
+
+
+def _check_wording(findings: Sequence[Finding]) -> None:
+    complaint = [each for finding in findings for each in wording(finding)]
+    assert not complaint, "\n" + "\n".join(complaint)
 
 
 def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:

@@ -44,10 +44,10 @@ RULE = Rule(
     id="LCH018",
     name="not-evaluated",
     severity="info",
-    what="Checks for parts of a launch file that are valid but not evaluated here. These are: the `command` of a "
-    "parameter that was not run, an `$(eval ...)` that needs Python itself, a Python launch file that was not run, "
-    "an entity of a DOCTYPE, and endless includes and groups. A command that was not run is a hint. Commands run in "
-    "the sandbox if the workspace is trusted.",
+    what="Checks for parts of a launch file that are valid but not evaluated here. These are the `command` of a "
+    "parameter that was not run, and an `$(eval ...)` that needs Python itself. Others are a Python launch file "
+    "that was not run, an entity of a DOCTYPE, and endless includes and groups. A command that was not run is a "
+    "hint. Commands run in the sandbox if the workspace is trusted.",
     why="Values that depend on it are unresolved, and nodes that need them are not run. Findings that need the "
     "values are missing. It is not an error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',

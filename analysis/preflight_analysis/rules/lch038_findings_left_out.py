@@ -17,7 +17,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _left_out(rule: Rule, path: str, findings: Sequence[Finding]) -> Finding:
     counts = Counter(finding.rule for finding in findings)
-    named = ", ".join(f"{count} of {each}" for each, count in counts.most_common())
+    named = ", ".join(f"{count} of '{each}'" for each, count in counts.most_common())
     severity = findings[0].severity  # the most severe of them comes first
     message = f"{len(findings)} more findings of this file are left out: {named}"
     return rule.finding(message, Location.of_file(path), severity=severity)

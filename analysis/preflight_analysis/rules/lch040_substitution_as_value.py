@@ -112,9 +112,7 @@ class _Finder(ast.NodeVisitor):
 
     def _kind(self, node: ast.expr) -> str | None:
         made = self._names.made_by(node)
-        if made in CONDITIONS:
-            return "a condition"
-        return f"a {made}" if made in SUBSTITUTIONS else None
+        return f"'{made}'" if made in CONDITIONS or made in SUBSTITUTIONS else None
 
     def _written(self, node: ast.expr) -> str:
         span = self._source.whole_span(node)

@@ -84,8 +84,8 @@ RULE = Rule(
     id="LCH042",
     name="action-lost",
     severity="warning",
-    what="Checks for an action in a Python launch file that is assigned to a variable, if the same block assigns "
-    "another action to that variable before any use. If both are the same, the finding is a hint.",
+    what="Checks for an action in a Python launch file that is assigned to a variable and never used. The same "
+    "block assigns another action to that variable before. If both are the same, the finding is a hint.",
     why="The name was copied with the line. The first node, process or include is never launched, and no tool "
     "reports it.",
     example='front = Node(package="camera", executable="front")\nfront = Node(package="camera", executable="rear")',

@@ -172,7 +172,7 @@ RULE = Rule(
     "names a package whose folder has that name and whose `package.xml` has another. A package that is released, or "
     "that a `package.xml` names, may be missing on this machine only: this is a hint with the Debian package. An "
     "unknown package is information if it is the only one in the launch. It is a warning if the workspace has one "
-    "of a similar name, or one with all files that the launch file asks for in the unknown package.",
+    "of a similar name. The same applies if one has all files that the launch file uses of the unknown package.",
     why="`roslaunch` stops at `$(find ...)` of a missing package, and does not start a node of one. `ros-preflight "
     "doctor` shows the folders that are searched.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

@@ -29,7 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if node.executable.isspace() and not node.unknowns:
             place = attribute_location(context, node, context.tree.ros.executable)
-            yield rule.finding("executable name is blank", place, related=include_chain(node.origin))
+            yield rule.finding(f"executable name of {node.name} is blank", place, related=include_chain(node.origin))
             continue
         if found.path is not None or found.package_path is None or not program_known(node):
             continue

@@ -261,12 +261,12 @@ RULE = Rule(
     name="parameter-set-twice",
     severity="warning",
     what="Checks for a parameter value that another one overrides in a way that is easily missed. In ROS 1 the "
-    "parameter is set twice in one tag or file, before an include or file that sets it again, or in the "
-    "`<rosparam>` of a node with a `<param>` of that name. A key that is twice in one YAML dictionary is reported "
-    "too. A parameter file that is overridden on purpose is not reported, nor are included files and tags under a "
-    "condition. In ROS 2 a `<param>`, or a dictionary in `parameters=[...]`, comes before another one or a file "
-    "that sets the same parameter. A value for the node's own name that a later wildcard in the file overrides is "
-    "reported too.",
+    "parameter is set twice in one tag or file, or before an include or file that sets it again. It may also be in "
+    "the `<rosparam>` of a node with a `<param>` of that name. A key that is twice in one YAML dictionary is "
+    "reported too. A parameter file that is overridden on purpose is not reported, nor are included files and tags "
+    "under a condition. In ROS 2 a `<param>`, or a dictionary in `parameters=[...]`, comes before another one or a "
+    "file that sets the same parameter. A value for the node's own name that a later wildcard in the file overrides "
+    "is reported too.",
     why="A change of the overridden value has no effect. The last of several settings applies, and no launcher "
     "reports the others. In a `<node>` of ROS 1 each `<param>` comes after each `<rosparam>`. A `<param "
     'name="~...">` around the node comes after those too. In ROS 2 the client library first collects all files by '

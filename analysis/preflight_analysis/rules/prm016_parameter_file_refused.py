@@ -74,10 +74,10 @@ RULE = Rule(
     name="parameter-file-refused",
     severity="error",
     what="Checks for parameter files that are valid YAML and that rcl refuses. Reported are a list of mixed types "
-    "such as `[1, 2.5]`, a list of lists, a parameter without a value, and a key with a slash below another key. "
-    "`y`, `n`, `on` and `off` are bools, so `[x, y, z]` is a list of mixed types, in a launch file too. In a "
-    "parameter file of the package that no node of the launch gets, the finding is a warning, because a program or "
-    "an argument may use it.",
+    "such as `[1, 2.5]` and a list of lists. So are a parameter without a value and a key with a slash below "
+    "another key. `y`, `n`, `on` and `off` are bools, so `[x, y, z]` is a list of mixed types, in a launch file "
+    "too. A parameter file of the package that no node of the launch gets is a warning. A program or an argument "
+    "may use it.",
     why="rcl refuses the whole file: `Sequence should be of same type`. Each node that gets it exits at once, even "
     "if it has no section in the file.",
     example="camera:\n  ros__parameters:\n    gains: [1, 2.5]",

@@ -155,9 +155,9 @@ RULE = Rule(
     name="listed-not-configured",
     severity="warning",
     what="Checks for a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, "
-    "...) without a `NAME.plugin` or `NAME.type`, if another name of the list has one. The default lists of Nav2 "
-    "are not checked, because Nav2 knows their plugins. Parameter files of the package that no node of the launch "
-    "gets are checked too. It also checks for a name in `controller_names` of MoveIt without a section.",
+    "...) without a `NAME.plugin` or `NAME.type`. Another name of the list has one. The default lists of Nav2 are "
+    "not checked, because Nav2 knows their plugins. Parameter files of the package that no node of the launch gets "
+    "are checked too. It also checks for a name in `controller_names` of MoveIt without a section.",
     why="The node requests that parameter for each name of the list and does not start without it. Often the list "
     "and the section differ in the name.",
     example='plugins: ["voxel_layer", "inflation_layer"]\n'

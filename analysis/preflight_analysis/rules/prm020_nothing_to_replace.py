@@ -63,8 +63,8 @@ RULE = Rule(
     name="nothing-to-replace",
     severity="warning",
     what="Checks for a key in the `param_rewrites` of a `RewrittenYaml`, or a text in the `replacements` of a "
-    "`ReplaceString`, that the source file does not contain. The finding is a warning if the file has one of a "
-    "similar name, otherwise a hint. Launch files often have rewrites for several files.",
+    "`ReplaceString`, that the source file lacks. The finding is a warning if the file has one of a similar name, "
+    "otherwise a hint. Launch files often have rewrites for several files.",
     why="`RewrittenYaml` adds no keys. The nodes keep the value of the file, and no tool reports it.",
     example="RewrittenYaml(source_file=params, param_rewrites={'use_sim_tme': use_sim_time})",
     instead="RewrittenYaml(source_file=params, param_rewrites={'use_sim_time': use_sim_time})",

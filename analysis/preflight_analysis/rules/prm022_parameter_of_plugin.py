@@ -117,8 +117,8 @@ RULE = Rule(
     id="PRM022",
     name="parameter-of-plugin-not-declared",
     severity="warning",
-    what="Checks for a parameter below the name of a plugin that the plugin does not declare, if it declares an "
-    "unset one of a similar name. The catalogue lists the parameters of the plugins of Nav2. Plugins of the "
+    what="Checks for a parameter below the name of a plugin that the plugin does not declare. The plugin declares "
+    "an unset one of a similar name. The catalogue lists the parameters of the plugins of Nav2. Plugins of the "
     "workspace are read from their source. Parameters of other versions of a plugin are not reported.",
     why="The plugin uses its default, and no tool reports that the value of the file is unused.",
     example='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_maxx: 0.3',

@@ -95,7 +95,7 @@ RULE = Rule(
     name="recorded-not-published",
     severity="warning",
     what="Checks for a topic in the arguments of `rosbag record` or `ros2 bag record` without publisher and "
-    "subscriber in the launch, if a node publishes a topic of a similar name. The finding is information if not all "
+    "subscriber in the launch. A node publishes a topic of a similar name. The finding is information if not all "
     "nodes are known. Other topics of a recorder may come from another launch and are not reported.",
     why="The recorder waits for the topic without an error, and the recording lacks it.",
     example='<node pkg="rosbag" type="record" name="record" args="/scna /odom"/>',

@@ -180,12 +180,12 @@ RULE = Rule(
     severity="warning",
     what="Checks for a node that exits with an error before its event loop. The finding quotes the line of its "
     "standard error that gives the cause. It is information if the cause may be outside of the launch file. Such "
-    "causes are: a mock reply that the node received, a parameter that PRM001, PRM010, PRM014 or PRM017 "
-    "reports, a value that is an error of its own, and a missing `robot_description`. Other such causes are a top "
-    "folder that this machine lacks (`/ws/src/...` of a container), the home folder of another user, a disk that is "
+    "causes are: a mock reply that the node received, a parameter that another rule reports (PRM001, PRM010, "
+    "PRM014, PRM017), an invalid value, and a missing `robot_description`. Other such causes are a top folder that "
+    "this machine lacks (`/ws/src/...` of a container), and the home folder of another user. So are a disk that is "
     "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "
-    "browser's own sandbox, a folder to write to, a topic of another node, or a file that git ignores. A `<test>`, "
-    "and a program that a signal kills in a shell script, are information too.",
+    "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
+    "ignores. A `<test>`, and a program that a signal kills in a shell script, are information too.",
     why="With these parameters and arguments the node most likely exits on the robot too. Only what it did before "
     "is known.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
