@@ -176,11 +176,11 @@ async def test_codes_are_no_links_for_a_client_that_does_not_follow_them(harness
 
 async def test_trust_is_managed_where_the_client_can(harness: Harness) -> None:
     title = "Manage workspace trust"
-    async with editing(harness, settings={"clientCommands": ["rosPreflight.manageTrust"]}) as editor:
+    async with editing(harness, settings={"clientCommands": ["workbench.trust.manage"]}) as editor:
         editor.open(harness.launch_file)
         action = (await offered(editor, harness.launch_file, "TRC004"))[title]
         assert action.command is not None
-        assert action.command.command == "rosPreflight.manageTrust"
+        assert action.command.command == "workbench.trust.manage"
     async with editing(harness) as editor:
         editor.open(harness.launch_file)
         assert title not in await offered(editor, harness.launch_file, "TRC004")

@@ -42,7 +42,7 @@ async def test_the_server_says_what_triggers(harness: Harness) -> None:
         assert editor.result is not None
         provider = editor.result.capabilities.completion_provider
         assert provider is not None
-        assert set(provider.trigger_characters or ()) == set("< \"'/$(:")
+        assert set(provider.trigger_characters or ()) == set("< \"'/$(:>")
 
 
 async def test_from_an_empty_file_on(harness: Harness, path: Path) -> None:
@@ -163,3 +163,100 @@ async def test_a_new_node_beside_known_ones_is_known_by_its_source(harness: Harn
                 return labels(await at_cursor(editor, harness.launch_file, typed, None))
 
             await editor.once(proposals, lambda found, expected=expected: expected in found)
+
+
+async def test_a_folder_keeps_its_slash_and_what_is_in_it_comes_next(harness: Harness, path: Path) -> None:
+    settings = {"clientCommands": ["editor.action.triggerSuggest"]}
+    typed = '<launch>\n  <include file="$(find preflight_demo)/lau$0"/>\n</launch>'
+    async with editing(harness, settings=settings) as editor:
+        (folder,) = [i for i in await at_cursor(editor, path, typed) if i.label == "launch/"]
+        assert folder.command == types.Command("", "editor.action.triggerSuggest")
+        assert editor.accept(path, folder) == '  <include file="$(find preflight_demo)/launch/"/>'
+        inside = await at_cursor(editor, path, typed.replace("lau$0", "launch/in$0"), "/")
+        (inner,) = [i for i in inside if i.label == "inner.launch"]
+        assert inner.command is None
+        (folder,) = [i for i in await at_cursor(editor, path, typed.replace("$0", "$0/x")) if i.label == "launch/"]
+        assert editor.accept(path, folder) == '  <include file="$(find preflight_demo)/launch/x"/>', "not twice"
+    async with editing(harness) as editor:
+        (folder,) = [i for i in await at_cursor(editor, path, typed) if i.label == "launch/"]
+        assert folder.command is None, "a client that does not know the command"
+
+
+SNIPPETS = {
+    "typed.launch": (
+        "<launch>\n  <$0\n</launch>\n",
+        {
+            "node with parameter file": "<rosparam",
+            "include with argument": "<arg",
+            "node container (nodelet manager)": "",
+        },
+    ),
+    "typed.launch.xml": (
+        '<launch>\n  <let name="a" value="b"/>\n  <$0\n</launch>\n',
+        {
+            "node with parameter file": '<param from="',
+            "include with argument": "<arg",
+            "node_container with component": "<composable_node",
+        },
+    ),
+    "typed.launch.yaml": (
+        "launch:\n  - $0\n",
+        {
+            "node with parameter file": "- from: ",
+            "include with argument": "arg:",
+            "node_container with component": "composable_node:",
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SNIPPETS)
+async def test_snippets_of_what_belongs_together(harness: Harness, name: str) -> None:
+    text, expected = SNIPPETS[name]
+    path = harness.launch_file.with_name(name)
+    async with editing(harness) as editor:
+        found = await at_cursor(editor, path, text)
+        snippets = {i.label: i for i in found if i.kind == types.CompletionItemKind.Snippet}
+        assert set(snippets) == set(expected)
+        for label, inside in expected.items():
+            assert snippets[label].insert_text_format == types.InsertTextFormat.Snippet
+            edit = snippets[label].text_edit
+            assert isinstance(edit, types.TextEdit)
+            assert inside in edit.new_text
+    async with editing(harness, client=capabilities(snippets=False)) as editor:
+        found = await at_cursor(editor, path, text)
+        assert found
+        assert not [i for i in found if i.kind == types.CompletionItemKind.Snippet]
+
+
+@pytest.mark.silent
+async def test_no_snippets_where_their_tag_cannot_stand(harness: Harness, path: Path) -> None:
+    async with editing(harness) as editor:
+        inside = await at_cursor(
+            editor, path, '<launch>\n  <node pkg="p" type="t" name="n">\n    <$0\n  </node>\n</launch>'
+        )
+        assert inside
+        assert not [i for i in inside if i.kind == types.CompletionItemKind.Snippet]
+
+
+async def test_a_tag_is_closed_behind_the_cursor(harness: Harness, path: Path) -> None:
+    async with editing(harness) as editor:
+        (end,) = await at_cursor(editor, path, "<launch>\n  <group>$0\n</launch>", ">")
+        assert editor.accept(path, end) == "  <group>$0</group>"
+        assert end.insert_text_format == types.InsertTextFormat.Snippet
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<launch>\n  <group>$0</group>\n</launch>",
+        "<launch>\n  <group/>$0\n</launch>",
+        "<launch>\n  <group></group>$0\n</launch>",
+        "<launch>\n  <!-- a -->$0\n</launch>",
+        '<launch>\n  <param name="a" value="1 >$0"/>\n</launch>',
+    ],
+)
+async def test_nothing_is_closed_twice(harness: Harness, path: Path, text: str) -> None:
+    async with editing(harness) as editor:
+        assert await at_cursor(editor, path, text, ">") == []

@@ -142,3 +142,52 @@ async def test_no_refresh_for_a_client_that_knows_none(harness: Harness, files: 
         editor.watched(outer)
         await editor.once(lambda: titles(editor, inner), lambda shown: shown[1] == "1 of 2 nodes")
         assert editor.lens_refreshes == 0
+
+
+async def test_a_file_that_is_not_evaluated_says_so(harness: Harness) -> None:
+    path = harness.launch_file.with_name("late.launch.py")
+    path.write_text("def generate_launch_description():\n    return nothing\n")
+    async with editing(harness) as editor:
+        editor.open(path, language="python")
+        first = (await titles(editor, path))[0]
+        assert first.startswith("not evaluated: ")
+        assert "not trusted" in first
+        other = harness.write("other.launch", "<lanch></lanch>")
+        editor.open(other)
+        assert (await titles(editor, other))[0] == "not evaluated: it has no root element 'launch'"
+        editor.change(other, "")
+        assert await titles(editor, other) == []
+    async with editing(harness, trusted=True) as editor:
+        editor.open(path, language="python")
+        await editor.having(path, "LCH032")
+        found = await editor.once(lambda: titles(editor, path), lambda shown: "NameError" in shown[0])
+        assert found[0] == "not evaluated: NameError: name 'nothing' is not defined"
+
+
+@pytest.mark.silent
+async def test_a_file_that_is_evaluated_says_nothing_of_it(harness: Harness) -> None:
+    path = harness.launch_file.with_name("good.launch.py")
+    path.write_text(
+        "from launch import LaunchDescription\n\n\n"
+        "def generate_launch_description():\n    return LaunchDescription([])\n"
+    )
+    async with editing(harness, trusted=True) as editor:
+        editor.open(path, language="python")
+        await editor.once(
+            lambda: titles(editor, path), lambda shown: shown == ["0 includers", "0 nodes", "launched by this file"]
+        )
+
+
+async def test_the_nodes_that_run_are_seen(harness: Harness) -> None:
+    scripts = harness.workspace / "scripts"
+    (scripts / "slow.py").write_text("#!/usr/bin/env python3\nimport time\nwhile True:\n    time.sleep(0.1)\n")
+    (scripts / "slow.py").chmod(0o755)
+    path = harness.write(
+        "slow.launch", '<launch>\n  <node pkg="preflight_demo" type="slow.py" name="slow"/>\n</launch>\n'
+    )
+    async with editing(harness, trusted=True) as editor:
+        editor.open(path)
+        await editor.once(lambda: titles(editor, path), lambda shown: "running in the sandbox: /slow" in shown)
+        await editor.having(path, "TRC003")
+        await editor.once(lambda: titles(editor, path), lambda shown: len(shown) == 3)
+        assert editor.lens_refreshes > 0

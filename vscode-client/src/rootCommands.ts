@@ -9,8 +9,13 @@ type Located = Parameters<LanguageClient["protocol2CodeConverter"]["asLocation"]
 /** A place in a file and the places that refer to it, as the server gives them. */
 export type Place = [uri: string, position: Positioned, locations: Located[]];
 
-/** The commands that the server may put into code lenses, since this editor carries them out. */
-export const clientCommands = ["rosPreflight.showReferences", "rosPreflight.selectRoot"];
+/** The commands that the server may put into its answers, since this editor carries them out. */
+export const clientCommands = [
+  "rosPreflight.showReferences",
+  "rosPreflight.selectRoot",
+  "workbench.trust.manage",
+  "editor.action.triggerSuggest",
+];
 
 /** Shows the places that a code lens counts. */
 export async function showReferences(client: LanguageClient, ...[uri, position, locations]: Place): Promise<void> {

@@ -7,7 +7,9 @@ packages there are, what a node subscribes to) from an analysis that may be olde
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
+from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
@@ -16,14 +18,14 @@ from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_python import complete_python
 from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.completion_writing import Writing, XmlWriting, YamlWriting
-from preflight_analysis.queries.cursor import Place
+from preflight_analysis.queries.cursor import Place, is_closed
 from preflight_analysis.queries.language import Language, language_of, place_in
 from preflight_analysis.queries.param_file_completion import complete_param_file
 from preflight_analysis.queries.param_files import is_param_file
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.workspace import Analysis
 
-TRIGGERS = ("<", " ", '"', "'", "/", "$", "(", ":")
+TRIGGERS = ("<", " ", '"', "'", "/", "$", "(", ":", ">")
 """Characters after which an editor should ask by itself."""
 
 
@@ -42,6 +44,25 @@ def complete(
     `Workspace`) is asked where nodes matter that have not run yet. `trigger` is the character of
     `TRIGGERS` that was just typed, None where the user asked.
     """
+    found = _completed(analysis, launch_file, offset, files, executables, ahead_of_runs, trigger)
+    if found is None or not launch_file.document.text.startswith("/", found.span.end):
+        return found
+    # A folder brings its slash along, unless that is there already.
+    items = (replace(each, text=each.text.rstrip("/")) if each.kind == "folder" else each for each in found.items)
+    return Completion(found.span, tuple(items))
+
+
+def _completed(
+    analysis: Analysis,
+    launch_file: LaunchFile,
+    offset: int,
+    files: Files,
+    executables: ExecutableNames,
+    ahead_of_runs: Callable[[Analysis], Analysis],
+    trigger: str | None,
+) -> Completion | None:
+    if trigger == ">":
+        return _closing(launch_file, offset) if _is_xml(launch_file.path) else None
     if is_param_file(analysis, launch_file.path):
         return complete_param_file(ahead_of_runs(analysis), launch_file.document, offset, trigger)
     if launch_file.path.endswith(PYTHON_SUFFIX):
@@ -58,6 +79,21 @@ def complete(
     if place.kind == "value":
         return complete_value(Asked(analysis, launch_file, offset, place, files, executables, ahead_of_runs), trigger)
     return Completion(place.word, tuple(_items(launch_file, place)))
+
+
+def _is_xml(path: str) -> bool:
+    return not path.endswith(PYTHON_SUFFIX) and not is_yaml(path)
+
+
+def _closing(launch_file: LaunchFile, offset: int) -> Completion | None:
+    """The end tag of the start tag that was just typed, behind the cursor; None where there is one."""
+    place = place_in(launch_file, offset)
+    parent = place.parent if place is not None else None
+    text = launch_file.document.text
+    if parent is None or parent.open_span.end != offset or text[:offset].endswith("/>") or is_closed(text, parent):
+        return None
+    end = f"</{parent.tag}>"
+    return Completion(Span(offset, offset), (Item("end-tag", end, end, snippet=f"$0{end}"),))
 
 
 def _as_in_xml(place: Place, trigger: str | None) -> str | None:

@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Span
 
 ItemKind = Literal[
     "element",
+    "snippet",
     "end-tag",
     "attribute",
     "value",

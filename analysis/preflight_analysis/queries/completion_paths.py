@@ -25,7 +25,7 @@ def listed(environment: Environment, written: str, folder: str, suffixes: tuple[
     for place in (folder, *others):
         for name, is_a_folder in _entries(place):
             if is_a_folder:
-                found.setdefault(name, Item("folder", f"{name}/", name))
+                found.setdefault(name, Item("folder", f"{name}/", f"{name}/"))
             elif not suffixes or name.endswith(suffixes):
                 found.setdefault(name, Item("file", name, name))
     yield from sorted(found.values(), key=lambda item: (item.kind == "folder", item.label))

@@ -27,6 +27,10 @@ class XmlWriting:
         for name in names:
             template = None if goes_on and not less else less + self._template(name, place)
             yield Item("element", name, less + name, self._language.tags[name].doc, snippet=template)
+        for each in self._language.snippets if not goes_on or less else ():
+            if each.tag in names:
+                text = f"{less}{each.tag}"
+                yield Item("snippet", each.label, text, each.doc, snippet=less + each.xml, filter=f"{less}{each.label}")
         if place.parent is not None and not is_closed(document.text, place.parent):
             yield Item("end-tag", f"{less}/{place.parent.tag}>", f"{less}/{place.parent.tag}>")
 
@@ -68,6 +72,9 @@ class YamlWriting:
             text = name if has_colon else f"{dash}{name}:"
             snippet = None if has_colon else f"{dash}{self._template(name, place)}"
             yield Item("element", name, text, self._language.tags[name].doc, snippet=snippet)
+        for each in self._language.snippets if not has_colon else ():
+            if each.tag in names and each.yaml:
+                yield Item("snippet", each.label, f"{dash}{each.tag}:", each.doc, snippet=dash + each.yaml)
 
     def _template(self, name: str, place: Place) -> str:
         if name in _WITH_CONTENT:

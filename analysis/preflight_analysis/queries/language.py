@@ -21,6 +21,18 @@ from preflight_analysis.queries.cursor_yaml import place_at_yaml
 
 
 @dataclass(frozen=True, slots=True)
+class Snippet:
+    """A tag with what belongs into it, in LSP's syntax for tab stops: in XML without its first `<`, in YAML without its
+    dash. Offered as `label` where the tag can stand."""
+
+    tag: str
+    label: str
+    doc: str
+    xml: str
+    yaml: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Language:
     """The launch language of one generation of ROS. `substitutions` are what each takes and stands for.
 
@@ -42,6 +54,7 @@ class Language:
     """Whether `$(eval ` takes the rest of a value and knows arguments by name."""
     nests: bool = False
     """Whether substitutions can stand in substitutions."""
+    snippets: tuple[Snippet, ...] = ()
 
     def tag(self, name: str) -> Tag | None:
         """What the language says of a tag; roslaunch takes some in capitals, too."""
@@ -59,6 +72,28 @@ ROS1 = Language(
     only_declared=frozenset({"default", "doc"}),
     suffixes={"launch-file": (".launch", ".xml", ".test"), "yaml-file": (".yaml", ".yml")},
     has_expressions=True,
+    snippets=(
+        Snippet(
+            "node",
+            "node with parameter file",
+            "Starts a node and loads a YAML file into its namespace.",
+            'node pkg="$1" type="$2" name="$3">\n'
+            '\t<rosparam command="load" file="\\$(find $4)/config/$5.yaml"/>\n</node>',
+        ),
+        Snippet(
+            "node",
+            "node container (nodelet manager)",
+            "Starts a nodelet manager and loads a nodelet into it.",
+            'node pkg="nodelet" type="nodelet" name="${1:manager}" args="manager"/>\n'
+            '<node pkg="nodelet" type="nodelet" name="$2" args="load $3 ${1:manager}"/>',
+        ),
+        Snippet(
+            "include",
+            "include with argument",
+            "Includes a launch file of a package and passes an argument.",
+            'include file="\\$(find $1)/launch/$2.launch">\n\t<arg name="$3" value="$4"/>\n</include>',
+        ),
+    ),
 )
 ROS2 = Language(
     tags(),
@@ -71,6 +106,33 @@ ROS2 = Language(
     only_declared=frozenset({"default", "description"}),
     suffixes={"launch-file": (".launch", ".xml", ".py", ".yaml", ".yml"), "yaml-file": (".yaml", ".yml")},
     nests=generation.ROS2.nested_substitutions,
+    snippets=(
+        Snippet(
+            "node",
+            "node with parameter file",
+            "Starts a node with the parameters of a YAML file.",
+            'node pkg="$1" exec="$2" name="$3">\n\t<param from="\\$(find-pkg-share $4)/config/$5.yaml"/>\n</node>',
+            "node:\n    pkg: $1\n    exec: $2\n    name: $3\n    param:\n"
+            "      - from: \\$(find-pkg-share $4)/config/$5.yaml",
+        ),
+        Snippet(
+            "node_container",
+            "node_container with component",
+            "Starts a component container and loads a component into it.",
+            'node_container pkg="rclcpp_components" exec="component_container" name="$1" namespace="$2">\n'
+            '\t<composable_node pkg="$3" plugin="$4" name="$5"/>\n</node_container>',
+            "node_container:\n    pkg: rclcpp_components\n    exec: component_container\n    name: $1\n"
+            '    namespace: "$2"\n    composable_node:\n      - pkg: $3\n        plugin: $4\n        name: $5',
+        ),
+        Snippet(
+            "include",
+            "include with argument",
+            "Includes a launch file of a package and passes an argument.",
+            'include file="\\$(find-pkg-share $1)/launch/$2">\n\t<arg name="$3" value="$4"/>\n</include>',
+            "include:\n    file: \\$(find-pkg-share $1)/launch/$2\n    arg:\n      - name: $3\n        value: $4",
+        ),
+        Snippet("param", "param from file", "Gives the node the parameters of a YAML file.", 'param from="$1"/>', ""),
+    ),
 )
 
 _BY_GENERATION = {1: ROS1, 2: ROS2}

@@ -37,13 +37,14 @@ class Refresher:
         self._answered: dict[str, _Answered] = {}
         self._task: asyncio.Task[None] | None = None
         self._again = False
-        server.after_analysis.append(self._look)
+        server.after_analysis.append(self.look)
 
     def answered(self, document: OpenDocument, answer: object, ask: Callable[[], Awaitable[object]]) -> None:
         """What the client was told of a document, and how to ask for it again; `ask` gives None where it cannot."""
         self._answered[document.uri] = _Answered(document, answer, ask)
 
-    def _look(self) -> None:
+    def look(self) -> None:
+        """The answers may be others now."""
         self._again = True
         if self._answered and (self._task is None or self._task.done()) and self._supported():
             self._task = self._server.spawn(self._compare())

@@ -62,6 +62,7 @@ class _Batch:
     root: Root
     jobs: Mapping[NodeKey, _Job]
     progress: Progress
+    done: set[NodeKey] = field(default_factory=set)
     cancelled: threading.Event = field(default_factory=threading.Event)
 
     def stop(self) -> None:
@@ -120,6 +121,13 @@ class Runs:
     def trusted(self) -> bool:
         """Whether the user trusts the workspace."""
         return self._trusted
+
+    def running(self, root: Root) -> tuple[str, ...]:
+        """The nodes of a root that run now or wait for their run, those that are shown first in front."""
+        batch = self._batch
+        if batch is None or batch.root != root:
+            return ()
+        return tuple(key[0] for key in batch.jobs if key not in batch.done)
 
     def results(self, root: Root) -> RunResults:
         """What is known of the nodes of a root."""
@@ -274,15 +282,19 @@ class Runs:
         batch = self._batch = _Batch(root, dict(zip(keys, jobs, strict=True)), progress)
         edition = self._results.edition
         done = 0
+        for callback in self._server.when_runs_begin:
+            callback()
 
         def one_done(index: int, interface: Interface) -> None:
             nonlocal done
             done += 1
+            batch.done.add(keys[index])
             key, job = keys[index], jobs[index]
             if interface.known or not job.cancel.is_set():
                 self._results.put(root, key, job.request, interface, edition)
             self._fresh.get(root, set()).discard(key)
-            progress.report(done, len(keys), key[0])
+            waiting = self.running(root)
+            progress.report(done, len(keys), f"waiting for {waiting[0]}" if waiting else key[0])
 
         def work() -> None:
             run_all(

@@ -6,8 +6,8 @@
 - `refactor.rewrite`: what is known of a node as an annotation.
 
 Commands of the server, which any editor can execute: `rosPreflight.explainRule`, `[rule]`, opens the page of a rule.
-`rosPreflight.showInstallCommand`, `[command]`, shows a command and does not run it. `rosPreflight.manageTrust` is the
-client's; it is offered where the client names it among its `clientCommands`.
+`rosPreflight.showInstallCommand`, `[command]`, shows a command and does not run it. VS Code's `workbench.trust.manage`
+is offered where the client names it among its `clientCommands`.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 EXPLAIN = "rosPreflight.explainRule"
 SHOW_INSTALL_COMMAND = "rosPreflight.showInstallCommand"
-MANAGE_TRUST = "rosPreflight.manageTrust"
+MANAGE_TRUST = "workbench.trust.manage"
 FIX_ALL = "source.fixAll.rosPreflight"
 _KINDS = (types.CodeActionKind.QuickFix, FIX_ALL, types.CodeActionKind.RefactorRewrite)
 

@@ -1,4 +1,5 @@
-"""`textDocument/codeLens`: above `<launch>` who includes the file, how many nodes it starts, and in whose context.
+"""`textDocument/codeLens`: above `<launch>` who includes the file, how many nodes it starts, in whose context, why it
+is not evaluated where that is so, and which nodes run in the sandbox at the moment.
 
 A lens can be clicked where the client has our commands: those that it names as `clientCommands` in the initialisation
 options. `rosPreflight.showReferences` gets a URI, a position and locations, `rosPreflight.selectRoot` a URI.
@@ -7,6 +8,7 @@ options. `rosPreflight.showReferences` gets a URI, a position and locations, `ro
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
@@ -22,6 +24,15 @@ if TYPE_CHECKING:
 
 SHOW_REFERENCES = "rosPreflight.showReferences"
 SELECT_ROOT = "rosPreflight.selectRoot"
+
+
+_SHOWN_RUNS = 3
+
+
+def _running(names: Sequence[str]) -> str:
+    """Which nodes the answers of the next findings wait for."""
+    more = f" and {len(names) - _SHOWN_RUNS} more" if len(names) > _SHOWN_RUNS else ""
+    return f"running in the sandbox: {', '.join(names[:_SHOWN_RUNS])}{more}"
 
 
 def _titles(found: Lenses, context: QueryContext) -> tuple[str, str, str]:
@@ -47,7 +58,7 @@ def register(server: PreflightServer) -> None:
         view = await server.view_of(uri, python=True)
         if view is None:
             return None
-        context = await query_context(view)
+        context, running = await query_context(view), view.session.runs.running(view.analysis.launch)
 
         def work() -> list[types.CodeLens] | None:
             found = lenses(context)
@@ -57,11 +68,16 @@ def register(server: PreflightServer) -> None:
             range_ = view.converter.positions(view.path).range(found.head)
             places = [converter.location(place) for place in found.includers]
             includers, nodes, root = _titles(found, context)
-            return [
+            shown = [
                 types.CodeLens(range_, command(includers, SHOW_REFERENCES, uri, range_.start, places)),
                 types.CodeLens(range_, command(nodes, "")),
                 types.CodeLens(range_, command(root, SELECT_ROOT, uri)),
             ]
+            if found.reason:
+                shown.insert(0, types.CodeLens(range_, command(f"not evaluated: {found.reason}", "")))
+            if running:
+                shown.append(types.CodeLens(range_, command(_running(running), "")))
+            return shown
 
         return await view.session.in_pool(work)
 
@@ -70,6 +86,7 @@ def register(server: PreflightServer) -> None:
         return bool(workspace and workspace.code_lens and workspace.code_lens.refresh_support)
 
     refresher = Refresher(server, lambda: server.workspace_code_lens_refresh_async(None), supported)
+    server.when_runs_begin.append(refresher.look)
 
     @server.feature(types.TEXT_DOCUMENT_CODE_LENS)
     async def code_lens(ls: PreflightServer, params: types.CodeLensParams) -> list[types.CodeLens] | None:

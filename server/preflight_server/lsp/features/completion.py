@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _KINDS: Mapping[ItemKind, types.CompletionItemKind] = {
     "element": types.CompletionItemKind.Class,
+    "snippet": types.CompletionItemKind.Snippet,
     "end-tag": types.CompletionItemKind.Class,
     "attribute": types.CompletionItemKind.Property,
     "value": types.CompletionItemKind.EnumMember,
@@ -37,8 +38,12 @@ _KINDS: Mapping[ItemKind, types.CompletionItemKind] = {
 }
 
 
+SUGGEST = "editor.action.triggerSuggest"
+"""VS Code's own command that asks again; given to clients that name it among their `clientCommands`."""
+
+
 def _item(
-    item: Item, order: int, range_: types.Range, options: types.ClientCompletionItemOptions
+    item: Item, order: int, range_: types.Range, options: types.ClientCompletionItemOptions, *, suggests: bool
 ) -> types.CompletionItem:
     snippet = item.snippet if options.snippet_support else None
     return types.CompletionItem(
@@ -50,6 +55,8 @@ def _item(
         filter_text=item.filter,
         insert_text_format=types.InsertTextFormat.Snippet if snippet is not None else None,
         text_edit=types.TextEdit(range_, snippet if snippet is not None else item.text),
+        # What is in the folder comes next.
+        command=types.Command("", SUGGEST) if suggests and item.kind == "folder" else None,
     )
 
 
@@ -82,4 +89,8 @@ def register(server: PreflightServer) -> None:
         client = ls.client_capabilities.text_document
         asked = client.completion.completion_item if client and client.completion else None
         options, range_ = asked or types.ClientCompletionItemOptions(), positions.range(found.span)
-        return types.CompletionList(False, [_item(item, n, range_, options) for n, item in enumerate(found.items)])
+        suggests = SUGGEST in ls.client_commands
+        # Without tab stops a snippet is but its tag, which is offered already.
+        offered = [each for each in found.items if options.snippet_support or each.kind != "snippet"]
+        items = [_item(item, n, range_, options, suggests=suggests) for n, item in enumerate(offered)]
+        return types.CompletionList(False, items)
