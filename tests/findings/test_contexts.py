@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import pytest
-from preflight_analysis.findings.contexts import RootFindings, by_file, lacks_once, roots
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.contexts import RootFindings, by_file, causes_first, lacks_once, roots
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
 from support.locations import location
 
@@ -98,3 +98,15 @@ def test_a_lack_shows_once_in_a_file() -> None:
     given = tuple(found(at, lack) for at, lack in enumerate((nav, None, nav, robot, None, nav)))
     assert lacks_once(given) == (given[0], given[1], given[3], given[4])
     assert lacks_once(given[:2]) == given[:2]
+
+
+def test_a_crash_stands_behind_its_cause() -> None:
+    """And one without a cause, or of another node, stands by itself."""
+    cause = replace(finding("PRM010", "/a.launch"), crash_of="/n")
+    crash = replace(finding("TRC001", "/b.launch", 1), crash_of="/n")
+    other = replace(finding("TRC001", "/b.launch", 3), crash_of="/m")
+    found = causes_first({"/a.launch": (cause,), "/b.launch": (crash, other)}, "TRC001")
+    assert found["/b.launch"] == (other,)
+    assert [each.related for each in found["/a.launch"]] == [(Related(crash.message, crash.location),)]
+    alone = {"/b.launch": (crash, other)}
+    assert causes_first(alone, "TRC001") is alone

@@ -272,3 +272,28 @@ async def test_a_syntax_error_stops_only_what_it_touches(harness: Harness) -> No
         editor.change(inner, inner.read_text().replace("</launch>", "  <node pkg="))
         await editor.until(lambda: list(editor.statuses[-1].broken) == [inner.as_uri()])
         assert set((await nodes()).values()) == {"trace"}, "what was known stays"
+
+
+CRASHES = """<launch>
+  <group ns="robot1"><node pkg="preflight_demo" type="base.py" name="base"/></group>
+  <node pkg="preflight_demo" type="base.py" name="base"><param name="wheel" value="5cm"/></node>
+</launch>
+"""
+
+
+async def test_a_crash_and_its_cause_are_one_entry(harness: Harness) -> None:
+    """The cause first; a crash without a cause stands by itself."""
+    script = harness.workspace / "scripts/base.py"
+    script.write_text(
+        "#!/usr/bin/env python3\nimport rospy\nrospy.init_node('base')\n"
+        "float(rospy.get_param('~wheel'))\nrospy.spin()\n"
+    )
+    script.chmod(0o755)
+    path = harness.write("crashes.launch", CRASHES)
+    async with editing(harness, trusted=True) as editor:
+        editor.open(path)
+        crash = await editor.having(path, "TRC001", saying="ValueError")
+        assert crash.range.start.line == 2
+        cause = await editor.having(path, "PRM010", saying="/robot1/base/wheel")
+        assert any("/robot1/base crashes on start" in each.message for each in cause.related_information or ())
+        await editor.until(lambda: (editor.rules(path) or []).count("TRC001") == 1)

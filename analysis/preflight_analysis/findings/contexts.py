@@ -9,7 +9,7 @@ from operator import attrgetter
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.incremental.kept import Kept
 
@@ -68,6 +68,27 @@ def lacks_once(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
         if finding.lack is not None:
             shown_before.add(finding.lack)
     return tuple(shown) if len(shown) < len(findings) else findings
+
+
+def causes_first(findings: Mapping[str, tuple[Finding, ...]], crash: str) -> Mapping[str, tuple[Finding, ...]]:
+    """The findings by file, each crash of which the cause is a finding behind that as a related place. `crash` is the
+    rule that reports crashes."""
+    marked = [finding for found in findings.values() for finding in found if finding.crash_of]
+    crashes = {finding.crash_of: finding for finding in marked if finding.rule == crash}
+    causes = {finding.crash_of: finding for finding in reversed(marked) if finding.rule != crash}
+    explained = crashes.keys() & causes.keys()
+    if not explained:
+        return findings
+    without = {id(crashes[node]) for node in explained}
+    behind = {id(causes[node]): Related(crashes[node].message, crashes[node].location) for node in sorted(explained)}
+    folded = dict(findings)
+    for path in {finding.location.file for finding in marked}:
+        folded[path] = tuple(
+            replace(each, related=(*each.related, behind[id(each)])) if id(each) in behind else each
+            for each in findings.get(path, ())
+            if id(each) not in without
+        )
+    return folded
 
 
 def _grouped(findings: Iterable[Finding]) -> dict[str, tuple[Finding, ...]]:

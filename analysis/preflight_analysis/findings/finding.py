@@ -75,5 +75,8 @@ class Finding:
     """It holds only if it holds in each launch that reads the file, as one of a rule with `Rule.every_root`."""
     condition: str = ""
     """Where it holds only if the launch is given other arguments: which ones, or what of a condition; `sim:=true`."""
+    crash_of: str = field(default="", compare=False)
+    """The node that crashes for what the finding speaks of, where another finding speaks of that crash: its full name.
+    The finding about the crash has it as well."""
     lack: Lack | None = None
     """What is missing on this machine, where the finding speaks of nothing else."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import compress
 from operator import is_not
 
@@ -54,13 +55,14 @@ def namespace_of(param: Param) -> str:
 
 def refusal_finding(rule: Rule, node: LaunchNode, param: Param, use: ParamUse, message: str) -> Finding:
     """The finding for a value at which a node of ROS 2 stops when it declares the parameter."""
-    return rule.finding(
+    finding = rule.finding(
         message,
         param.place,
         severity="warning" if use.assumed else "error",
         confidence="possible" if use.assumed else "likely",
         related=(related_node(node), *include_chain(node.origin)),
     )
+    return replace(finding, crash_of=node.name) if use.refused is not None else finding
 
 
 def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -11,6 +12,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
+from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.parameters import namespace_of, renamed
 from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
@@ -34,7 +36,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from context.kept.each_row(_hint, (lost, [id(each.holder) in by_source for each in lost]), rule)
     for each in unread:
         if each.meant is not None:
-            yield _finding(rule, context, context.graph, each, each.meant)
+            found, meant = _finding(rule, context, context.graph, each, each.meant), each.meant
+            died = context.once(missing_params).get(id(meant.node), ())
+            ended = any(lacking.died is not None and lacking.read.name == meant.name for lacking in died)
+            yield replace(found, crash_of=meant.node.name) if ended else found
     explained = {each.param.name for each in unread}
     for each in _of_partly_known(context, context.graph, explained):
         explained.add(each.param.name)

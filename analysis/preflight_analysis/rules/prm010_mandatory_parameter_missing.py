@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -46,7 +47,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 leaf = names.leaf(lacking.name)
                 meant = _elsewhere(lacking, unread.by_leaf.get(leaf, ()))
                 meant = meant or _misspelt(lacking, unread.by_namespace.get(node.name, ()))
-                yield _finding(rule, context, lacking, meant, died)
+                yield replace(_finding(rule, context, lacking, meant, died), crash_of=node.name)
             else:
                 optional.append(lacking.name)
         if optional:
@@ -74,7 +75,7 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
         for use in uses:
             if use.name in given:
                 continue
-            yield rule.finding(
+            found = rule.finding(
                 f"required parameter '{use.name[1:]}' is not set; {node.name} declares it without a default and exits "
                 f"({use.refused})",
                 node.location,
@@ -82,6 +83,7 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
                 confidence="likely",
                 related=include_chain(node.origin),
             )
+            yield replace(found, crash_of=node.name)
 
 
 def _of_sources(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:

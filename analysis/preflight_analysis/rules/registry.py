@@ -157,7 +157,7 @@ def _alike(before: Before[tuple[Finding, ...]] | None, findings: tuple[Finding, 
 
 def _is_alike(one: Finding, other: Finding) -> bool:
     # What is not compared has to be the same, too.
-    return one.launch_order == other.launch_order and one.endpoints == other.endpoints
+    return (one.launch_order, one.endpoints, one.crash_of) == (other.launch_order, other.endpoints, other.crash_of)
 
 
 def _of_file(

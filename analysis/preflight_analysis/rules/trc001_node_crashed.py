@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import compress
 
 from preflight_analysis.environment.git_ignored import is_ignored
@@ -58,7 +59,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         absent = absent_top_said(context.disk, told)
         made = lacks_recording(told) or any(is_ignored(context.disk, path) for path in paths_said(told))
         message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
-        yield rule.finding(
+        found = rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
             node.location,
             severity="info" if ours or reported or absent or made or _waits(node, outcome) else None,
@@ -66,6 +67,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
         )
+        yield replace(found, crash_of=node.name) if reported else found
 
 
 def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:

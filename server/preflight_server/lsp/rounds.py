@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from lsprotocol import types
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.findings.contexts import RootFindings, lacks_once
+from preflight_analysis.findings.contexts import RootFindings, causes_first, lacks_once
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing, missing
 from preflight_analysis.incremental.database import Cancelled
@@ -26,6 +26,8 @@ from preflight_server.lsp.text_store import TextStore
 
 _log = logging.getLogger(__name__)
 
+CRASH = "TRC001"
+"""The rule that reports nodes that crashed."""
 LARGE = 100
 """From so many nodes on, what can be said of a launch without the graph is shown first."""
 
@@ -128,6 +130,7 @@ class Snapshot:
         before = self.before.converter if self.before is not None else None
         converter = Converter(self.texts, documents, related=self.shows_related, pages=self.pages, before=before)
         shown = {path: kept.get(lacks_once, path, found) for path, found in findings.items()}
+        shown = dict(causes_first(shown, CRASH))
         diagnostics = {path: converter.diagnostics(path, found) for path, found in shown.items()}
         lacks = missing((f.lack, f.location) for found in findings.values() for f in found if f.lack is not None)
         converter.end()
