@@ -413,6 +413,21 @@ def test_a_parameter_beside_the_node_that_its_source_tells_in_part() -> None:
     assert "'/fieldname'; /localization reads '/localization/fieldname', which is not set" in told[0].message
 
 
+@pytest.mark.parametrize(("also", "told"), [("", 2), ('<param name="/bridge/mode" value="x"/>', 0)])
+def test_a_group_of_parameters_in_the_namespace_of_no_node(also: str, told: int) -> None:
+    found = findings_of(f"""
+        <launch>
+          <param name="/bridge/host" value="localhost"/>
+          <param name="/bridge/port" value="2000"/>
+          {also}
+          <node pkg="p" type="publisher" name="publisher"/>
+        </launch>
+        //- interfaces
+        {{"/publisher": {{"source": "source", "status": "not-run", "params": {{"~host": "127.0.0.1", "~port": 2000}}}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "PRM001"] == ["warning"] * told
+
+
 @pytest.mark.silent
 def test_a_node_of_which_nothing_is_known_may_read_what_is_beside_it() -> None:
     assert "PRM001" not in {each.rule for each in findings_of(_BESIDE % "none")}

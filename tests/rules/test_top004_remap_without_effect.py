@@ -120,6 +120,21 @@ def test_a_remap_around_nodes_has_to_be_idle_at_all_of_them() -> None:
     """)
 
 
+@pytest.mark.parametrize(
+    ("remap", "told"), [("~input_image", ["warning"]), ("input_imgae", []), ("other", []), ("input_image", [])]
+)
+def test_a_tilde_too_many_at_a_node_that_its_source_tells_in_part(remap: str, told: list[str]) -> None:
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="servoing" ns="arm"><remap from="{remap}" to="/camera/image_raw"/></node>
+        </launch>
+        //- interfaces
+        {{"/arm/servoing": {{"source": "source", "status": "not-run",
+          "subscribers": {{"input_image": "sensor_msgs/Image"}}}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "TOP004"] == told
+
+
 @pytest.mark.silent
 def test_nothing_is_said_of_a_node_that_is_not_known_to_its_end() -> None:
     launch = """

@@ -35,6 +35,8 @@ class IdleRemap:
     """The end of the first node that it was most likely meant for."""
     partner: Connection | None = None
     """An end of another node that stands under the remap's target and that `meant` would fit."""
+    sure: bool = True
+    """Whether all names of the nodes are known. If not, `meant` has the very name but for a `~` or a namespace."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +47,7 @@ class _Reached:
     node: LaunchNode
     has_effect: bool
     known_by: str
+    sure: bool
 
 
 def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
@@ -60,7 +63,8 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
         return ()
     own_ends = kept.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
     of_nodes = kept.grouped(_node, "", chain.from_iterable(own_ends))
-    return tuple(_with_meaning(kept, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
+    found = (_with_meaning(kept, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
+    return tuple(each for each in found if each.sure or each.meant is not None)
 
 
 def meant_endpoints(context: Context) -> frozenset[int]:
@@ -73,10 +77,12 @@ def meant_endpoints(context: Context) -> frozenset[int]:
 def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
     if not node.remaps:
         return ()
-    used = _used(node, interface) if _reports_names(node, interface) else None
+    sure = _reports_names(node, interface)
+    used = _used(node, interface) if sure or _tells_in_part(node, interface) else None
     known_by = _KNOWN_BY.get(interface.source, _BY_RUN)
     return tuple(
-        _Reached(remap, node, used is None or not _has_no_effect(remap, node, used), known_by) for remap in node.remaps
+        _Reached(remap, node, used is None or not _has_no_effect(remap, node, used), known_by, sure)
+        for remap in node.remaps
     )
 
 
@@ -90,7 +96,8 @@ def _idle(reached: tuple[_Reached, ...]) -> IdleRemap | None:
         return None
     ways = {each.known_by for each in reached}
     known_by = _BY_RUN if len(ways) > 1 else reached[0].known_by
-    return IdleRemap(reached[0].remap, tuple(each.node for each in reached), known_by)
+    sure = all(each.sure for each in reached)
+    return IdleRemap(reached[0].remap, tuple(each.node for each in reached), known_by, sure=sure)
 
 
 def _own_ends(channel: Channel) -> tuple[Connection, ...]:
@@ -129,8 +136,9 @@ def _meaning(
     full = names.resolve(idle.remap.source, idle.nodes[0].name)
     rows = zip(own, channels, targets, strict=True)
     lone = [(each, _partner(target, each)) for each, channel, target in rows if not _facing(channel, each)]
-    found = [(connection, partner) for connection, partner in lone if _is_slip(full, connection)]
-    if len(found) != 1:
+    is_slip = _is_slip if idle.sure else _is_same_leaf
+    found = [(connection, partner) for connection, partner in lone if is_slip(full, connection)]
+    if len(found) != 1 and idle.sure:
         found = [(connection, partner) for connection, partner in lone if partner is not None]
     meant, partner = found[0] if len(found) == 1 else (None, None)
     return replace(idle, meant=meant, partner=partner)
@@ -144,6 +152,14 @@ def _reports_names(node: LaunchNode, interface: Interface) -> bool:
         return False
     if node.package == "nodelet":
         return False  # those of images subscribe only while somebody reads what they make of it
+    return any(not (e.builtin or e.speculative) for e in interface.endpoints)
+
+
+def _tells_in_part(node: LaunchNode, interface: Interface) -> bool:
+    """Whether the source of a node, or a run to its event loop, tells some names that it uses."""
+    told = interface.source == "source" or (interface.source == "trace" and interface.outcome.status == "spinning")
+    if interface.declared or not told or node.unknowns or node.package == "nodelet":
+        return False
     return any(not (e.builtin or e.speculative) for e in interface.endpoints)
 
 
@@ -190,7 +206,11 @@ def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
 def _is_slip(full: str, connection: Connection) -> bool:
     """Whether the names are a typo apart, or only their namespaces differ: a missing `~`, a slash too many."""
     alike = likeness(full, connection.name)
-    return (alike is not None and alike[0] == "typo") or names.leaf(full) == names.leaf(connection.name)
+    return (alike is not None and alike[0] == "typo") or _is_same_leaf(full, connection)
+
+
+def _is_same_leaf(full: str, connection: Connection) -> bool:
+    return names.leaf(full) == names.leaf(connection.name)
 
 
 def _partner(channel: Channel | None, connection: Connection) -> Connection | None:

@@ -24,7 +24,8 @@ from preflight_analysis.tracing.interface import Interface
 
 _ARGUMENT = re.compile(r"_[A-Za-z]\w*")
 _PARTLY = ("catalogue", "source")
-"""What may tell a node's parameters without telling all: a run that ended early tells too few."""
+"""What may tell a node's parameters without telling all, beside a run to the event loop: one that ended early tells too
+few."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -119,17 +120,32 @@ def _beside_nodes(context: Context, rows: Iterable[_Asked | None], explained: Co
     given = graph.tree.params
     wanted: dict[str, list[ParamRead]] = {}
     for node, asked in zip(graph.tree.nodes, rows, strict=True):
-        for name, each in asked.own.get(node.name, {}).items() if asked is not None and asked.by_source else ():
+        for name, each in asked.own.get(node.name, {}).items() if asked is not None and asked.of_itself else ():
             if name not in given and each.use.access == "get":
                 wanted.setdefault(names.leaf(name), []).append(each)
+    # By the namespace in which they are set and the node that reads them.
+    found: dict[tuple[str, str], list[Unread]] = {}
+    counts: dict[str, int] = {}
     for param in graph.tree.all_params if wanted else ():
-        reads = wanted.get(names.leaf(param.name), ())
-        if len(reads) != 1 or param.owner is not None or param.name in explained or is_for_tools(param.name):
+        if param.owner is not None or param.name_location is None or param.place.file not in context.launch_files:
             continue
-        beside = f"{names.parent(reads[0].node.name)}{names.leaf(param.name)}"
-        in_tag = param.name_location is not None and param.place.file in context.launch_files
-        if in_tag and param.name in (beside, f"/{names.leaf(param.name)}") and would_change(param, reads[0]):
-            yield Unread(param, None, reads[0])
+        namespace, _, leaf = param.name.rpartition("/")
+        counts[namespace] = counts.get(namespace, 0) + 1
+        reads = wanted.get(leaf, ())
+        if len(reads) == 1 and param.name not in explained and not is_for_tools(param.name):
+            found.setdefault((namespace, reads[0].node.name), []).append(Unread(param, None, reads[0]))
+    nodes = {node.name for node in graph.tree.nodes}
+    homes = names.with_namespaces(nodes)
+    for (namespace, node_name), unread in found.items():
+        beside = namespace in ("", names.parent(node_name).rstrip("/"))
+        # A group of parameters in a namespace that nobody is in is that of a node of another name.
+        alone = namespace not in ("", *homes) and nodes.isdisjoint(names.with_namespaces((namespace,)))
+        group = alone and len(unread) > 1 and len(unread) == counts[namespace]
+        for each in unread if beside or group else ():
+            # A group says enough even where its values are the defaults.
+            read = each.meant
+            if read is not None and (fits(each.param.value, read) if group else would_change(each.param, read)):
+                yield each
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,12 +156,14 @@ class _Asked:
     """Below its own name, by namespace and name."""
     astray: Mapping[str, Sequence[ParamRead]]
     """Elsewhere, as its source says, by the last part of the name."""
-    by_source: bool
+    of_itself: bool
+    """Whether the node's own source or run says so."""
 
 
 def _asked_in_part(node: LaunchNode, interface: Interface, reads: Iterable[ParamRead]) -> _Asked | None:
     """None of a node of which all is known, or nothing, or that may ask for any."""
-    if interface.source not in _PARTLY or interface.known_in_full:
+    spun = interface.source == "trace" and interface.outcome.status == "spinning"
+    if not (spun or interface.source in _PARTLY) or interface.known_in_full:
         return None
     if any(use.access == "list" for use in interface.params):
         return None
@@ -157,7 +175,7 @@ def _asked_in_part(node: LaunchNode, interface: Interface, reads: Iterable[Param
             own.setdefault(namespace, {})[each.name] = each
         elif interface.source == "source" and each.use.access == "get":
             astray.setdefault(leaf, []).append(each)
-    return _Asked(own, astray, interface.source == "source")
+    return _Asked(own, astray, interface.source != "catalogue")
 
 
 def _are_opposite(name: str, other: str) -> bool:

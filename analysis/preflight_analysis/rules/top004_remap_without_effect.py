@@ -48,7 +48,7 @@ def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
     return rule.finding(
         f"{message}; {evidence}",
         remap.source_location,
-        confidence="likely" if idle.partner is not None and not meant.endpoint.uncertain else "possible",
+        confidence="likely" if idle.partner is not None and idle.sure and not meant.endpoint.uncertain else "possible",
         related=(
             *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
             *include_chain(remap.origin),
