@@ -1,4 +1,4 @@
-"""What the launch files around one remap topics and services to."""
+"""What the files around a launch call topics and services: launch files by their remaps, and sources of nodes."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import dangling_consumers, dangling_topic_providers
+from preflight_analysis.rules.names_in_sources import meant_in_sources
 from preflight_analysis.rules.nearest import is_slip_of_words, likeness
 from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, rename
@@ -28,29 +29,29 @@ _ENOUGH = 2
 
 @dataclass(frozen=True, slots=True)
 class Elsewhere:
-    """How the launch files around write a name that this one writes otherwise, and how many of them do."""
+    """How the files around write a name that this launch has otherwise, and how many of them do."""
 
     name: str
     files: int
+    in_source: bool = False
+    """Whether it is the sources of nodes that have the name, and not launch files."""
 
 
 def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     """For ends of topics and services without another one, by id, the name that their remaps were most likely to give:
-    theirs is a slip of it, several launch files around have it, and no other one has theirs. Ask through
-    `context.once`."""
-    lone = [
-        connection
-        for connection in (
-            *dangling_consumers(context, "topics"),
-            *context.once(dangling_topic_providers),
-            *dangling_consumers(context, "services"),
-        )
-        if connection.remap is not None
-    ]
+    theirs is a slip of it, several launch files around have it, and no other one has theirs. Likewise, of consumers
+    without a remap, what the sources of the workspace offer. Ask through `context.once`."""
+    consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
+    by_source = {
+        id(each): Elsewhere(*meant, in_source=True)
+        for each in consumers
+        if (meant := meant_in_sources(context, each)) is not None
+    }
+    lone = [each for each in (*consumers, *context.once(dangling_topic_providers)) if each.remap is not None]
     if not lone:
-        return {}
+        return by_source
     found = zip(lone, context.kept.each(_used, lone, around(context, _TARGETS)), strict=True)
-    return {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
+    return {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None} | by_source
 
 
 def _used(connection: Connection, known: Mapping[str, int]) -> Elsewhere | None:
@@ -71,6 +72,15 @@ def _used(connection: Connection, known: Mapping[str, int]) -> Elsewhere | None:
 def elsewhere_finding(rule: Rule, context: Context, connection: Connection, message: str, found: Elsewhere) -> Finding:
     """The finding for an end whose other one is most likely started by another launch, under another name."""
     location = connection_location(connection)
+    if found.in_source:
+        files = f"{found.files} source files use" if found.files > 1 else "a source file uses"
+        return rule.finding(
+            f"{message}; did you mean '{found.name}', which {files} with this type?",
+            location,
+            confidence="possible",
+            related=include_chain(connection.node.origin),
+            endpoints=endpoints_of(connection),
+        )
     return rule.finding(
         f"{message}; did you mean '{found.name}', as in {found.files} launch files nearby?",
         location,

@@ -105,7 +105,8 @@ RULE = Rule(
     what="Checks for a service client whose service has no server in the launch. The finding is a warning if a node "
     "serves one of a similar name and the same type. It is a warning too if the client's node waits for the service "
     "while a service with a word in common has no client. It is information if the client's remap is a typo of one "
-    "in several launch files nearby. Otherwise it is a hint, because another launch may start the server.",
+    "in several launch files nearby, and a warning if the service is a typo of one in sources of the workspace with "
+    "the same type. Otherwise it is a hint, because another launch may start the server.",
     why="A client that waits for the service waits forever. A client that does not wait gets an error at its first "
     "call.",
     example='<!-- the base offers reset_odometry -->\n<remap from="reset" to="reset_odometri"/>',

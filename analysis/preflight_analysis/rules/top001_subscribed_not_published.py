@@ -93,7 +93,8 @@ RULE = Rule(
     what="Checks for a subscriber whose topic has no publisher in the launch. The finding is a warning if a node "
     "publishes a topic of the same type and a similar name. The names may also differ by a leading slash or a "
     "namespace. It names both and is at the remap that set the name, if there is one. It is information if the "
-    "remap is a typo of one in several launch files nearby. Otherwise it is a hint, because another launch may "
+    "remap is a typo of one in several launch files nearby, and a warning if the topic is a typo of one that sources "
+    "of the workspace use with the same type. Otherwise it is a hint, because another launch may "
     "start the publisher. There is no finding if a node exited before its event loop, because it may be the "
     "publisher.",
     why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",
