@@ -141,11 +141,11 @@ def _beside_nodes(context: Context, rows: Iterable[_Asked | None], explained: Co
         # A group of parameters in a namespace that nobody is in is that of a node of another name.
         alone = namespace not in ("", *homes) and nodes.isdisjoint(names.with_namespaces((namespace,)))
         group = alone and len(unread) > 1 and len(unread) == counts[namespace]
-        for each in unread if beside or group else ():
+        for lost in unread if beside or group else ():
             # A group says enough even where its values are the defaults.
-            read = each.meant
-            if read is not None and (fits(each.param.value, read) if group else would_change(each.param, read)):
-                yield each
+            read = lost.meant
+            if read is not None and (fits(lost.param.value, read) if group else would_change(lost.param, read)):
+                yield lost
 
 
 @dataclass(frozen=True, slots=True)
