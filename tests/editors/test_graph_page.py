@@ -184,6 +184,9 @@ def test_what_is_not_so_on_the_running_robot_is_marked(seen: Mapping[str, Any]) 
     assert live["wrong"] == ["topic /odom, error"]
     assert live["said"] == "Running robot: 2 of 3 nodes not there, also there: /stranger"
     assert "not there on the running robot" in live["hint"]
+    assert live["marked"] == 1, "the endpoint's line"
+    assert live["list"] == ["/slam /slam subscribes to /odom as std_msgs/String (since 12:04:17)"]
+    assert live["jumped"] == "node /slam"
     assert live["after"] == 0
 
 

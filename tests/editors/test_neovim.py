@@ -12,6 +12,8 @@ from typing import Any
 
 import pytest
 from support.editor_harness import ROOT, Harness
+from support.live_harness import Ros1System, registered
+from support.waiting import until
 
 pytestmark = pytest.mark.editor
 
@@ -274,6 +276,36 @@ def test_maintenance(neovim: Neovim, trusted_harness: Harness) -> None:
     assert re.fullmatch(r"ros-preflight: [0-9]+ kept results? of runs \(\d+ kB\) removed", seen["cleared"])
     assert any(line.startswith("sandbox        works") for line in seen["doctor"])
     assert (seen["clients"], seen["old_is_gone"], seen["status"]) == (1, True, "")
+
+
+def test_a_server_that_dies_is_started_again_once(neovim: Neovim, trusted_harness: Harness) -> None:
+    seen = drive(neovim, trusted_harness, "crash")
+
+    assert seen["first"] == "ros-preflight: the server stopped unexpectedly and is started again"
+    assert seen["clients"] == 1
+    assert ":RosPreflightRestart" in seen["second"]
+    assert seen["left"] == "none"
+
+
+def test_the_running_system_is_compared(neovim: Neovim, trusted_harness: Harness, tmp_path: Path) -> None:
+    system = Ros1System(tmp_path, elsewhere=trusted_harness.workspace)
+    trusted_harness.environment["ROS_MASTER_URI"] = system.environment["ROS_MASTER_URI"]
+    trusted_harness.environment["ROS_IP"] = "127.0.0.1"
+    try:
+        system.launch(trusted_harness.launch_file)
+        victims: list[int] = []
+        until(lambda: registered(system, "/talker") and registered(system, "/listener", victims))
+        trusted_harness.environment["PREFLIGHT_VICTIM"] = str(victims[0])
+
+        seen = drive(neovim, trusted_harness, "watch")
+    finally:
+        system.close()
+
+    assert any("no differences" in line for line in seen["healthy"])
+    (line,) = (line for line in seen["broken"] if line.startswith("/listener"))
+    assert re.search(r"since \d\d:\d\d:\d\d", line)
+    assert 'name="listener"' in seen["line"]
+    assert seen["marked"] == 1
 
 
 def test_tree_and_graph_where_nothing_may_be_run(neovim: Neovim, untrusted_harness: Harness) -> None:

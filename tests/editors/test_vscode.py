@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
-import xmlrpc.client
 from pathlib import Path
 from typing import Any
 
 import pytest
 from support.editor_harness import ROOT, Harness
 from support.editor_launch_files import create_formats, create_robot
-from support.live_harness import Ros1System
+from support.live_harness import Ros1System, registered
 from support.waiting import until
 
 pytestmark = [pytest.mark.editor, pytest.mark.vscode]
@@ -115,6 +115,20 @@ def test_each_format_of_ros_2_shows_its_finding(trusted_harness: Harness) -> Non
         assert "argument 'sped' is not declared; did you mean 'speed'?" in problems[0]
 
 
+def test_the_first_minutes_lead_from_the_welcome_view_to_the_log(trusted_harness: Harness) -> None:
+    seen = drive(trusted_harness, "start")
+
+    assert any("Open Launch File" in text and "walkthrough" in text for text in seen["welcome"])
+    assert "node listener, preflight_demo/listener.py" in seen["spoken"]
+    assert "1 finding, warning" in seen["spoken"]
+    assert seen["steps"][0] == "Open a launch file"
+    assert len(seen["steps"]) == 7
+    assert {"Restart server", "Clear cache"} <= set(seen["buttons"])
+    assert any("Save it" in text for text in seen["unsaved"])
+    (log,) = trusted_harness.home.glob("data/logs/**/*ROS Preflight.log")
+    assert re.search(r"Ran 2 nodes in the sandbox in \d+\.\d s", log.read_text())
+
+
 def test_server_is_installed_where_there_is_none(harness_without_server: Harness) -> None:
     harness_without_server.environment["PIP_FIND_LINKS"] = str(ROOT / "out/tools/wheels")
     # Trusted or not, the workspace has no say in what is started without a sandbox.
@@ -147,17 +161,8 @@ def test_tree_shows_what_the_running_robot_does(trusted_harness: Harness, tmp_pa
 
     assert "as it should be" in seen["healthy"]
     assert "/listener" in seen["broken"]
-
-
-def registered(system: Ros1System, name: str, pids: list[int] | None = None) -> bool:
-    """Whether a node can be asked; its process is added to `pids`."""
-    try:
-        pid = system.pid(name)
-    except (OSError, xmlrpc.client.Error, TypeError, IndexError):
-        return False
-    if pids is not None:
-        pids.append(pid)
-    return True
+    assert len(seen["listed"]) == 2, "in the list and at the node"
+    assert all("/listener" in line for line in seen["listed"])
 
 
 def test_set_ups_are_sourced(trusted_harness: Harness) -> None:

@@ -111,6 +111,28 @@ def test_a_file_included_twice_has_its_own_conditions_each_time(tmp_path: Path) 
     ]
 
 
+def test_an_include_says_how_many_parameters_it_adds_beside_nodes(tmp_path: Path) -> None:
+    workspace = create_workspace(
+        tmp_path,
+        """
+        $0<launch>
+          <param name="own" value="1"/>
+          <include file="{folder}/params.launch"/>
+          <include file="{folder}/missing_$(env NO_SUCH_ONE).launch"/>
+        </launch>
+        //- params.launch
+        <launch>
+          <param name="a" value="1"/><param name="b" value="1"/>
+          <node pkg="p" type="t" name="n"><param name="c" value="1"/></node>
+        </launch>
+        //- p/scripts/t
+        #!/bin/sh
+        """,
+    )
+    lines = outline(treed(workspace, workspace.context.analyses[0]))
+    assert "  include params.launch 1 node, 2 shared parameters" in lines
+
+
 def test_what_a_node_was_seen_to_do_is_said_where_it_is_not_all(tmp_path: Path) -> None:
     workspace = create_workspace(
         tmp_path, ROBOT + '//- interfaces\n    {"/base": {"publishers": {"odom": "nav_msgs/Odometry"}}}'

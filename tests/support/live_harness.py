@@ -219,3 +219,14 @@ def differences(state: dict[str, Any]) -> list[str]:
 def preflight(environment: dict[str, str], *args: str | Path, cwd: Path | None = None) -> Done:
     """The command as installed, with time for a system to come up."""
     return run_command(COMMAND, *args, environment=environment, cwd=cwd, seconds=180)
+
+
+def registered(system: Ros1System, name: str, pids: list[int] | None = None) -> bool:
+    """Whether a node can be asked; its process is added to `pids`."""
+    try:
+        pid = system.pid(name)
+    except (OSError, xmlrpc.client.Error, TypeError, IndexError):
+        return False
+    if pids is not None:
+        pids.append(pid)
+    return True

@@ -1,27 +1,38 @@
+import * as path from "node:path";
 import {
+  CodeLens,
   commands,
   Disposable,
   EventEmitter,
   type ExtensionContext,
   languages,
+  Range,
   type TextDocument,
   type Uri,
   window,
   workspace,
 } from "vscode";
+import { advice } from "./doctorActions";
 import { launchFiles } from "./documents";
 import { GraphView } from "./graphView";
-import { type Live, watched } from "./live";
+import { type Live, UNWATCHED, watched } from "./live";
 import { choosePython, clearCache, DOCTOR, nodesOf, setServerPath, trace, watch } from "./maintenance";
-import { showMenu } from "./menu";
+import { showMenu, writeIntoTerminal } from "./menu";
+import { notice } from "./messages";
 import type { NodeItem } from "./nodeItems";
 import { NodeTreeView } from "./nodeTree";
 import { type Place, selectRoot, showReferences } from "./rootCommands";
 import { ServerSession } from "./serverSession";
 import { StatusBar } from "./statusBar";
+import { registerUnserved } from "./unserved";
 
 /** The settings that say which server is started, and with which environment. */
 const OF_THE_START = ["server.command", "server.python", "server.install", "environment.setup"];
+
+const WALKTHROUGH = "ros-preflight.ros-preflight#rosPreflight.start";
+/** Where launch files are, for the list of them; of ROS 2's in Python those that are named as such. */
+const LAUNCH_FILES = "**/*{.launch,.launch.xml,.launch.py,.launch.yaml,.launch.yml,_launch.py,_launch.xml}";
+const MOST = 2000;
 
 let session: ServerSession | undefined;
 
@@ -31,15 +42,17 @@ export function activate(context: ExtensionContext): void {
   const graph = new GraphView(context, isLaunchFile);
   let statusBar: StatusBar | undefined;
   let watching: string | undefined;
+  let before = UNWATCHED;
   const showLive = (live: Live) => {
     watching = live.event === "state" ? watching : live.to;
-    tree.showLive(watched(live, watching));
-    graph.showLive(live);
+    before = watched(live, watching, before);
+    tree.showLive(before);
+    graph.showLive(live, before.differences);
     void commands.executeCommand("setContext", "rosPreflight.watching", live.event !== "stopped");
   };
   const doctorIsStale = new EventEmitter<Uri>();
   const server = new ServerSession(context, log, {
-    changed: (life, status) => statusBar?.update(life, status),
+    changed: (life, status, last) => statusBar?.update(life, status, last),
     connected: (client) => {
       showLive({ event: "stopped" }); // a new server watches nothing
       tree.connect(client);
@@ -93,31 +106,58 @@ export function activate(context: ExtensionContext): void {
     command("clearCache", () => server.withClient(clearCache)),
     command("choosePython", choosePython),
     command("setServerPath", setServerPath),
-    registerDoctor(server, doctorIsStale),
+    command("getStarted", () => commands.executeCommand("workbench.action.openWalkthrough", WALKTHROUGH)),
+    command("openLaunchFile", openLaunchFile),
+    command("writeIntoTerminal", writeIntoTerminal),
+    registerUnserved(),
+    registerDoctor(server, doctorIsStale, () => begin()),
     followLaunchFiles(),
-    onFirstLaunchFile(() => {
-      statusBar = new StatusBar();
-      void server.restart();
-      context.subscriptions.push(
-        statusBar,
-        workspace.onDidChangeWorkspaceFolders(() => server.foldersChanged()),
-        workspace.onDidGrantWorkspaceTrust(() => server.trustGranted()),
-        workspace.onDidChangeConfiguration((change) => {
-          if (OF_THE_START.some((name) => change.affectsConfiguration(`rosPreflight.${name}`))) {
-            void server.restart();
-          }
-        }),
-      );
-    }),
+    onFirstLaunchFile(() => begin()),
   );
+  function begin(): void {
+    if (statusBar !== undefined) {
+      return;
+    }
+    statusBar = new StatusBar();
+    void server.restart();
+    context.subscriptions.push(
+      statusBar,
+      workspace.onDidChangeWorkspaceFolders(() => server.foldersChanged()),
+      workspace.onDidGrantWorkspaceTrust(() => server.trustGranted()),
+      workspace.onDidChangeConfiguration((change) => {
+        if (OF_THE_START.some((name) => change.affectsConfiguration(`rosPreflight.${name}`))) {
+          void server.restart();
+        }
+      }),
+    );
+  }
 }
 
 export async function deactivate(): Promise<void> {
   await session?.stop();
 }
 
-/** The command that opens the doctor's page, and who writes it: anew each time, and when `stale` says so. */
-function registerDoctor(server: ServerSession, stale: EventEmitter<Uri>): Disposable {
+/** Lets the user choose one of the workspace's launch files. */
+async function openLaunchFile(): Promise<void> {
+  const found = await workspace.findFiles(LAUNCH_FILES, "**/{build,install,devel,.git,node_modules}/**", MOST);
+  if (found.length === 0) {
+    void window.showInformationMessage(notice("no launch file was found in the open folders."));
+    return;
+  }
+  const items = found
+    .map((uri) => ({ uri, label: path.basename(uri.path), description: workspace.asRelativePath(uri) }))
+    .sort((a, b) => a.description.localeCompare(b.description));
+  const choice = await window.showQuickPick(items, { title: "Open a launch file", matchOnDescription: true });
+  if (choice !== undefined) {
+    await window.showTextDocument(choice.uri);
+  }
+}
+
+/**
+ * The command that opens the doctor's page, who writes it, anew each time and when `stale` says so, and its buttons.
+ * `begin` starts the server where no launch file did.
+ */
+function registerDoctor(server: ServerSession, stale: EventEmitter<Uri>, begin: () => void): Disposable {
   const provided = workspace.registerTextDocumentContentProvider(DOCTOR.scheme, {
     onDidChange: stale.event,
     provideTextDocumentContent: async () => {
@@ -130,7 +170,18 @@ function registerDoctor(server: ServerSession, stale: EventEmitter<Uri>): Dispos
       return [...server.facts.map(([what, value]) => what.padEnd(width) + value), text].join("\n");
     },
   });
+  const buttons = languages.registerCodeLensProvider(
+    { scheme: DOCTOR.scheme },
+    {
+      provideCodeLenses: (document) =>
+        advice(document.getText(), workspace.isTrusted).map(
+          ({ line, ...button }) =>
+            new CodeLens(new Range(line, 0, line, 0), { ...button, arguments: [...button.arguments] }),
+        ),
+    },
+  );
   const opened = commands.registerCommand("rosPreflight.doctor", async () => {
+    begin();
     stale.fire(DOCTOR);
     await window.showTextDocument(await workspace.openTextDocument(DOCTOR), { preview: true });
   });
@@ -139,6 +190,7 @@ function registerDoctor(server: ServerSession, stale: EventEmitter<Uri>): Dispos
       stale.dispose();
       provided.dispose();
       opened.dispose();
+      buttons.dispose();
     },
   };
 }

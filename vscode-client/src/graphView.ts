@@ -14,7 +14,7 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { graphPage, utf16Column } from "./graphPage";
-import type { Live } from "./live";
+import { clock, type Difference, type Live } from "./live";
 import { notice } from "./messages";
 import { keptUri, type PageMessage, type Place, pageMessage } from "./pageMessages";
 import { type Graph, ShownPlaces } from "./shownPlaces";
@@ -33,6 +33,7 @@ export class GraphView implements Disposable {
   private known: string | null = null;
   private places = new ShownPlaces();
   private live: Partial<Live> = {};
+  private differences: readonly Difference[] = [];
   private asking = false;
   private again = false;
   private readonly subscriptions: Disposable[];
@@ -68,7 +69,8 @@ export class GraphView implements Disposable {
   }
 
   /** Marks what of the graph is not there on the running robot, or is of another type. */
-  showLive(live: Live): void {
+  showLive(live: Live, differences: readonly Difference[]): void {
+    this.differences = differences;
     if (live.event === "attached" || live.event === "restarted") {
       return;
     }
@@ -104,7 +106,8 @@ export class GraphView implements Disposable {
   }
 
   private postLive(): void {
-    const { nodes, topics, services, actions, issues } = this.live;
+    const { nodes, topics, services, actions } = this.live;
+    const issues = this.differences.map(({ since, ...issue }) => ({ ...issue, since: clock(since) }));
     void this.panel?.webview.postMessage({ type: "live", states: { nodes, topics, services, actions, issues } });
   }
 

@@ -1,3 +1,5 @@
+import type { Location } from "vscode-languageserver-types";
+
 /** What is the case with a node of the launch, or with one that the launch file does not start, on the running robot. */
 export type LiveState = "present" | "missing" | "extra" | "dead" | "wrong-type" | "differs" | "inactive" | "unsure";
 
@@ -17,7 +19,24 @@ export interface Live extends LiveStates {
   /** What is watched. */
   readonly to?: string;
   readonly same?: boolean;
-  readonly issues?: readonly { readonly counts: boolean; readonly message: string; readonly node: string }[];
+  readonly issues?: readonly Issue[];
+}
+
+/** One thing that is not as expected. `what` is `node` or the role of the endpoint, which is called `name`. */
+export interface Issue {
+  readonly counts: boolean;
+  readonly message: string;
+  readonly node: string;
+  readonly what?: string;
+  readonly name?: string | null;
+  readonly expected?: string | null;
+  readonly actual?: string | null;
+  readonly location?: Location | null;
+}
+
+/** An issue and when it was seen first, in milliseconds. */
+export interface Difference extends Issue {
+  readonly since: number;
 }
 
 /** What is shown of the running system. */
@@ -25,11 +44,13 @@ export interface Watched {
   readonly states: ReadonlyMap<string, LiveState>;
   /** What is not as expected, by node. */
   readonly issues: ReadonlyMap<string, readonly string[]>;
+  /** The same in the order in which it is told, what counts first. */
+  readonly differences: readonly Difference[];
   /** One line; undefined while nothing is watched. */
   readonly message: string | undefined;
 }
 
-export const UNWATCHED: Watched = { states: new Map(), issues: new Map(), message: undefined };
+export const UNWATCHED: Watched = { states: new Map(), issues: new Map(), differences: [], message: undefined };
 
 const STATES: Readonly<Record<LiveState, string>> = {
   present: "Runs as expected.",
@@ -48,8 +69,11 @@ export function liveLines(name: string, watched: Watched): string[] {
   return state === undefined ? [] : [`On the running robot: ${STATES[state]}`, ...(watched.issues.get(name) ?? [])];
 }
 
-/** What is shown after one more event; `to` is what the one before told to be watched. */
-export function watched(live: Live, to: string | undefined): Watched {
+/**
+ * What is shown after one more event; `to` is what the one before told to be watched, `before` what was shown, `now` the
+ * time in milliseconds.
+ */
+export function watched(live: Live, to: string | undefined, before: Watched = UNWATCHED, now = Date.now()): Watched {
   switch (live.event) {
     case "stopped":
       // Without a reason it was the user who ended it.
@@ -68,10 +92,24 @@ export function watched(live: Live, to: string | undefined): Watched {
       return {
         states: new Map(Object.entries(live.nodes ?? {})),
         issues: byNode(live.issues ?? []),
+        differences: lasting(live.issues ?? [], before.differences, now),
         message: `Watching ${to ?? "the running system"}: ${said}`,
       };
     }
   }
+}
+
+/** What was seen last time, too, has lasted since then. */
+function lasting(issues: readonly Issue[], before: readonly Difference[], now: number): Difference[] {
+  const since = new Map(before.map((each) => [`${each.node} ${each.message}`, each.since]));
+  return issues
+    .map((issue) => ({ ...issue, since: since.get(`${issue.node} ${issue.message}`) ?? now }))
+    .sort((a, b) => Number(b.counts) - Number(a.counts));
+}
+
+/** The time of the day. */
+export function clock(milliseconds: number): string {
+  return new Date(milliseconds).toTimeString().slice(0, 8);
 }
 
 function byNode(issues: NonNullable<Live["issues"]>): ReadonlyMap<string, readonly string[]> {

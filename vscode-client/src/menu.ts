@@ -59,6 +59,11 @@ const ENTRIES: readonly (readonly [title: string, entries: readonly Entry[]])[] 
         description: "report ROS, the sandbox and what is missing",
         command: "rosPreflight.doctor",
       },
+      {
+        label: "$(mortar-board) Get Started",
+        description: "the first five minutes",
+        command: "rosPreflight.getStarted",
+      },
       { label: "$(output) Show Log", command: "rosPreflight.showOutput" },
       { label: "$(debug-restart) Restart Server", command: "rosPreflight.restartServer" },
     ],
@@ -71,8 +76,14 @@ const TRUST: Entry = {
   command: "workbench.trust.manage",
 };
 
-/** Written into a terminal and not entered: whether it is done is the user's decision. */
 const INSTALL = "rosPreflight.install";
+
+/** Writes a command and does not enter it: whether it is done is the user's decision. */
+export function writeIntoTerminal(command: string): void {
+  const terminal = window.createTerminal("ROS Preflight");
+  terminal.show();
+  terminal.sendText(command, false);
+}
 
 /** The menu of the status bar. `missing` is what the server misses on this machine. */
 export async function showMenu(missing: ServerStatus["missing"] | undefined): Promise<void> {
@@ -90,9 +101,7 @@ export async function showMenu(missing: ServerStatus["missing"] | undefined): Pr
     title: "ROS Preflight",
   });
   if (choice?.command === INSTALL && choice.detail !== undefined) {
-    const terminal = window.createTerminal("ROS Preflight");
-    terminal.show();
-    terminal.sendText(choice.detail, false);
+    writeIntoTerminal(choice.detail);
   } else if (choice?.command !== undefined) {
     await commands.executeCommand(choice.command);
   }

@@ -1,9 +1,9 @@
 import type { Location } from "vscode-languageserver-types";
-import type { LiveState } from "./live";
+import { clock, type Difference, type LiveState } from "./live";
 
 /** A line of the tree of nodes, in the server's own words (`rosPreflight/tree`). */
 export interface NodeItem {
-  readonly kind: "namespace" | "node" | "param" | "remap" | "section" | "include" | "not-taken";
+  readonly kind: "namespace" | "node" | "param" | "remap" | "section" | "include" | "not-taken" | "difference";
   readonly label: string;
   readonly detail: string;
   /** The full name of a node or namespace. */
@@ -74,6 +74,30 @@ export function extras(live: ReadonlyMap<string, LiveState>): NodeItem[] {
   return names.length > 0 ? [section] : [];
 }
 
+/** What is not as expected on the running robot, a line each: at the node, or all of it as a section. */
+export function differenceItems(differences: readonly Difference[]): NodeItem[] {
+  return differences.map(({ message, node, name, expected, actual, location, since, counts }) => ({
+    kind: "difference",
+    label: message,
+    detail: `since ${clock(since)}`,
+    name: `${node} ${name ?? ""}`.trim(),
+    location: location ?? null,
+    file: null,
+    note: [expected ? `expected: ${expected}` : "", actual ? `seen: ${actual}` : ""].filter(Boolean).join("\n"),
+    severity: counts ? 2 : 3,
+    findings: 0,
+    children: [],
+  }));
+}
+
+/** The list of all differences, above the tree. */
+export function differenceSection(differences: readonly Difference[]): NodeItem[] {
+  const children = differenceItems(differences);
+  const plain = { name: "", location: null, file: null, note: "", severity: null, findings: 0 };
+  const label = "Differences on the running robot";
+  return children.length > 0 ? [{ ...plain, kind: "section", label, detail: String(children.length), children }] : [];
+}
+
 /** The icon of a line, by its name in the product's icon font. */
 export function iconOf(item: NodeItem, live: LiveState | undefined): string {
   switch (item.kind) {
@@ -87,6 +111,8 @@ export function iconOf(item: NodeItem, live: LiveState | undefined): string {
       return "arrow-swap";
     case "include":
       return "file-code";
+    case "difference":
+      return item.severity === 3 ? "info" : "warning";
     case "not-taken":
       return "circle-slash";
     case "section":
@@ -96,6 +122,9 @@ export function iconOf(item: NodeItem, live: LiveState | undefined): string {
 
 /** What is decorated about a line, spelled as the query of a URI: that is how the editor asks for decorations. */
 export function decorationOf(item: NodeItem): string | undefined {
+  if (item.kind === "difference") {
+    return undefined;
+  }
   if (item.kind === "not-taken") {
     return "left-out";
   }
@@ -104,6 +133,46 @@ export function decorationOf(item: NodeItem): string | undefined {
     ? `${marks.severity === 1 ? "error" : marks.severity === 2 ? "warning" : "info"}=${marks.findings}`
     : undefined;
 }
+
+/** What a screen reader says of a line: what it is, what is wrong with it, where it comes from, and what it does now. */
+export function spoken(item: NodeItem, files: readonly string[], live: LiveState | undefined): string {
+  const { severity, findings } = marksOf(item);
+  const worst = severity === 1 ? "error" : severity === 2 ? "warning" : "information";
+  const file = item.file === null ? undefined : files[item.file];
+  return [
+    item.kind === "not-taken"
+      ? `not started: ${item.label}`
+      : item.kind === "section"
+        ? item.label
+        : `${NAMES[item.kind]} ${item.label}`,
+    item.detail,
+    findings === 0 ? "" : findings === 1 ? `1 finding, ${worst}` : `${findings} findings, the worst: ${worst}`,
+    live === undefined ? "" : `on the running robot: ${SPOKEN[live]}`,
+    item.kind === "node" && file !== undefined ? `from ${file}` : "",
+  ]
+    .filter((words) => words !== "")
+    .join(", ");
+}
+
+const NAMES: Readonly<Record<Exclude<NodeItem["kind"], "section" | "not-taken">, string>> = {
+  namespace: "namespace",
+  node: "node",
+  param: "parameter",
+  remap: "remap",
+  include: "include",
+  difference: "difference",
+};
+
+const SPOKEN: Readonly<Record<LiveState, string>> = {
+  present: "runs",
+  missing: "not running",
+  dead: "does not answer",
+  extra: "not in the launch file",
+  "wrong-type": "another type",
+  differs: "runs with differences",
+  inactive: "not active",
+  unsure: "not running, which may be right",
+};
 
 /** The findings of a node, or of all nodes in a namespace: those are seen while it is folded. */
 function marksOf(item: NodeItem): { severity: number; findings: number } {

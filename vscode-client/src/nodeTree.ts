@@ -20,7 +20,18 @@ import {
 } from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { liveLines, UNWATCHED, type Watched } from "./live";
-import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem, type NodeTree } from "./nodeItems";
+import {
+  colourOf,
+  decorationOf,
+  differenceItems,
+  differenceSection,
+  extras,
+  iconOf,
+  identified,
+  type NodeItem,
+  type NodeTree,
+  spoken,
+} from "./nodeItems";
 
 const SCHEME = "ros-preflight-node";
 /** Milliseconds between news and the question for a newer tree. */
@@ -120,16 +131,20 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
 
   getChildren(line?: Line): Line[] {
     if (line !== undefined) {
-      return identified(line.item.children, line.id);
+      return identified([...this.differencesAt(line.item), ...line.item.children], line.id);
     }
-    return this.tree === undefined ? [] : identified([...this.tree.items, ...extras(this.live.states)]);
+    return this.tree === undefined
+      ? []
+      : identified([...differenceSection(this.live.differences), ...this.tree.items, ...extras(this.live.states)]);
   }
 
   getTreeItem({ id, item }: Line): TreeItem {
-    const made = new TreeItem(item.label, fold(item));
+    const made = new TreeItem(item.label, fold(item, this.differencesAt(item).length > 0));
     made.id = id;
     made.description = item.detail;
     made.contextValue = item.kind;
+    const files = (this.tree?.files ?? []).map((uri) => path.basename(Uri.parse(uri).path));
+    made.accessibilityInformation = { label: spoken(item, files, this.live.states.get(item.name)) };
     const live = this.live.states.get(item.name);
     const colour = colourOf(item.file, live);
     made.iconPath = new ThemeIcon(
@@ -152,7 +167,17 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
     return made;
   }
 
+  /** What is not as expected at a node, one line for each endpoint. */
+  private differencesAt(item: NodeItem): NodeItem[] {
+    return item.kind === "node" ? differenceItems(this.live.differences.filter(({ node }) => node === item.name)) : [];
+  }
+
   async resolveTreeItem(made: TreeItem, { item }: Line, token: CancellationToken): Promise<TreeItem> {
+    if (item.kind === "difference") {
+      const said = [item.label, item.note, `${item.detail} (${item.name})`, this.place(item)];
+      made.tooltip = new MarkdownString().appendText(said.filter((line) => line !== "").join("\n"));
+      return made;
+    }
     const live = item.kind === "node" ? liveLines(item.name, this.live) : [];
     const lines = [`${item.name || item.label} ${item.detail}`, ...live, item.note, this.place(item)];
     // Names come from files: nothing in them is Markdown, or they could have an image fetched.
@@ -217,7 +242,10 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   }
 }
 
-function fold(item: NodeItem): TreeItemCollapsibleState {
+function fold(item: NodeItem, differs: boolean): TreeItemCollapsibleState {
+  if (differs) {
+    return TreeItemCollapsibleState.Expanded;
+  }
   if (item.children.length === 0) {
     return TreeItemCollapsibleState.None;
   }

@@ -10,6 +10,7 @@ import {
   workspace,
 } from "vscode";
 import { type LanguageClient, NotificationType, State } from "vscode-languageclient/node";
+import { Activity } from "./activity";
 import { createClient, workspaceTrust } from "./client";
 import { findServer, type ServerCommand, ServerNotFound } from "./findServer";
 import type { Live } from "./live";
@@ -33,7 +34,7 @@ const live = new NotificationType<Live>("rosPreflight/live");
 /** Who is told what becomes of the server. */
 export interface Listener {
   /** The server's life or what it does has changed. */
-  changed(life: Life, status: ServerStatus | undefined): void;
+  changed(life: Life, status: ServerStatus | undefined, last: string): void;
   /** A server runs and can be asked, or there is none any more. */
   connected(client: LanguageClient | undefined): void;
   /** There is something newer to be shown. */
@@ -66,6 +67,7 @@ export class ServerSession {
   private life: Life = { state: "stopped" };
   private status: ServerStatus | undefined;
   private saidThatItDied = false;
+  private activity = new Activity();
   /** Where the server was found and what was sourced for it, for the doctor's page. */
   readonly facts: Fact[] = [];
 
@@ -159,6 +161,8 @@ export class ServerSession {
     }
     this.log.info(`Starting ${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`);
     this.facts.push(["server", `${[server.program, ...server.args].join(" ")} (found in ${server.foundIn})`]);
+    this.activity = new Activity();
+    const begun = Date.now();
     let started = false;
     const client = createClient(server, environment, environments, this.log, () => {
       if (started && client === this.client) {
@@ -169,6 +173,9 @@ export class ServerSession {
     client.onNotification(statusChanged, (status) => {
       if (client === this.client) {
         this.status = status;
+        for (const line of this.activity.next(status, Date.now())) {
+          this.log.info(line);
+        }
         this.notify({ state: "running" });
       }
     });
@@ -179,6 +186,7 @@ export class ServerSession {
       () => {
         if (client === this.client) {
           started = true;
+          this.log.info(`The server answered after ${((Date.now() - begun) / 1000).toFixed(1)} s.`);
           this.notify({ state: "running" });
           this.listener.connected(client);
         }
@@ -309,7 +317,7 @@ export class ServerSession {
 
   private notify(life: Life): void {
     this.life = life;
-    this.listener.changed(this.life, this.status);
+    this.listener.changed(this.life, this.status, this.activity.last);
   }
 
   /** There is no server, and the user is told why. */

@@ -33,7 +33,7 @@ export interface Shown {
 const NAME = "ROS Preflight";
 
 /** The entry of the status bar that opens the menu. */
-export function shown(life: Life, status: ServerStatus | undefined): Shown {
+export function shown(life: Life, status: ServerStatus | undefined, last = ""): Shown {
   switch (life.state) {
     case "missing":
       return { text: `$(error) ${NAME}: no server`, tooltip: life.reason, severity: "error" };
@@ -46,11 +46,11 @@ export function shown(life: Life, status: ServerStatus | undefined): Shown {
     case "running": // Of what it finds nothing is known before its first word.
       return status === undefined
         ? { text: `$(sync~spin) ${NAME}`, tooltip: "The server has started.", severity: "none" }
-        : running(status);
+        : running(status, last);
   }
 }
 
-function running(status: ServerStatus): Shown {
+function running(status: ServerStatus, last: string): Shown {
   if (status.state !== "idle") {
     const share = status.total > 0 ? ` ${status.done} of ${status.total}` : "";
     const what =
@@ -70,15 +70,15 @@ function running(status: ServerStatus): Shown {
       return { text: `$(circle-slash) ${NAME}`, tooltip: `Nodes are not run: ${notRun.message}`, severity: "none" };
     default: // A workspace that is not trusted has a badge of its own.
       return status.broken.length === 0
-        ? { text: `$(check) ${NAME}`, tooltip: upToDate(status.missing.lines), severity: "none" }
+        ? { text: `$(check) ${NAME}`, tooltip: upToDate(status.missing.lines, last), severity: "none" }
         : broken(status.broken);
   }
 }
 
 /** What is missing on this machine is no fault of the launch files: the check mark stays. */
-function upToDate(missing: readonly string[]): string {
+function upToDate(missing: readonly string[], last: string): string {
   const lines = missing.length > 0 ? ["Missing on this machine:", ...missing] : [];
-  return ["Everything is up to date.", ...lines].join("\n");
+  return ["Everything is up to date.", ...(last === "" ? [] : [`${last}.`]), ...lines].join("\n");
 }
 
 function broken(files: readonly string[]): Shown {

@@ -17,8 +17,8 @@ export class StatusBar implements Disposable {
     this.badge.command = "workbench.trust.manage";
   }
 
-  update(life: Life, status: ServerStatus | undefined): void {
-    const { text, tooltip, severity } = shown(life, status);
+  update(life: Life, status: ServerStatus | undefined, last: string): void {
+    const { text, tooltip, severity } = shown(life, status, last);
     this.main.text = text;
     this.main.tooltip = tooltip;
     this.main.backgroundColor = severity === "none" ? undefined : new ThemeColor(`statusBarItem.${severity}Background`);

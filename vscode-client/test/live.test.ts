@@ -28,6 +28,29 @@ it("has the states of nodes by their names", () => {
   );
 });
 
+it("knows since when something is not as expected", () => {
+  const [a, b] = ["/a is missing", "/b is missing"].map((message) => ({ node: "/a", message, counts: true }));
+  const note = { node: "/c", message: "/c publishes /x", counts: false };
+  assert.ok(a && b);
+  const first = watched({ event: "state", issues: [note, a] }, undefined, UNWATCHED, 1000);
+  const second = watched({ event: "state", issues: [b, a] }, undefined, first, 2000);
+  assert.deepEqual(
+    first.differences.map(({ message, since }) => [message, since]),
+    [
+      ["/a is missing", 1000],
+      ["/c publishes /x", 1000],
+    ],
+  );
+  assert.deepEqual(
+    second.differences.map(({ message, since }) => [message, since]),
+    [
+      ["/b is missing", 2000],
+      ["/a is missing", 1000],
+    ],
+  );
+  assert.deepEqual(watched({ event: "waiting", reason: "gone" }, undefined, second, 3000).differences, []);
+});
+
 it("says of a node what is not as expected", () => {
   const issues = [
     { node: "/a", counts: true, message: "/a does not subscribe to /scan" },

@@ -1,6 +1,15 @@
 import * as assert from "node:assert/strict";
 import { describe, it } from "node:test";
-import { colourOf, decorationOf, extras, iconOf, identified, type NodeItem } from "../src/nodeItems";
+import {
+  colourOf,
+  decorationOf,
+  differenceSection,
+  extras,
+  iconOf,
+  identified,
+  type NodeItem,
+  spoken,
+} from "../src/nodeItems";
 
 function item(kind: NodeItem["kind"], label: string, more: Partial<NodeItem> = {}): NodeItem {
   return {
@@ -56,6 +65,43 @@ describe("a line of the tree", () => {
     assert.equal(decorationOf(item("namespace", "ns/", { children: [bad, fair, good] })), "error=3");
     assert.equal(decorationOf(item("namespace", "ns/", { children: [good] })), undefined);
     assert.equal(decorationOf(item("not-taken", "d")), "left-out");
+  });
+
+  it("lists what is not as expected on the running robot, with what was seen and when", () => {
+    const difference = {
+      node: "/a",
+      what: "publisher",
+      name: "/odom",
+      message: "/a publishes /odom as std_msgs/String",
+      expected: "nav_msgs/Odometry",
+      actual: "std_msgs/String",
+      counts: true,
+      since: new Date(2026, 1, 2, 12, 4, 17).getTime(),
+    };
+    const [section] = differenceSection([difference]);
+    assert.equal(section?.label, "Differences on the running robot");
+    assert.equal(section.children[0]?.detail, "since 12:04:17");
+    assert.equal(section.children[0]?.note, "expected: nav_msgs/Odometry\nseen: std_msgs/String");
+    assert.deepEqual(differenceSection([]), []);
+  });
+
+  it("is read out with its findings, its file and what it does", () => {
+    const files = ["robot.launch", "arm.launch"];
+    const bad = item("node", "driver", { detail: "arm/driver.py", severity: 1, findings: 2, file: 1 });
+    assert.equal(
+      spoken(bad, files, "missing"),
+      "node driver, arm/driver.py, 2 findings, the worst: error, on the running robot: not running, from arm.launch",
+    );
+    assert.equal(
+      spoken(item("namespace", "ns/", { children: [bad] }), files, undefined),
+      "namespace ns/, 2 findings, the worst: error",
+    );
+    assert.equal(
+      spoken(item("not-taken", "simulator", { detail: "if $(arg sim)" }), files, undefined),
+      "not started: simulator, if $(arg sim)",
+    );
+    assert.equal(spoken(item("section", "Includes", { detail: "2" }), files, undefined), "Includes, 2");
+    assert.equal(spoken(item("param", "rate", { detail: "5" }), files, undefined), "parameter rate, 5");
   });
 
   it("keeps its name when the tree is made anew, whatever comes before it", () => {

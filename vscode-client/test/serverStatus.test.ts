@@ -52,6 +52,8 @@ describe("the status bar", () => {
       severity: "none",
     });
     assert.equal(shown(running, idle).tooltip, "Everything is up to date.");
+    const last = "Ran 3 nodes in the sandbox in 1.2 s";
+    assert.equal(shown(running, idle, last).tooltip, `Everything is up to date.\n${last}.`);
   });
 
   it("says that there is no server, and why", () => {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from typing import Literal
@@ -205,6 +206,10 @@ def _includes(analysis: Analysis) -> Iterator[Item]:
     for index, node in enumerate(tree.nodes):
         for length in range(1, len(node.origin)):
             started.setdefault(node.origin[:length], []).append(index)
+    shared: Counter[Origin] = Counter()
+    for param in tree.params.values():
+        for length in range(1, len(param.origin)):
+            shared[param.origin[:length]] += param.owner is None
     # Each include comes before what is included in it: of those at one place each has what follows it.
     top: list[int] = []
     below: dict[int, list[int]] = {}
@@ -227,11 +232,13 @@ def _includes(analysis: Analysis) -> Iterator[Item]:
         last = bisect_left(found, ends[at]) if at in ends else len(found)
         count = last - bisect_left(found, before[at])
         given = " ".join(f"{name}:={value}" for name, value in include.args.items() if value is not None)
-        nodes = f"{count} node{'' if count == 1 else 's'}"
+        adds = f"{count} node{'' if count == 1 else 's'}"
+        if params := shared[include.origin]:
+            adds += f", {params} shared parameter{'' if params == 1 else 's'}"
         label = shown_path(include.path, folder) if include.path is not None else "unresolved include"
         inside = tuple(map(item, below.get(at, ())))
         place = include.origin[-1]
-        return Item("include", label, f"{nodes}  {given}".rstrip(), location=place, file=include.path, children=inside)
+        return Item("include", label, f"{adds}  {given}".rstrip(), location=place, file=include.path, children=inside)
 
     if tree.includes:
         yield Item("section", "Includes", str(len(tree.includes)), children=tuple(map(item, top)))

@@ -14,4 +14,5 @@ return {
     params.initializationOptions = client.init_options(config.root_dir, config.init_options)
   end,
   handlers = client.handlers,
+  on_exit = client.on_exit,
 }

@@ -24,6 +24,12 @@ command(
   'trace',
   { bang = true, desc = 'Run the node at the cursor again; with ! all nodes' }
 )
+command(
+  'RosPreflightWatch',
+  'watch',
+  'open',
+  { bang = true, desc = 'Compare the running system with the launch; with ! stop' }
+)
 command('RosPreflightDoctor', 'maintenance', 'doctor', { desc = 'Report the environment, packages and sandbox' })
 command('RosPreflightClearCache', 'maintenance', 'clear_cache', { desc = 'Delete the results of runs' })
 command('RosPreflightRestart', 'maintenance', 'restart', { desc = 'Restart the server' })

@@ -380,6 +380,74 @@ function scenarios.maintenance()
   return result
 end
 
+-- The server dies: it is started again once, and what happens then is said.
+function scenarios.crash()
+  local told = {}
+  vim.notify = function(message)
+    -- Neovim says of itself how the client quit.
+    if message:find('^ros%-preflight: ') then
+      table.insert(told, message)
+    end
+  end
+  local client = require('ros_preflight.client')
+  local file = vim.api.nvim_get_current_buf()
+  -- The process is not among what Neovim tells of a client.
+  local function kill()
+    local pids = vim.api.nvim_get_proc_children(vim.fn.getpid())
+    for _, pid in ipairs(pids) do
+      vim.fn.system({ 'kill', '-KILL', tostring(pid) })
+    end
+  end
+  wait_for('the diagnostic', function()
+    return diagnostics_with('chatter')[1]
+  end)
+  local before = client.clients(file)[1].id
+  kill()
+  wait_for('another server', function()
+    local now = client.clients(file)[1]
+    return now and now.id ~= before
+  end)
+  edit('to="chater"', 'to="chater2"')
+  wait_for('findings of the new server', function()
+    return diagnostics_with('chater2')[1]
+  end)
+  local result = { clients = #client.clients(), first = told[1] }
+  kill()
+  result.second = wait_for('what is said of the second time', function()
+    return told[2]
+  end)
+  result.left = wait_for('no server', function()
+    return #client.clients() == 0 and 'none'
+  end)
+  return result
+end
+
+-- The running system is watched, and one of its nodes dies.
+function scenarios.watch()
+  local file = vim.api.nvim_get_current_buf()
+  wait_for('the diagnostic', function()
+    return diagnostics_with('chatter')[1]
+  end)
+  vim.cmd('RosPreflightWatch')
+  wait_for_texts(0, { 'no differences' })
+  local result = { healthy = lines_of(0) }
+  vim.fn.system({ 'kill', '-KILL', vim.env.PREFLIGHT_VICTIM })
+  wait_for_texts(0, { '/listener', 'since ' })
+  result.broken = lines_of(0)
+  on_line_with('/listener is')
+  vim.api.nvim_feedkeys(vim.api.nvim_replace_termcodes('<CR>', true, false, true), 'xm', false)
+  wait_for('the line of the launch file', function()
+    return vim.api.nvim_get_current_buf() == file
+  end)
+  result.line = vim.api.nvim_get_current_line()
+  result.marked = #diagnostics_with('running system: /listener')
+  vim.cmd('RosPreflightWatch!')
+  wait_for('the end of the watch', function()
+    return #diagnostics_with('running system: /listener') == 0
+  end)
+  return result
+end
+
 -- The types of files, and which of them the server is told of.
 function scenarios.files()
   local found = {}

@@ -198,6 +198,51 @@ const scenarios = {
     }
   },
 
+  // The first minutes: the welcome view, a launch file from it, the walkthrough, the doctor's buttons, the log.
+  async start() {
+    workbench.settings = { "files.defaultLanguage": "roslaunch" };
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    const welcome = workbench.page.locator(".welcome-view-content");
+    await step("show the view", () => workbench.command("ROS Preflight: Show Node Tree"));
+    await step("the welcome view", () => welcome.first().waitFor());
+    seen.welcome = await welcome.allInnerTexts();
+    await step("picture of the welcome view", () => picture("23-welcome"));
+    await step("a launch file from it", async () => {
+      await welcome.getByRole("button", { name: "Open Launch File" }).click();
+      const row = workbench.page.locator(".quick-input-list .monaco-list-row", { hasText: "talker_listener.launch" });
+      await row.click();
+      await workbench.activeTab("talker_listener.launch").waitFor();
+    });
+    await step("a node in the tree", () => workbench.treeLine("talker").first().waitFor());
+    await step("a finding in the tree", () => workbench.badge("listener").first().waitFor());
+    seen.spoken = await workbench.treeLine("listener").first().getAttribute("aria-label");
+    await step("the walkthrough", async () => {
+      await workbench.command("ROS Preflight: Get Started");
+      await workbench.page.locator(".getting-started-step", { hasText: "Open a launch file" }).waitFor();
+      seen.steps = await workbench.page.locator(".getting-started-step .step-title").allInnerTexts();
+      await picture("24-walkthrough");
+    });
+    await step("the doctor's buttons", async () => {
+      await workbench.command("ROS Preflight: Doctor");
+      await workbench.activeTab("Doctor").waitFor();
+      await workbench.page.locator(".codelens-decoration a", { hasText: "Restart server" }).waitFor();
+      seen.buttons = await workbench.page.locator(".codelens-decoration a").allInnerTexts();
+      await picture("25-doctor-buttons");
+    });
+    await step("a file that is not saved", async () => {
+      await workbench.command("New Untitled Text File");
+      await workbench.page.keyboard.type("<launch>");
+      const status = workbench.page
+        .locator(".statusbar-item", { hasText: "{}" })
+        .or(workbench.page.locator("#status\\.languageStatus"));
+      await status.first().waitFor();
+      await status.first().click();
+      await workbench.page.locator(".hover-language-status", { hasText: "not checked" }).first().waitFor();
+      seen.unsaved = await workbench.page.locator(".hover-language-status").allInnerTexts();
+      await picture("26-unsaved");
+    });
+  },
+
   // The nodes of the tree are those of the running robot, and one of them dies.
   async watch() {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
@@ -217,6 +262,15 @@ const scenarios = {
         .filter({ has: workbench.page.locator(marked) })
         .waitFor(),
     );
+    seen.listed = await step("the list of differences", async () => {
+      await workbench.treeLine("Differences on the running robot").waitFor();
+      const node = workbench.treeLine("preflight_demo/listener.py");
+      await node.locator(".monaco-tl-twistie").click();
+      return until("the difference at the node", async () => {
+        const lines = (await workbench.treeLines()).filter((line) => line.includes("since "));
+        return lines.length > 1 && lines;
+      });
+    });
     await step("picture of the running system", async () => {
       await workbench.parkMouse();
       await picture("16-watch");

@@ -248,7 +248,9 @@ try {
   await step("live", async () => {
     const tell = (states) => page.evaluate((given) => window.postMessage({ type: "live", states: given }, "*"), states);
     const nodes = { "/base": "missing", "/laser": "dead", "/slam": "present", "/stranger": "extra" };
-    await tell({ nodes, topics: { "/odom": "wrong-type", "/scan": "present" }, services: {}, actions: {} });
+    const message = "/slam subscribes to /odom as std_msgs/String";
+    const issues = [{ node: "/slam", what: "subscriber", name: "/odom", message, since: "12:04:17" }];
+    await tell({ nodes, topics: { "/odom": "wrong-type", "/scan": "present" }, services: {}, actions: {}, issues });
     await page.locator("#live:not([hidden])").waitFor();
     const found = {
       missing: await labels(page.locator(".state-missing")),
@@ -257,6 +259,11 @@ try {
     };
     await item("node /base").hover();
     found.hint = await page.locator("#hint").innerText();
+    found.marked = await page.locator(".route.differs").count();
+    await page.locator("#differences").click();
+    found.list = await page.locator("#details li").allInnerTexts();
+    await page.locator("#details li button").click();
+    found.jumped = await focused();
     await picture("graph-10-live");
     await tell({});
     await page.locator("#live").waitFor({ state: "hidden" });

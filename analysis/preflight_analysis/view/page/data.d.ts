@@ -80,13 +80,16 @@ export type Graph = GraphData & {
 /** How much of each node and channel is shown: 2 is looked for, 1 is beside it, 0 is hidden. `matches` are keys. */
 export type Shown = { node: number[]; channel: number[]; all: boolean; matches: string[] };
 
+/** What is not as expected: of a node, or of its endpoint `name` with the role `what`; `since` is a time of the day. */
+export type Issue = { node: string; message: string; what?: string; name?: string | null; since?: string };
+
 /** The message `live` of the server: how each is on the running robot, by name. Without `nodes` nothing is watched. */
 export type Live = {
   nodes?: Record<string, string>;
   topics?: Record<string, string>;
   services?: Record<string, string>;
   actions?: Record<string, string>;
-  issues?: { node: string; message: string }[];
+  issues?: Issue[];
 };
 
 /** How a place in a part of the layout becomes one of the picture, how large that is, and where each box is in it. */

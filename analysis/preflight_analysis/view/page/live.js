@@ -1,4 +1,5 @@
 // The running robot.
+/** @import {Issue} from "./data.js" */
 import { channelOf, isNode, nodeOf, things } from "./graph.js";
 import { element, make, state } from "./page.js";
 
@@ -32,6 +33,14 @@ export function compare() {
     part.classList.remove("state-normal", "state-missing", "state-extra", "state-wrong");
     part.classList.add(`state-${liveOf(part)?.[0] ?? own}`);
   }
+  const differing = new Set((live.issues ?? []).map(({ node, name, what }) => `${node} ${what} ${name}`));
+  graph.routes.forEach((route, i) => {
+    const isMarked = route.edges.some((edge) => {
+      const { node, channel, role } = graph.edges[edge];
+      return differing.has(`${graph.nodes[node].name} ${role} ${graph.channels[channel].name}`);
+    });
+    graph.routeParts[i].classList.toggle("differs", isMarked);
+  });
   const drawnNodes = new Set(graph.nodes.map((node) => node.name));
   const nodes = Object.entries(live.nodes ?? {});
   const extra = nodes.filter(([name, how]) => how === "extra" && !drawnNodes.has(name)).map(([name]) => name);
@@ -43,15 +52,24 @@ export function compare() {
   if (extra.length > 0) {
     words.push(`also there: ${extra.slice(0, 5).join(", ")}${extra.length > 5 ? ", …" : ""}`);
   }
+  const count = live.issues?.length ?? 0;
+  element("differences").hidden = count === 0;
+  element("differences").textContent = `${count} difference${count === 1 ? "" : "s"}`;
   element("live").hidden = live.nodes === undefined;
   element("live").textContent = `Running robot: ${words.join(", ") || "all nodes are there"}`;
 }
+
+/** @param {Issue} issue */
+export const issueShown = ({ message, since }) => (since ? `${message} (since ${since})` : message);
 
 /** @param {SVGElement} part */
 export function liveShown(part) {
   const how = liveOf(part);
   const name = isNode(part) ? nodeOf(part).name : undefined;
-  const issues = (state.live.issues ?? []).filter((issue) => issue.node === name);
-  const lines = how ? [how[1], ...issues.map((issue) => issue.message)] : [];
+  const channel = name === undefined && part.dataset.channel !== undefined ? channelOf(part).name : undefined;
+  const issues = (state.live.issues ?? []).filter((issue) =>
+    name !== undefined ? issue.node === name : channel !== undefined && issue.name === channel,
+  );
+  const lines = [...(how ? [how[1]] : []), ...issues.map(issueShown)];
   return lines.map((line) => make("p", { className: "live" }, line));
 }

@@ -11,7 +11,8 @@ import { listenToMap } from "./minimap.js";
 import { canvas, editor, element, filter, input, make, remember, saved, state } from "./page.js";
 import { save } from "./save.js";
 import { mark, searchAnew } from "./search.js";
-import { focusOn, nameFocus, select } from "./walk.js";
+import { focusOn, nameFocus, select, walkTo } from "./walk.js";
+import { listDifferences } from "./words.js";
 import { fit, magnification, zoomTo } from "./zoom.js";
 
 /** @type {Kind[]} */
@@ -151,6 +152,9 @@ element("show-legend").addEventListener("click", () => {
   foldLegend(!isOpen);
   remember();
 });
+element("differences").addEventListener("click", () =>
+  listDifferences({ close: () => select(undefined), jump: (key) => walkTo(state.graph.items.get(key)) }),
+);
 listenToMap();
 addEventListener("resize", () => {
   if (state.isLoaded) {

@@ -12,7 +12,7 @@ import {
   TOWARDS,
   worst,
 } from "./graph.js";
-import { liveShown } from "./live.js";
+import { issueShown, liveShown } from "./live.js";
 import { details, editor, go, hint, make, state } from "./page.js";
 
 /** @type {Record<Role, string>} */
@@ -162,6 +162,30 @@ function section(title, edges, other, onJump) {
     return make("li", {}, jump, how, ...places(edge.places), ...findingsShown(edge.findings));
   });
   return rows.length === 0 ? [] : [make("h3", {}, `${title} (${rows.length})`), make("ul", {}, ...rows)];
+}
+
+/**
+ * Lists beside the picture what is not as expected on the running robot.
+ * @param {{close: () => void, jump: (key: string) => void}} on
+ */
+export function listDifferences(on) {
+  const { graph, live } = state;
+  const close = make("button", { type: "button", className: "close", onclick: on.close }, "✕");
+  close.setAttribute("aria-label", "Close the list");
+  const rows = (live.issues ?? []).map((issue) => {
+    const at = graph.nodes.findIndex((node) => node.name === issue.node);
+    const text = issueShown(issue);
+    return at < 0
+      ? make("li", {}, text)
+      : make(
+          "li",
+          {},
+          make("button", { type: "button", className: "item", onclick: () => on.jump(nodeKey(at)) }, issue.node),
+          ` ${text}`,
+        );
+  });
+  details.replaceChildren(close, make("h2", {}, "Differences on the running robot"), make("ul", {}, ...rows));
+  details.hidden = false;
 }
 
 /**

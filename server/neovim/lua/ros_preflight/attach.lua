@@ -26,6 +26,7 @@ local function start(root)
     workspace_folders = root and { { uri = vim.uri_from_fname(root), name = root } } or nil,
     init_options = client.init_options(root),
     handlers = client.handlers,
+    on_exit = client.on_exit,
     on_attach = function(_, bufnr)
       client.refresh_lenses(bufnr)
     end,

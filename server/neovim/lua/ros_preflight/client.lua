@@ -121,7 +121,28 @@ local function tell(event)
   vim.api.nvim_exec_autocmds('User', { pattern = event, modeline = false })
 end
 
+-- How a server ended that nobody told to: it is started again, once in this editor; what crashes twice does so again.
+local has_restarted = false
+local SIGTERM = 15 -- what Neovim itself sends
+
+function M.on_exit(code, signal)
+  if code == 0 and (signal == 0 or signal == SIGTERM) or vim.v.exiting ~= vim.NIL then
+    return
+  end
+  vim.schedule(function()
+    if has_restarted then
+      return M.warn('the server stopped again; :RosPreflightRestart starts it, and the log says why it stopped')
+    end
+    has_restarted = true
+    M.warn('the server stopped unexpectedly and is started again')
+    require('ros_preflight.maintenance').start()
+  end)
+end
+
 M.handlers = {
+  ['rosPreflight/live'] = function(_, told, ctx)
+    require('ros_preflight.watch').told(told, ctx.client_id)
+  end,
   ['rosPreflight/status'] = function(_, status, ctx)
     status_of[ctx.client_id] = status
     tell('RosPreflightStatus')

@@ -90,7 +90,8 @@ function M.doctor(args)
   end)
 end
 
-local function start()
+-- Starts the server for all files that it is for.
+function M.start()
   if vim.lsp.enable then
     vim.lsp.enable(client.NAME)
   else
@@ -125,7 +126,7 @@ function M.restart()
       ticks = ticks + 1
       if #stopping == 0 then
         timer:close()
-        start()
+        M.start()
       elseif ticks == STOP_WITHIN_MS / 50 then
         stop(true)
       end
