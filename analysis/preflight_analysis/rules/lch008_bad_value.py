@@ -48,7 +48,8 @@ RULE = Rule(
     name="bad-value",
     severity="error",
     what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is neither true "
-    "nor false, or an unknown choice.",
+    "nor false, or an unknown choice. A value that is empty because an argument is empty makes the finding "
+    "information.",
     why="The launcher stops and starts nothing. The value is checked after its substitutions are resolved.",
     example='<node pkg="camera" type="driver" name="camera" output="scren"/>',
     instead='<node pkg="camera" type="driver" name="camera" output="screen"/>',

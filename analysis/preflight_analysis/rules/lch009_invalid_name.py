@@ -60,7 +60,8 @@ RULE = Rule(
     id="LCH009",
     name="invalid-name",
     severity="error",
-    what="Checks for the name of a node, argument, remap or parameter that ROS does not allow.",
+    what="Checks for the name of a node, argument, remap or parameter that ROS does not allow. If "
+    "the name has an argument in it that is empty, the finding is information.",
     why="`roslaunch` stops. For other characters in a node's name it only warns, but other tools fail. Names start "
     "with a letter, or with `/` or `~` for a graph resource. They continue with letters, digits, `_` and `/`. The "
     "name of a node has no `/`: its namespace is the attribute `ns`.",

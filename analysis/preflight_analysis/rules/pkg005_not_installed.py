@@ -140,7 +140,8 @@ RULE = Rule(
     what="Checks for a launch or parameter file that is referenced in the share folder of a package and that the "
     "package does not install there. The file is in the source of the package, and its `setup.py` or "
     "`CMakeLists.txt` does not install it, or installs it in another folder. A launch file in the folder `launch` "
-    "that is not installed at all is reported too.",
+    "that is not installed at all is reported too. If its name does not end like that of a launch file "
+    "(`robot.launch_old.py`), the finding is information.",
     why="`ros2 launch` searches the share folder of the installed package. The file is not there.",
     example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
     "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",

@@ -172,8 +172,9 @@ RULE = Rule(
     severity="error",
     what="Checks for a `<param command=...>` whose command fails or whose program does not exist. The finding "
     "quotes the last lines of its output. The command runs in the sandbox if the workspace is trusted, and again "
-    "when a file that it read changes. A file that git ignores, or an empty argument, makes the finding "
-    "information. `ros-preflight check --no-run` runs nothing and finds missing programs only.",
+    "when a file that it read changes. A file that git ignores, an empty argument, or a relative path "
+    "to a file beside the launch file makes the finding information. "
+    "`ros-preflight check --no-run` runs nothing and finds missing programs only.",
     why="`roslaunch` runs the command before the first node, and starts nothing if it fails.",
     example='<param name="robot_description" command="$(find xacro)/xacro.py $(find arm)/urdf/arm.xacro"/>',
     instead='<param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro"/>',

@@ -187,7 +187,8 @@ RULE = Rule(
     "this machine lacks (`/ws/src/...` of a container), and the home folder of another user. So are a disk that is "
     "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "
     "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
-    "ignores. A `<test>`, and a program that a signal kills in a shell script, are information too.",
+    "ignores. A module that the program reports as missing, an argument without a value, "
+    "a `<test>`, and a program that a signal kills in a shell script, are information too.",
     why="With these parameters and arguments the node most likely exits on the robot too. Only what it did before "
     "is known.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
