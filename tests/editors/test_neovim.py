@@ -241,7 +241,7 @@ def test_graph(neovim: Neovim, trusted_harness: Harness) -> None:
     keys, title, topics, *lines = seen["lines"]
     assert keys.startswith("<CR> line in the launch file")
     assert (title, topics) == ("launch/robot.launch  3 nodes, 3 topics, 0 services, 0 actions", "Topics")
-    assert [line.split(": none")[0] for line in lines] == [
+    assert [line.split(": '/front/")[0] for line in lines] == [
         "▾ /chatter  std_msgs/String  no subscriber",
         "    publisher  /inner  latch false, queue size 10  inner.launch:2  made in talker.py:10",
         "    hint: '/chatter' has no subscriber in this launch (publisher: /inner)",
