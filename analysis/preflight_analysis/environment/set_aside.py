@@ -24,6 +24,6 @@ def is_set_aside(disk: Disk, environment: Environment, path: str) -> bool:
 
 @query
 def _has_marker(db: Database, folder: str, top: str) -> bool:
-    if folder == top or len(folder) < len(top):
+    if folder in (top, "/") or len(folder) < len(top):  # the workspace may be the root of the disk
         return False
     return not IGNORED_BY_COLCON.isdisjoint(Disk(db).names(folder)) or _has_marker(db, os.path.dirname(folder), top)
