@@ -72,7 +72,7 @@ async def test_an_outdated_annotation_is_told_and_brought_up_to_date(harness: Ha
         found = told["std_msgs/Int32"]
         assert "std_msgs/String" in found.message
         assert found.severity == types.DiagnosticSeverity.Warning
-        assert "reads the parameter '~rate'" in told["<topics>"].message
+        assert "reads parameter '~rate'" in told["<topics>"].message
         actions = await editor.actions(path, found.range)
         (action,) = [a for a in actions if a.title == "Update the annotation of '/talker' from its run"]
         assert action.kind == types.CodeActionKind.QuickFix
