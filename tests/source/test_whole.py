@@ -136,9 +136,13 @@ def test_a_remap_of_a_name_that_the_source_does_not_use(harness: SourceHarness) 
 
 
 def test_what_a_condition_decides_is_not_sure(harness: SourceHarness) -> None:
+    """Two ends that nobody else uses speak for each other; where another node has the provider, a guess is a guess."""
     _script(harness, "talk", "rospy.Publisher('chatter', String)")
     nodes = '<node pkg="p" type="talk" name="talk"/><node pkg="p" type="hear" name="hear"/>'
     _script(harness, "hear", "rospy.Subscriber('chater', String, print)")
     assert _findings(harness, nodes)["TOP001"].severity == "warning"
     _script(harness, "hear", "if len(sys.stdin.read()) > 3:\n    rospy.Subscriber('chater', String, print)")
-    assert _findings(harness, nodes)["TOP001"].severity == "info"
+    found = _findings(harness, nodes)["TOP001"]
+    assert (found.severity, found.confidence) == ("warning", "possible")
+    _script(harness, "other", "rospy.Subscriber('chatter', String, print)")
+    assert _findings(harness, nodes + '<node pkg="p" type="other" name="other"/>')["TOP001"].severity == "info"
