@@ -110,7 +110,7 @@ def test_processes_are_no_nodes(tmp_path: Path, preflight: Run) -> None:
         (["a:=1"], "none is named"),
         ([".", "a:=1"], ". is a folder"),
         (["missing"], "missing does not exist"),
-        ([".", "--baseline", "missing.json"], "--write-baseline missing.json makes it"),
+        ([".", "--baseline", "missing.json"], "--write-baseline missing.json creates it"),
         (["x.launch", "--changed-since", "HEAD"], "is not in a git repository"),
         (["x.launch", "--changed-since=--output=x"], "is no revision"),
     ],

@@ -45,7 +45,7 @@ def test_a_finding_is_shown_and_mended(trusted_harness: Harness) -> None:
     assert finding["underlined"] == "chater"
     assert "Replace 'chater' with 'chatter'" in seen["offered"]
     assert [each["line"] for each in seen["after"]] == [7]
-    assert "remapped to itself" in seen["after"][0]["text"]
+    assert "to itself has no effect" in seen["after"][0]["text"]
     assert 'to="chatter"' in trusted_harness.launch_file.read_text()
 
 

@@ -20,7 +20,7 @@ SECONDS = 20.0
 """For the answer to a question after the messages; the machine may be busy."""
 _NOT_SENT = ("exit", "shutdown", "initialize")
 """What ends the server, as it should, or begins it."""
-_OURS = re.compile(r'preflight_(?:analysis|server/lsp/(?!protocol))\S*\.py", line|a background task broke|CRITICAL')
+_OURS = re.compile(r'preflight_(?:analysis|server/lsp/(?!protocol))\S*\.py", line|a background task failed|CRITICAL')
 """In the log: a frame of ours in a traceback. pygls shows its own for each message that it does not understand."""
 _ALLOWED = (-32700, -32600, -32601, -32602, -32800, -32801, -32803)
 """Codes of answers that are the client's fault, or say that something cannot be done. What broke is -32603."""

@@ -28,7 +28,7 @@ def test_choices_are_checked_in_children_of_a_node_written_in_capitals() -> None
         <launch>
           <node pkg="p" type="t" name="n">
             <ROSPARAM command="laod">{}</ROSPARAM>
-                               ^^^^ error[LCH008] command='laod' of <ROSPARAM> is not load, dump or delete
+                               ^^^^ error[LCH008] invalid value 'laod' of attribute 'command' of <ROSPARAM>
             <Param name="a" value="1" if="tru"/>
                                           ^^^ error[LCH008] did you mean 'true'?
           </node>

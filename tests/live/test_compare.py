@@ -48,7 +48,7 @@ def test_of_a_node_of_which_nothing_is_known_only_the_presence_is_judged() -> No
 def test_what_may_be_missing_is_for_information() -> None:
     source_only = node("/a", endpoint("publisher", "/x", certain=False), complete=False)
     assert told([source_only], live({"/a": []})) == [
-        "(/a does not publish /x (std_msgs/String); it may not do so in each case)"
+        "(/a does not publish /x (std_msgs/String); it may not do so in every run)"
     ]
     on_demand = node("/a", replace(endpoint("publisher", "/x", certain=False), on_demand=True))
     assert told([on_demand], live({"/a": []})) == []

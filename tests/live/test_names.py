@@ -103,10 +103,10 @@ def test_more_than_can_be_compared_is_said(generation: int, monkeypatch: pytest.
     few, many = ([f"/n{number}" for number in range(count)] for count in (20, 21))
     if generation == 2:
         assert len(of_ros2(few).endpoints) == 20
-        with pytest.raises(CannotObserveError, match="21 nodes with 21 ends"):
+        with pytest.raises(CannotObserveError, match="21 nodes with 21 endpoints"):
             of_ros2(many)
     else:
         with master(few) as observer:
             assert len(observer.observe().endpoints) == 20
-        with master(many) as observer, pytest.raises(CannotObserveError, match="21 nodes with 21 ends"):
+        with master(many) as observer, pytest.raises(CannotObserveError, match="21 nodes with 21 endpoints"):
             observer.observe()

@@ -69,7 +69,7 @@ def test_an_interpreter_of_the_workspace_is_refused(hostile: tuple[Path, Path]) 
     environment = detect(str(workspace))
     assert environment.ros2_python is not None, "nothing of the workspace was found that could be refused"
     observer = Ros2Observer(environment)
-    with pytest.raises(CannotObserveError, match=r"by way of the workspace only .*source") as refused:
+    with pytest.raises(CannotObserveError, match=r"found only in the workspace .*source") as refused:
         observer.observe()
     assert refused.value.final
     assert not marker.exists()
@@ -121,7 +121,7 @@ def test_what_was_closed_starts_nothing_more(tmp_path: Path, monkeypatch: pytest
     python.chmod(0o755)
     monkeypatch.setenv("PATH", f"{prefix}/bin:/usr/bin:/bin")
     environment = detect(str(tmp_path))
-    with pytest.raises(CannotObserveError, match="ended with"):
+    with pytest.raises(CannotObserveError, match="exited with"):
         Ros2Observer(environment).observe()
     assert started.exists()
     started.unlink()

@@ -107,7 +107,7 @@ async def test_a_refusal_says_why(
     async with editing(harness) as editor:
         editor.open(outer)
         await indexed(editor, outer)
-        with pytest.raises(JsonRpcException, match="'a b' is no name for an argument"):
+        with pytest.raises(JsonRpcException, match="'a b' is not a valid argument name"):
             await editor.rename(outer, editor.at(outer, '"rate"', 1), "a b")
         with pytest.raises(JsonRpcException, match="This is a package"):
             await editor.prepare_rename(outer, editor.at(outer, "preflight_demo"))

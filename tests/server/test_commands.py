@@ -120,7 +120,7 @@ async def test_a_switch_in_the_settings(harness: Harness, robot: Path) -> None:
 
 
 async def test_while_it_runs_nothing_is_said_and_it_can_be_cancelled(harness: Harness, robot: Path) -> None:
-    title = "Running the commands of parameters in the sandbox"
+    title = "Running parameter commands in the sandbox"
     async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot, slow(robot))
         token = await editor.until(lambda: next(iter(editor.progress_of(title)), None))
@@ -135,7 +135,7 @@ async def test_while_it_runs_nothing_is_said_and_it_can_be_cancelled(harness: Ha
 
 
 async def test_an_edit_stops_a_command_that_nobody_asks_for_any_more(harness: Harness, robot: Path) -> None:
-    title = "Running the commands of parameters in the sandbox"
+    title = "Running parameter commands in the sandbox"
     async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         editor.open(robot, slow(robot))
         token = await editor.until(lambda: next(iter(editor.progress_of(title)), None))

@@ -174,7 +174,8 @@ async def test_a_file_that_is_evaluated_says_nothing_of_it(harness: Harness) -> 
     async with editing(harness, trusted=True) as editor:
         editor.open(path, language="python")
         await editor.once(
-            lambda: titles(editor, path), lambda shown: shown == ["0 includers", "0 nodes", "launched by this file"]
+            lambda: titles(editor, path),
+            lambda shown: shown == ["not included by any file", "0 nodes", "launched by this file"],
         )
 
 

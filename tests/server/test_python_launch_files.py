@@ -159,7 +159,7 @@ async def test_what_the_last_good_run_said_stays_while_a_file_is_typed(harness: 
 
 async def test_an_edit_ends_the_run_of_the_text_before(harness: Harness, outer: Path) -> None:
     path = outer.parent / "own.launch.py"
-    title = "Running the commands of parameters in the sandbox"
+    title = "Running parameter commands in the sandbox"
     async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
         slow = "import time\ntime.sleep(600)\n"
         editor.open(path, slow + RUN, language="python")

@@ -58,10 +58,10 @@ _PURPOSES = (
     ("_lifecycle_", "lifecycle"),
     ("_node_init", "nodes"),
     ("_node_fini", "nodes"),
-    ("_get_node_names", "looks at the graph"),
-    ("_names_and_types", "looks at the graph"),
-    ("_info_by_", "looks at the graph"),
-    ("_count_", "looks at the graph"),
+    ("_get_node_names", "graph queries"),
+    ("_names_and_types", "graph queries"),
+    ("_info_by_", "graph queries"),
+    ("_count_", "graph queries"),
     ("_is_available", "waits"),
     ("_wait", "waits"),
     ("_publish", "topics"),
@@ -69,7 +69,7 @@ _PURPOSES = (
     ("_service", "services"),
     ("_client", "services"),
     ("_request", "services"),
-    ("", "start and end"),
+    ("", "start and exit"),
 )
 """What a function is hooked for, by a part of its name."""
 

@@ -88,9 +88,9 @@ def test_parameters_reach_it_with_their_types(kilted: ContainerHarness, value: s
 @pytest.mark.parametrize(
     ("steps", "params", "rule", "message"),
     [
-        ("double=speed@1.0", {"speed": "fast"}, "PRM014", "'speed' is a string, and /n declares it as a double"),
+        ("double=speed@1.0", {"speed": "fast"}, "PRM014", "parameter 'speed': got a string, /n declares a double"),
         ("percent=level", {"level": "300"}, "PRM017", "'level' is 300, which /n refuses"),
-        ("mandatory=speed", {}, "PRM010", "/n declares parameter 'speed' without a default, and nothing sets it"),
+        ("mandatory=speed", {}, "PRM010", "required parameter 'speed' is not set; /n declares it without a default"),
     ],
 )
 def test_a_constructor_that_throws_tells_of_the_parameter(
@@ -250,7 +250,7 @@ def test_a_parameter_of_its_container_for_what_a_component_makes(kilted: Contain
     component = "<composable_node pkg='cpkg' plugin='cpkg::Server' name='n'/>"
     findings = contained(kilted, component, f"<param from='{kilted.folder}/p.yaml'/>").findings
     (message,) = (finding.message for finding in findings if finding.rule == "PRM014")
-    assert message.startswith("'resolution' is a string, and /n/costmap/costmap declares it as a double")
+    assert "parameter 'resolution': got a string, /n/costmap/costmap declares a double" in message
 
 
 def test_the_name_of_its_container_is_for_other_nodes_of_a_component_too(kilted: ContainerHarness) -> None:
@@ -273,8 +273,8 @@ def test_global_arguments_that_are_forwarded(kilted: ContainerHarness) -> None:
         analysis = contained(kilted, component, inside)
         assert analysis.graph is not None
         assert topics <= set(analysis.graph.topics)
-        refused = {finding.message.partition(":")[0] for finding in analysis.findings if finding.rule == "PRM014"}
-        assert refused == {f"'{name}' is a string, and /n declares it as a double" for name in wrong}
+        refused = [finding.message.partition(";")[0] for finding in analysis.findings if finding.rule == "PRM014"]
+        assert refused == [f"type mismatch of parameter '{name}': got a string, /n declares a double" for name in wrong]
 
 
 def test_a_container_that_another_launch_starts(kilted: ContainerHarness) -> None:
@@ -394,7 +394,7 @@ def test_a_container_of_three_components_in_each_format(kilted: ContainerHarness
     found = ask(kilted, "check", str(launch_file))
     assert {(each["rule"], each["severity"]) for each in found["findings"]} == EXPECTED
     messages = {each["rule"]: each["message"] for each in found["findings"]}
-    assert "'speed' is a string, and /driver declares it as a double" in messages["PRM014"]
+    assert "parameter 'speed': got a string, /driver declares a double" in messages["PRM014"]
     topics = ask(kilted, "graph", str(launch_file))["topics"]
     assert topics["/chater"]["publishers"] == ["/talker"]
     assert topics["/chatter"]["subscribers"] == ["/listener", "/managed"]

@@ -92,7 +92,7 @@ def test_a_name_of_the_launch_is_that_of_each_node_and_others_are_their_own(kilt
     assert graph is not None
     assert [node.name for node in graph.tree.nodes] == ["/front", "/rear"]
     (finding,) = found(kilted, "LCH037", launched(kilted, both))
-    assert "all of them have the name '/n'" in finding.message
+    assert "duplicate node name '/n'" in finding.message
     inside = "<remap from='rear:__node' to='back'/><remap from='front:a' to='x'/><remap from='back:b' to='y'/>"
     graph = kilted.check(launched(kilted, both, inside, "namespace='robot'")).graph
     assert graph is not None
@@ -214,11 +214,11 @@ def test_an_error_that_rcl_had_on_our_way_is_not_the_nodes(harness: RclHarness) 
 @pytest.mark.parametrize(
     ("args", "params", "rule", "message"),
     [
-        ("double=speed@1.0", {"speed": "fast"}, "PRM014", "'speed' is a string, and /n declares it as a double"),
+        ("double=speed@1.0", {"speed": "fast"}, "PRM014", "parameter 'speed': got a string, /n declares a double"),
         ("intra double=speed@1.0", {"speed": "2"}, "PRM014", "write 2.0"),
         ("percent=level", {"level": "300"}, "PRM017", "'level' is 300, which /n refuses"),
-        ("mandatory=speed", {}, "PRM010", "/n declares parameter 'speed' without a default, and nothing sets it"),
-        ("mandatory=speed", {"speed": "fast"}, "PRM014", "'speed' is a string"),
+        ("mandatory=speed", {}, "PRM010", "required parameter 'speed' is not set; /n declares it without a default"),
+        ("mandatory=speed", {"speed": "fast"}, "PRM014", "parameter 'speed': got a string"),
     ],
 )
 def test_a_constructor_that_throws_tells_of_the_parameter(

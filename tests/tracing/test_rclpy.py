@@ -453,7 +453,7 @@ def test_a_name_for_a_process_with_several_nodes(tmp_path: Path, attributes: str
     ]
     found = [finding for finding in analysis.findings if finding.rule == "LCH037"]
     assert [f.message.partition(":")[0] for f in found] == (
-        ["this process has the nodes 'front' and 'rear', and 'name' is for each of them"] if told else []
+        ["'name' renames all nodes of this process ('front' and 'rear')"] if told else []
     )
 
 
@@ -487,10 +487,10 @@ def test_two_nodes_of_a_process_are_told_apart(tmp_path: Path) -> None:
         "p.yaml", "/back/rear:\n  ros__parameters: {rate: 2.5}\nfront:\n  ros__parameters: {rat: 1.0}\n"
     )
     analysis = harness.check(f"<node pkg='pkg' exec='both'><param from='{file}'/></node>")
-    said = {f.rule: f.message.partition(":")[0] for f in analysis.findings if f.rule.startswith("PRM")}
+    said = {f.rule: f.message.partition(";")[0] for f in analysis.findings if f.rule.startswith("PRM")}
     assert said == {
         "PRM013": "parameter 'rat' is not declared by /front",
-        "PRM014": "'rate' is a double, and /back/rear declares it as an integer",
+        "PRM014": "type mismatch of parameter 'rate': got a double, /back/rear declares an integer",
     }
 
 
@@ -514,12 +514,16 @@ def test_a_node_without_a_name_has_that_of_its_code(tmp_path: Path) -> None:
     assert [node.name for node in analysis.graph.tree.nodes] == ["/there/own", "/there/own", "/elsewhere/own"]
     assert ([p.value for p in first.params], second.params) == ([2.5, 1], ())
     said = sorted(
-        {(f.rule, f.message.partition(":")[0]) for f in analysis.findings if f.severity in ("warning", "error")}
+        {
+            (f.rule, f.message.partition("; its")[0].partition(":")[0])
+            for f in analysis.findings
+            if f.severity in ("warning", "error")
+        }
     )
     assert said == [
         ("LCH016", "duplicate node name '/there/own'"),
-        ("PRM011", "section '/there/talker' applies to no node that gets this file"),
         ("PRM011", "no section of this file applies to /there/own; it has sections for '/there/talker'"),
+        ("PRM011", "section '/there/talker' applies to no node that gets this file (only /there/own)"),
         ("PRM013", "parameter 'rat' is not declared by /there/own"),
     ]
 

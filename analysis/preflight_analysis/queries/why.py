@@ -215,7 +215,7 @@ def _chain(analysis: Analysis, graph: Graph, kind: ChannelKind, provider: Connec
         _endpoint(consumer),
         _name(analysis, kind, provider, consumer),
         _type(provider, consumer),
-        *(_qos(provider, consumer) if kind == "topics" and graph.tree.generation == 2 else ()),
+        *(_qos(provider, consumer) if kind == "topics" and graph.tree.ros.has_qos else ()),
         *_environment(analysis, provider.node, consumer.node),
         *_clock(graph, consumer.node),
     )
@@ -338,10 +338,10 @@ def _environment(analysis: Analysis, provider: LaunchNode, consumer: LaunchNode)
 
 
 def _clock(graph: Graph, consumer: LaunchNode) -> Iterator[Link]:
-    if graph.tree.generation == 1:
-        param = graph.tree.params.get("/use_sim_time")
-    else:
+    if graph.tree.ros.own_parameters:
         param = next((each for each in consumer.params if each.name == "use_sim_time"), None)
+    else:
+        param = graph.tree.params.get("/use_sim_time")
     clock = graph.topics.get("/clock")
     if param is None or param.value is not True or graph.is_external("/clock"):
         return

@@ -377,7 +377,7 @@ class Workspace:
         interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
         interfaces = (*interfaces, *(NOT_RUN for _ in tree.simulated)) if tree.simulated else interfaces
         interfaces = from_catalogue(tree, interfaces, environment, kept)
-        if tree.generation == 1:
+        if not tree.ros.own_parameters:
             interfaces = with_simulated_controllers(tree, interfaces, environment)
         interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
         return with_command_lines(tree, interfaces, documents, kept)

@@ -43,7 +43,7 @@
             (eglot-code-actions (flymake-diagnostic-beg finding) (flymake-diagnostic-end finding) nil t)))
         (eglot--signal-textDocument/didChange) ; what an idle timer does, which --batch has not
         (drive-wait "what is left" (lambda ()
-                                     (and (drive-with "remapped to itself") (not (cdr (flymake-diagnostics))))))
+                                     (and (drive-with "to itself has no effect") (not (cdr (flymake-diagnostics))))))
         (save-buffer))
       (setq after (drive-findings))
       (with-temp-file result

@@ -356,14 +356,14 @@ const scenarios = {
     workbench.configure({ "rosPreflight.server.command": [harness.server] });
     await step("squiggle of the configured server", () => squiggle().waitFor());
     for (let death = 1; death <= 5; death += 1) {
-      const told = death === 1 ? workbench.message("is started again").waitFor() : Promise.resolve();
+      const told = death === 1 ? workbench.message("stopped unexpectedly").waitFor() : Promise.resolve();
       await step(`death ${death}`, () => during(told, killServer));
       await step(`restart ${death}`, () => squiggle().waitFor());
       if (death === 1) {
         await step("picture of the restarted server", () => picture("9-came-back"));
       }
     }
-    seen.told = await step("how often it was told", () => workbench.toldSoFar("is started again"));
+    seen.told = await step("how often it was told", () => workbench.toldSoFar("stopped unexpectedly"));
     await step("death 6", killServer);
     const gaveUp = workbench.message("the server stopped 6 times within 3 minutes");
     await step("message that it is left stopped", () => gaveUp.waitFor());
