@@ -196,7 +196,8 @@ def test_names_stay_texts(seen: Mapping[str, Any]) -> None:
 
 def test_a_large_graph_is_shown_and_filtered(seen: Mapping[str, Any]) -> None:
     assert seen["large"]["all"] == 750
+    assert seen["large"]["inView"] > 5, "it opens where there is something to see"
     before, after = seen["large"]["map"]
-    assert before == 0 < after, "a click on the overview goes there"
+    assert before < after, "a click on the overview goes there"
     assert seen["large"]["shown"] == 60, "ten nodes and their topics"
     assert seen["large"]["status"].startswith("10 of 150 nodes, 0 of 600 topics")

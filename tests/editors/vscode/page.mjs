@@ -284,15 +284,22 @@ try {
     await open("large");
     await picture("graph-8-large");
     const all = (await shown()).length;
+    const inView = await page.evaluate(() => {
+      const view = document.querySelector("#canvas").getBoundingClientRect();
+      return [...document.querySelectorAll("[data-node]")].filter((node) => {
+        const box = node.getBoundingClientRect();
+        return box.left >= view.left && box.right <= view.right && box.top >= view.top && box.bottom <= view.bottom;
+      }).length;
+    });
     const window_ = () => page.locator("#window").evaluate((rect) => Number(rect.getAttribute("y")));
     const box = await page.locator("#map").boundingBox();
     const map = [await window_()];
     await page.mouse.click(box.x + box.width / 2, box.y + box.height - 3);
-    await page.waitForFunction(() => document.querySelector("#canvas").scrollTop > 0);
+    await page.waitForFunction(() => document.querySelector("#canvas").scrollTop > 2000);
     map.push(await window_());
     await page.locator("#filter").fill("node:/subsystem_3/*");
     await page.locator("#only").check();
-    const found = { all, map, shown: (await shown()).length, status: await page.locator("#status").innerText() };
+    const found = { all, inView, map, shown: (await shown()).length, status: await page.locator("#status").innerText() };
     await page.locator("#fit").click();
     await picture("graph-9-large-filter");
     return found;

@@ -13,7 +13,7 @@ import { save } from "./save.js";
 import { mark, searchAnew } from "./search.js";
 import { focusOn, nameFocus, select, walkTo } from "./walk.js";
 import { listDifferences } from "./words.js";
-import { fit, magnification, zoomTo } from "./zoom.js";
+import { fit, magnification, showFullestPart, zoomTo } from "./zoom.js";
 
 /** @type {Kind[]} */
 const KINDS = ["topic", "service", "action"];
@@ -61,7 +61,11 @@ function show(next) {
     graph.items.get(held)?.focus({ preventScroll: true });
   }
   if (isFirst) {
-    canvas.scrollTo(saved.left ?? 0, saved.top ?? 0);
+    if (saved.left === undefined || saved.top === undefined) {
+      showFullestPart();
+    } else {
+      canvas.scrollTo(saved.left, saved.top);
+    }
   }
 }
 

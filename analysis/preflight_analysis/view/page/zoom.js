@@ -26,6 +26,30 @@ export function fit() {
   remember();
 }
 
+const AROUND = 24;
+
+/** Scrolls to the part of the picture with the most boxes: the corner of a large one may be empty. */
+export function showFullestPart() {
+  const by = magnification();
+  const [width, height] = [canvas.clientWidth / by, canvas.clientHeight / by];
+  const boxes = state.drawn.boxes.filter((box) => box !== undefined);
+  let [most, left, top] = [0, 0, 0];
+  for (const { x, y } of boxes) {
+    const [fromX, fromY] = [Math.max(0, x - AROUND), Math.max(0, y - AROUND)];
+    const seen = boxes.filter(
+      (box) =>
+        box.x >= fromX &&
+        box.y >= fromY &&
+        box.x + box.width <= fromX + width &&
+        box.y + box.height <= fromY + height,
+    ).length;
+    if (seen > most) {
+      [most, left, top] = [seen, fromX, fromY];
+    }
+  }
+  canvas.scrollTo(left * by, top * by);
+}
+
 /**
  * @param {number} next
  * @param {{x: number, y: number}} [at] what stays where it is on the screen; the middle, unless it is said
