@@ -691,3 +691,24 @@ def generate_launch_description():
     )
     assert [(param.name, param.value) for param in tree.nodes[0].params] == [("rate", 5)]
     assert not (harness.package / "models" / "tmp").exists()
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        "IncludeLaunchDescription(get_package_share_directory(name) + '/b.launch.py')",
+        "ExecuteProcess(cmd=['ros2', 'launch', name, 'b.launch.py'])",
+        "IncludeLaunchDescription(os.environ[name] + '/b.launch.py')",
+    ],
+)
+def test_a_name_that_is_known_in_part_is_not_missing(harness: PythonHarness, action: str) -> None:
+    text = f"""
+from missing_module import thing
+name = f'{{thing}}_description'
+def generate_launch_description():
+    return LaunchDescription([{action}])
+"""
+    path = harness.write("launch/a.launch.py", HEAD + text)
+    analysis = harness.launch(path)
+    assert {finding.rule for finding in analysis.findings} == {"LCH032"}
+    assert not analysis.tree.complete

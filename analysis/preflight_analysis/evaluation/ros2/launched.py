@@ -29,7 +29,7 @@ def check_launched(performer: Performer, action: Action, words: Sequence[str]) -
         return
     # Flags may stand between; of those before the file none takes a value.
     names = [word for word in words[2:] if not word.startswith("-") and ":=" not in word]
-    if not names or "" in names:
+    if not names or "" in names or "$(" in names[0]:
         return
     if os.path.isabs(names[0]):
         path, name = names[0], names[0]

@@ -386,6 +386,10 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
     where it is asked for first."""
     for each in missed if isinstance(missed, list) else ():
         match each:
+            case [str(what), str(name), at] if is_unknown(name):
+                state.note_unknown(
+                    readable(name), f"the name of the {what} is unresolved", _line(place, run, at, origin)[-1]
+                )
             case ["variable", str(name), at] if name in state.environment.variables:
                 there = _line(place, run, at, origin)[-1]
                 state.note_unknown(name, f"the sandbox is not told what {name} is", there)
