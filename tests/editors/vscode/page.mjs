@@ -299,7 +299,13 @@ try {
     map.push(await window_());
     await page.locator("#filter").fill("node:/subsystem_3/*");
     await page.locator("#only").check();
-    const found = { all, inView, map, shown: (await shown()).length, status: await page.locator("#status").innerText() };
+    const found = {
+      all,
+      inView,
+      map,
+      shown: (await shown()).length,
+      status: await page.locator("#status").innerText(),
+    };
     await page.locator("#fit").click();
     await picture("graph-9-large-filter");
     return found;

@@ -38,10 +38,7 @@ export function showFullestPart() {
     const [fromX, fromY] = [Math.max(0, x - AROUND), Math.max(0, y - AROUND)];
     const seen = boxes.filter(
       (box) =>
-        box.x >= fromX &&
-        box.y >= fromY &&
-        box.x + box.width <= fromX + width &&
-        box.y + box.height <= fromY + height,
+        box.x >= fromX && box.y >= fromY && box.x + box.width <= fromX + width && box.y + box.height <= fromY + height,
     ).length;
     if (seen > most) {
       [most, left, top] = [seen, fromX, fromY];
