@@ -533,6 +533,64 @@ def test_a_second_node_with_arguments_of_its_own(harness: Harness) -> None:
     assert [e.name for e in harness.main(body).endpoints] == ["/maps/grid", "/maps/local/info"]
 
 
+def test_a_second_node_with_the_options_of_the_first(harness: Harness) -> None:
+    harness.write(
+        "CMakeLists.txt", 'project(p)\nadd_library(m src/t.cpp)\nrclcpp_components_register_nodes(m "p::Map")\n'
+    )
+    found = harness.read(
+        """
+        namespace nav2 {
+        template<typename T> T declare_or_get_parameter(rclcpp::Node * node, const std::string & name, const T & value);
+        class Node : public rclcpp::Node {
+        public:
+          Node(const std::string & name, const std::string & ns, const rclcpp::NodeOptions & options)
+          : rclcpp::Node(name, ns, options) {}
+          template<typename T> T declare_or_get_parameter(const std::string & name, const T & value) {
+            return nav2::declare_or_get_parameter(this, name, value);
+          }
+        };
+        }
+        namespace p {
+        rclcpp::NodeOptions options_of_child(const std::string & name, const rclcpp::NodeOptions & parent) {
+          std::vector<std::string> arguments = parent.arguments();
+          nav2::replaceOrAddArgument(arguments, "-r", "__ns", "__ns:=/" + name);
+          nav2::replaceOrAddArgument(arguments, "-r", "__node", name + ":" + "__node:=" + name);
+          return rclcpp::NodeOptions().use_intra_process_comms(true).arguments(arguments);
+        }
+        class Layer;
+        class Clear {
+        public:
+          explicit Clear(Layer & layer) : layer_(layer) {}
+          Layer & layer_;
+        };
+        class Layer : public nav2::Node {
+        public:
+          explicit Layer(const rclcpp::NodeOptions & options) : nav2::Node("layer", "", options) {
+            declare_parameter("made_again", 1);
+          }
+          Layer(const std::string & name, const rclcpp::NodeOptions & options)
+          : nav2::Node(name, "", options_of_child(name, options)) {
+            frame_ = declare_or_get_parameter("global_frame", std::string("map"));
+            pub_ = create_publisher<std_msgs::msg::String>("costmap", 1);
+          }
+        };
+        class Map : public nav2::Node {
+        public:
+          explicit Map(const rclcpp::NodeOptions & options) : nav2::Node("map", "", options) {
+            layer_ = std::make_shared<Layer>("local", options);
+            clear_ = std::make_unique<Clear>(*layer_);
+            this->declare_or_get_parameter("rate", 2.0);
+          }
+        };
+        }
+        """,
+        node='<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="">'
+        '<composable_node pkg="p" plugin="p::Map" name="m"/></node_container>',
+    )
+    assert [e.name for e in found.endpoints if not e.builtin] == ["/local/costmap"]
+    assert {(use.name, use.default) for use in found.params} == {("/local/local/global_frame", "map"), ("~rate", 2.0)}
+
+
 def test_a_base_of_the_same_name_in_another_namespace(harness: Harness) -> None:
     before = """
         namespace ours {

@@ -10,7 +10,7 @@ from tree_sitter import Node
 from preflight_analysis.source.cpp_functions import MAX_DEPTH, Functions
 from preflight_analysis.source.cpp_names import fitting
 from preflight_analysis.source.cpp_operators import converted
-from preflight_analysis.source.cpp_text import FieldText, Path, first_child, is_pointer, path_of
+from preflight_analysis.source.cpp_text import FieldText, Path, first_child, is_pointer, is_reference, path_of
 from preflight_analysis.source.cpp_types import (
     CALLABLE,
     LISTS,
@@ -58,7 +58,11 @@ class Objects(Functions):
         if node.type in ("argument_list", "initializer_list"):
             if type_ is None or pointer:
                 return self._value(first_child(node), scope) if node.named_child_count else None
-            return self._make(type_, self._made_of(type_, node, scope), place, scope)
+            given = self._made_of(type_, node, scope)
+            if is_reference(field.declarator) and self._class(type_) is not None:
+                value = value_at(given, 0)  # the object itself, no other one that is made of it
+                return Unmade(type_) if value is UNKNOWN else value
+            return self._make(type_, given, place, scope)
         value = self._value(node, scope)
         if type_ is None or type_.name in PRIMITIVES:
             return converted(value, type_)

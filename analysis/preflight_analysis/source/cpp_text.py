@@ -199,10 +199,19 @@ def declared_name(declarator: Node | None) -> Node | None:
 
 def is_pointer(declarator: Node | None) -> bool:
     """Whether `declarator` declares a pointer."""
+    return _declares(declarator, ("pointer_declarator", "abstract_pointer_declarator"))
+
+
+def is_reference(declarator: Node | None) -> bool:
+    """Whether `declarator` declares a reference."""
+    return _declares(declarator, ("reference_declarator",))
+
+
+def _declares(declarator: Node | None, kinds: tuple[str, ...]) -> bool:
     for _ in range(MAX_DEPTH):
         if declarator is None or declarator.type in ("identifier", "field_identifier"):
             return False
-        if declarator.type in ("pointer_declarator", "abstract_pointer_declarator"):
+        if declarator.type in kinds:
             return True
         declarator = declarator.child_by_field_name("declarator") or first_child(declarator)
     return False

@@ -250,6 +250,8 @@ class RclcppCalls(Parameters):
             self._image(role, with_info, call.args, call.place)
             return UNKNOWN
         if leaf in DECLARE_FUNCTIONS:
+            if isinstance(value_at(call.args, 0), str):
+                return UNKNOWN  # a method of a node, which declared it
             at = next((i for i, arg in enumerate(call.args[:2]) if node_of(arg.value) is not None), 0)
             return self._declare_call(first_node(values(call.args)), call.types, call.args[at + 1 :], call.place)
         if leaf == ADD_ARGUMENT:
@@ -301,6 +303,8 @@ class RclcppCalls(Parameters):
         kind = qualified(owner.type)
         if call.name == "get_params" and kind in self._structs:
             return self._structs[kind]
+        if is_options(owner) and call.name == "arguments" and not call.args:
+            return []  # those that name the process's own node
         if kind == "image_transport::ImageTransport" and call.name in IMAGES:
             role, with_info = IMAGES[call.name]
             self._image(role, with_info, call.args, call.place)
