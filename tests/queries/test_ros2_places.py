@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.queries.definition import definition
+from preflight_analysis.queries.hover import hover
 from preflight_analysis.queries.references import references
 from support.workspace_harness import create_workspace
 
@@ -54,6 +55,14 @@ Filter::Filter(const rclcpp::NodeOptions & options) : Node("filter", options) {}
 def gone_to(tmp_path: Path, text: str, build_type: str = "ament_python", *, runs: bool = False) -> list[str]:
     workspace = create_workspace(tmp_path, text, build_type=build_type, runs=runs)
     return [workspace.shown(target.location) for target in definition(workspace.context, workspace.offset, ())]
+
+
+def hovered(tmp_path: Path, text: str, build_type: str = "ament_python", *, runs: bool = False) -> list[str]:
+    """The lines of the hover, without the empty ones."""
+    workspace = create_workspace(tmp_path, text, build_type=build_type, runs=runs)
+    context = workspace.context
+    found = hover(context.analyses, context.path, workspace.offset, context=context)
+    return [line for line in found.markdown.split("\n") if line] if found else []
 
 
 def named_at(tmp_path: Path, text: str, *, runs: bool = False) -> list[str]:
@@ -179,3 +188,86 @@ def test_remaps_in_python(tmp_path: Path, name: str) -> None:
 def test_parameters_in_python(tmp_path: Path) -> None:
     text = PYTHON.replace('"rate": 5', '"$0rate": 5') + PACKAGE
     assert named_at(tmp_path, text, runs=True) == ["main.launch.py:10 rate", "p/p/talker.py:6 pass"]
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(("name", "met"), [('"$0/words"', 9), ('"$0heard"', 5)])
+def test_a_remap_in_python_leads_to_the_other_end(tmp_path: Path, name: str, met: int) -> None:
+    text = PYTHON.replace(name.replace("$0", ""), name, 1) + PACKAGE
+    ends = {9: "p/p/talker.py:9 def start():", 5: "p/p/talker.py:5 def start(self):"}
+    own = {9: [], 5: [ends[9]]}[met]
+    assert gone_to(tmp_path / "a", text, runs=True) == (own or [ends[met]])
+    lines = hovered(tmp_path / "b", text, runs=True)
+    assert "- topic `/words`: subscriber `/listener` `std_msgs/msg/String` — " in " ".join(lines)
+    assert not any("talker` —" in line for line in lines[:1]), "the remap, not the node around it"
+
+
+COMPONENT_IN_PYTHON = """
+//- main.launch.py
+from launch import LaunchDescription
+from launch_ros.actions import ComposableNodeContainer
+from launch_ros.descriptions import ComposableNode
+
+
+def generate_launch_description():
+    one = ComposableNode(package="p", plugin="p::Fil$0ter", name="filter")
+    return LaunchDescription([
+        ComposableNodeContainer(
+            package="rclcpp_components", executable="component_container", name="c", namespace="",
+            composable_node_descriptions=[one],
+        ),
+    ])
+//- other.launch.xml
+<launch>
+  <load_composable_node target="/c"><composable_node pkg="p" plugin="p::Filter" name="other"/></load_composable_node>
+</launch>
+"""
+
+
+def test_a_component_in_python_is_found_without_a_run(tmp_path: Path) -> None:
+    made = "p/src/filter.hpp:3 class Filter : public rclcpp::Node {"
+    assert gone_to(tmp_path / "a", COMPONENT_IN_PYTHON + CPP, "ament_cmake") == [made]
+    workspace = create_workspace(tmp_path / "b", COMPONENT_IN_PYTHON + CPP, build_type="ament_cmake")
+    assert [workspace.shown(each.location) for each in references(workspace.context, workspace.offset)] == [
+        "main.launch.py:7 p::Filter",
+        "other.launch.xml:2 p::Filter",
+        made,
+    ]
+
+
+@pytest.mark.ros
+def test_a_component_in_python_is_described_once_the_file_was_run(tmp_path: Path) -> None:
+    lines = hovered(tmp_path, COMPONENT_IN_PYTHON + CPP, "ament_cmake", runs=True)
+    assert lines[0].startswith("**/filter** `p/p::Filter`")
+
+
+def test_the_function_of_an_executable_is_among_its_references(tmp_path: Path) -> None:
+    text = '//- main.launch.xml\n<launch>\n  <node pkg="p" exec="tal$0ker" name="a"/>\n</launch>\n' + PACKAGE
+    assert named_at(tmp_path, text) == ["main.launch.xml:2 talker", "p/p/talker.py:9 def start():"]
+
+
+def test_what_stands_beside_a_parameter_file_in_python_is_not_its_package(tmp_path: Path) -> None:
+    text = """
+//- main.launch.py
+def generate_launch_description():
+    config = os.path.join(get_package_share_directory("p"), "params.yaml")
+    return LaunchDescription([Node(package="p", executable="talker", parameters=[{"a": wor$0ds}, config])])
+"""
+    assert gone_to(tmp_path / "a", text + PACKAGE) == []
+    text = text.replace("$0", "").replace(", config", ", con$0fig")
+    assert gone_to(tmp_path / "b", text + PACKAGE) == ["p/package.xml:1"]
+
+
+def test_the_value_of_an_argument_that_is_passed(tmp_path: Path) -> None:
+    text = """
+//- main.launch.xml
+<launch>
+  <include file="{folder}/inc.launch.xml"><arg name="ra$0te" value="5"/></include>
+</launch>
+//- inc.launch.xml
+<launch><arg name="rate" default="" description="How often"/></launch>
+"""
+    lines = hovered(tmp_path / "a", text + PACKAGE)
+    assert lines[:3] == ["argument `rate` = `5`", "Default: `''`", "How often"]
+    lines = hovered(tmp_path / "b", text.replace('inc.launch.xml"', 'none.launch.xml"') + PACKAGE)
+    assert lines[0] == "argument `rate` = unresolved"

@@ -164,7 +164,8 @@ NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "li
 class LaunchFile(Once):
     """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are
     the tags of further ones, which no launcher accepts. `partial`: it is a program that was not run, and nothing may
-    be concluded from what it has not; `named` are the substitutions that are written in it, wherever that is."""
+    be concluded from what it has not; `named` are the substitutions and components that are written in it, wherever
+    that is."""
 
     path: str
     generation: int

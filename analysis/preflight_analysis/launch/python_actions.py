@@ -47,16 +47,24 @@ class _Reader:
         return tuple(self._action(r, around, parts.get(id(r), parent), depth) for r in found)
 
     def _parameter_parts(self, records: list[dict[str, Any]], parent: _Parent | None) -> dict[int, _Parent]:
-        """Which item of `parameters=[...]` each dictionary or file is, where the list is written out."""
+        """Which item of `parameters=[...]` each dictionary or file is, where the list is written out: `part` says it of
+        some of them, otherwise all are there in order."""
         given = _keywords(parent.call).get("parameters") if parent is not None and parent.part is None else None
         if parent is None or given is None:
             return {}
         parameters = [record for record in records if self._python.parameters.get(record["k"]) == "parameters"]
         items = self._source.resolved(given)
-        if not isinstance(items, (ast.List, ast.Tuple)) or len(items.elts) != len(parameters):
+        if not isinstance(items, (ast.List, ast.Tuple)):
+            return {}
+        given_numbers = (each.get("part") for each in parameters)
+        numbers = [n for n in given_numbers if isinstance(n, int) and 0 <= n < len(items.elts)]
+        if len(numbers) != len(parameters):
+            numbers = list(range(len(items.elts)))
+        if len(numbers) != len(parameters):
             return {}
         return {
-            id(r): _Parent(parent.call, parent.made_by, item) for r, item in zip(parameters, items.elts, strict=True)
+            id(record): _Parent(parent.call, parent.made_by, items.elts[number])
+            for record, number in zip(parameters, numbers, strict=True)
         }
 
     def _action(self, record: dict[str, Any], around: Span, parent: _Parent | None, depth: int) -> Action:

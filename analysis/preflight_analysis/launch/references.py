@@ -24,6 +24,8 @@ NAMES: Mapping[str, Named] = {
     "anon": "identifier",
 }
 """What the first word of a substitution is the name of, in both generations."""
+COMPONENT = "component"
+"""Stands in the place of a substitution's command where a Python file names a component, as `package/class`."""
 
 _EVAL_ARGUMENT = re.compile(
     r"""\b(?P<function>arg\s*\(\s*)(?P<quote>['"])(?P<quoted>[^'"]*)(?P=quote)"""

@@ -19,6 +19,7 @@ from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substit
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_classes import PythonClasses
 from preflight_analysis.launch.python_source import PythonSource, last_name
+from preflight_analysis.launch.references import COMPONENT
 
 _MAX_DEPTH = 40
 _SUBSTITUTIONS = {
@@ -35,6 +36,7 @@ _SUBSTITUTIONS = {
     "get_package_share_directory": "find-pkg-share",
 }
 _NODES = ("node", "lifecycle_node", "node_container")
+_COMPONENTS = ("ComposableNode", "ComposableLifecycleNode")
 _TAKES_NAME = {
     "LaunchConfiguration": ("var", ("variable_name",)),
     "LaunchConfigurationEquals": ("var", ("launch_configuration_name",)),
@@ -62,14 +64,26 @@ def read_ros2_python(source: Text, classes: PythonClasses) -> LaunchFile:
 
 
 def _named(source: PythonSource) -> Iterator[Substitution]:
-    """The names of arguments, packages and variables, wherever they are written."""
+    """The names of arguments, packages, variables and components, wherever they are written."""
     for piece in source.pieces:
         for node in ast.walk(piece):
-            found = _name_in(node)
+            found = _name_in(node) or _component_in(node)
             if found is not None:
                 command, name, at = found
                 span = source.span(at)
                 yield Substitution(command, span, name, span, f"$({command} {name})", span, ((Literal(name, span),),))
+
+
+def _component_in(node: ast.AST) -> tuple[str, str, ast.expr] | None:
+    """`package/plugin` of a composable node, and the place of the plugin, if both are written out."""
+    if not isinstance(node, ast.Call) or last_name(node.func) not in _COMPONENTS:
+        return None
+    given = {k.arg: k.value for k in node.keywords}
+    package, plugin = given.get("package"), given.get("plugin")
+    if not isinstance(package, ast.Constant) or not isinstance(plugin, ast.Constant):
+        return None
+    names = [each.value for each in (package, plugin) if isinstance(each.value, str)]
+    return (COMPONENT, "/".join(names), plugin) if len(names) == 2 else None
 
 
 def _name_in(node: ast.AST) -> tuple[str, str, ast.expr] | None:
@@ -174,13 +188,13 @@ class _Reader:
         """The files among what a node has in `parameters`, whose paths are written out."""
         node = self._source.resolved(node)
         found: list[dict[str, Any]] = []
-        for each in node.elts if isinstance(node, (ast.List, ast.Tuple)) else ():
+        for number, each in enumerate(node.elts if isinstance(node, (ast.List, ast.Tuple)) else ()):
             item = self._source.resolved(each)
             if isinstance(item, ast.Call) and last_name(item.func) == "ParameterFile" and item.args:
                 item = item.args[0]
             path = self._value(item)
             if path and _unknown() not in path:
-                found.append({"k": "param", "a": {"from": path}, "c": []})
+                found.append({"k": "param", "a": {"from": path}, "c": [], "part": number})
         return found
 
     def _texts(self, node: ast.expr) -> list[str]:

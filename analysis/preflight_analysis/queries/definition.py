@@ -9,14 +9,14 @@ from collections.abc import Iterable, Iterator
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.launch.model import Action
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.param_files import from_param_file, is_param_file
 from preflight_analysis.queries.places import action_at, remaps_of, use_at
 from preflight_analysis.queries.query_context import QueryContext
-from preflight_analysis.queries.references import component_at, connections, made_at
-from preflight_analysis.queries.symbol_at import NamedSymbol, symbol_at
+from preflight_analysis.queries.references import component_at, connections, executable_at, made_at
+from preflight_analysis.queries.symbol_at import NamedSymbol, remaps_at, symbol_at
 from preflight_analysis.workspace.workspace import Analysis
 
 
@@ -52,7 +52,12 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     action = action_at(launch_file, offset) if launch_file else None
     if action is not None and action.kind in ("remap", "set_remap"):
         value = next((a.value.span for a in action.attributes if a.value.span.contains(offset)), action.head_span)
-        if targets := _targets(_other_endpoints(context, analysis, action), context.location(file, value)):
+        reached = remaps_of(analysis.tree, file, action)
+        if targets := _targets(_other_endpoints(context, analysis, reached), context.location(file, value)):
+            return targets
+    if symbol is not None and symbol.kind == "topic":  # a remap in Python, which has no tag
+        source = context.location(file, symbol.span)
+        if targets := _targets(_other_endpoints(context, analysis, remaps_at(analysis.tree, source)), source):
             return targets
     for finding in findings:
         if finding.location.file == file and finding.location.span.contains(offset) and finding.related:
@@ -110,23 +115,10 @@ def _of_symbol(context: QueryContext, symbol: NamedSymbol) -> tuple[Target, ...]
 
 
 def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Location]:
-    """A script; the function of a console script; for what is compiled its source, and its target in the package's
-    `CMakeLists.txt`."""
+    """The programs, and for what is compiled the target in the package's `CMakeLists.txt`."""
     for name in symbol.names:
+        yield from executable_at(context, name)
         package, _, executable = name.partition("/")
-        nodes = [n for t in context.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
-        paths = sorted({n.resolved.path for n in nodes if n.resolved.path is not None})
-        made = context.workspace.executables.made_of(package, executable)
-        if made is not None:  # what stands in a devel space only leads there
-            paths = [made.source]
-        entries = {n.resolved.path: n.resolved.entry_point for n in nodes if n.resolved.entry_point is not None}
-        for path in paths:
-            function = entries.get(path, "").partition(":")[2]
-            made_there = context.workspace.entry_point(path, function) if function else None
-            if made_there is not None:
-                yield context.line(made_there.file, made_there.line)
-            elif context.document(path) is not None:
-                yield Location.of_file(path)
         if (target := _build_target(context, package, executable)) is not None:
             yield target
 
@@ -159,9 +151,11 @@ def _own_endpoints(context: QueryContext, symbol: NamedSymbol) -> Iterator[Locat
                     yield place
 
 
-def _other_endpoints(context: QueryContext, analysis: Analysis, action: Action) -> Iterator[Location]:
+def _other_endpoints(
+    context: QueryContext, analysis: Analysis, remapped: Iterable[tuple[LaunchNode, Remap]]
+) -> Iterator[Location]:
     """The nodes that meet the remapped ones under the new name, in their sources where that is known."""
-    mine = tuple(remaps_of(analysis.tree, context.path, action))
+    mine = tuple(remapped)
     own = {id(node) for node, _ in mine}
     met = frozenset(names.resolve(remap.target, node.name) for node, remap in mine)
     for connection, _ in connections(analysis.graph, met) if analysis.graph else ():

@@ -7,11 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import Command, CommandValue, Include, LaunchNode, ParamValue, Use
+from preflight_analysis.evaluation.tree import Command, CommandValue, Include, LaunchNode, ParamValue, Remap, Use
 from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
+from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
@@ -22,6 +23,7 @@ from preflight_analysis.queries.places import (
     action_at,
     include_of,
     link,
+    nodes_around,
     nodes_of,
     params_of,
     place,
@@ -31,6 +33,7 @@ from preflight_analysis.queries.places import (
     uses_at,
 )
 from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.queries.symbol_at import remaps_at
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Frame, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -107,15 +110,38 @@ def hover(
 
 def _known(analysis: Analysis, file: str, offset: int) -> Hover | None:
     use = use_at(analysis.tree, file, offset)
-    launch_file = analysis.launch_files.get(file)
-    action = action_at(launch_file, offset) if launch_file else None
+    action = _tag_at(analysis, file, offset)
     if use is not None and use.kind not in _OF_THE_TAG:
         return Hover(_use(analysis, use), use.location.span)
+    if (found := _remap_in_python(analysis, file, offset)) is not None:
+        return found
     blocks = list(_action(analysis, file, action)) if action is not None else []
     if blocks and action is not None:
         return Hover("\n\n---\n\n".join(blocks), action.head_span)
     if use is not None:
         return Hover(_use(analysis, use), use.location.span)
+    return None
+
+
+def _tag_at(analysis: Analysis, file: str, offset: int) -> Action | None:
+    """The innermost tag around `offset`. Of a Python file that was run the nodes are known better than by its text."""
+    launch_file = analysis.launch_files.get(file)
+    action = action_at(launch_file, offset) if launch_file else None
+    if file.endswith(PYTHON_SUFFIX):
+        made = [node.action for node in nodes_around(analysis.tree, file, offset)]
+        return min(filter(None, (action, *made)), key=lambda each: each.span.end - each.span.start, default=None)
+    return action
+
+
+def _remap_in_python(analysis: Analysis, file: str, offset: int) -> Hover | None:
+    """Of a remap in a Python file, which has no tag."""
+    if not file.endswith(PYTHON_SUFFIX):
+        return None
+    for node in analysis.tree.nodes:
+        for remap in node.remaps:
+            for location in (remap.source_location, remap.target_location):
+                if location.file == file and location.span.contains(offset):
+                    return Hover(_remap(analysis, remaps_at(analysis.tree, location)), location.span)
     return None
 
 
@@ -153,8 +179,7 @@ def _values(analysis: Analysis, file: str, offset: int) -> tuple[str, ...]:
     if _is_of_use(analysis, file, offset):
         uses = [u for u in uses if u.location == uses[0].location and u.kind == uses[0].kind]
         return tuple(dict.fromkeys(value_text(use.value) for use in uses))
-    launch_file = analysis.launch_files.get(file)
-    action = action_at(launch_file, offset) if launch_file else None
+    action = _tag_at(analysis, file, offset)
     return tuple(dict.fromkeys(_made(analysis, file, action))) if action else ()
 
 
@@ -163,8 +188,7 @@ def _is_of_use(analysis: Analysis, file: str, offset: int) -> bool:
     use = use_at(analysis.tree, file, offset)
     if use is None or use.kind not in _OF_THE_TAG:
         return use is not None
-    launch_file = analysis.launch_files.get(file)
-    action = action_at(launch_file, offset) if launch_file else None
+    action = _tag_at(analysis, file, offset)
     return action is None or not any(_made(analysis, file, action))
 
 
@@ -205,7 +229,9 @@ def _action(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
         ]
         yield from dict.fromkeys(_command(command) for command in made[:_SHOWN_CONTEXTS])
     elif action.kind in ("remap", "set_remap"):
-        yield from _remap(analysis, file, action)
+        text = _remap(analysis, remaps_of(analysis.tree, file, action))
+        if text:
+            yield text
 
 
 def _nodes(analysis: Analysis, nodes: Sequence[tuple[int, LaunchNode]]) -> Iterator[str]:
@@ -247,7 +273,7 @@ def _include(analysis: Analysis, include: Include) -> str:
         doc = _doc(known.doc if known is not None else None)
         shown.append(f"- {code(name)} = {value_text(value)}, given{doc}")
     for each in declared.values():
-        state = "required, not given" if each.required else f"{code(each.default or '')}, default"
+        state = "required, not given" if each.required else f"{value_text(each.default or '')}, default"
         shown.append(f"- {code(each.name)}{': ' if each.required else ' = '}{state}{_doc(each.doc)}")
     more = [f"- … and {len(shown) - _SHOWN_PARAMS} more"] if len(shown) > _SHOWN_PARAMS else []
     return "\n".join([*lines, *(["", "Arguments"] if shown else []), *shown[:_SHOWN_PARAMS], *more])
@@ -275,9 +301,8 @@ def _command(command: Command) -> str:
     return f"{code(command.line)} {said}\n\n{block(shown, language)}"
 
 
-def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
-    """What a remap does: for the first robot with both sides of the new name."""
-    reached = list(remaps_of(analysis.tree, file, action))
+def _remap(analysis: Analysis, reached: Iterable[tuple[LaunchNode, Remap]]) -> str:
+    """What a remap does to the nodes that it reaches: for the first robot with both sides of the new name."""
     named = (((names.resolve(r.source, n.name), names.resolve(r.target, n.name)), n.name) for n, r in reached)
     groups = list(_grouped(named))
     lines: list[str] = []
@@ -289,8 +314,7 @@ def _remap(analysis: Analysis, file: str, action: Action) -> Iterator[str]:
             lines += _connections(analysis.graph, target)
     if len(groups) > 1 + _SHOWN_CONTEXTS:
         lines.append(f"- … and {len(groups) - 1 - _SHOWN_CONTEXTS} more")
-    if lines:
-        yield "\n".join(lines)
+    return "\n".join(lines)
 
 
 def _grouped(pairs: Iterable[tuple[tuple[str, str], str]]) -> Iterator[tuple[tuple[str, str], list[str]]]:
@@ -327,8 +351,8 @@ def _quality(endpoint: Endpoint) -> str:
 
 
 def _use(analysis: Analysis, use: Use) -> str:
-    value = "unresolved" if use.value is None else code(use.value)
-    if use.kind == "arg":
+    value = value_text(use.value)
+    if use.kind in ("arg", "argument", "declaration"):
         text = f"argument {code(use.name)} = {value}"
     elif use.kind == "find":
         text = f"package {code(use.name)}: {value}"

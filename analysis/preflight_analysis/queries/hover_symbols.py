@@ -94,7 +94,7 @@ def _parameter(analysis: Analysis, name: str) -> str | None:
     kind = default_text(declared) if declared is not None else ""
     lines = [f"{title}{f': {kind}' if kind else ''}"]
     lines += ["", *_settings(analysis, settings)] if settings else ["", "Not set in this launch."]
-    lines += ["", *_users(uses)]
+    lines += ["", *_users(analysis, uses)]
     return "\n".join(lines)
 
 
@@ -119,16 +119,17 @@ def _settings(analysis: Analysis, settings: list[Param]) -> Iterator[str]:
         yield f"- … and {len(seen) - _SHOWN} more"
 
 
-def _users(uses: list[tuple[str, ParamUse]]) -> Iterator[str]:
+def _users(analysis: Analysis, uses: list[tuple[str, ParamUse]]) -> Iterator[str]:
     seen: dict[tuple[str, str, str | None, int | None], str] = {}
+    gets = "Declared by" if analysis.tree.ros.own_parameters else "Read by"
     for node, use in uses:
-        verb = {"get": "Declared by" if use.type else "Read by", "set": "Set by"}.get(use.access, "Used by")
+        verb = {"get": gets, "set": "Set by"}.get(use.access, "Used by")
         key = (verb, node, use.source_file, use.source_line)
         where = f" — {link(use.source_file, use.source_line)}" if use.source_file and not use.builtin else ""
         seen.setdefault(key, f"- {verb} {code(node)}{where}")
     yield from list(seen.values())[:_SHOWN]
     if not uses:
-        yield "No node is known to use it."
+        yield "No node is known to use it." if analysis.graph is not None else "The nodes are not analysed yet."
 
 
 def argument_notes(context: QueryContext, offset: int) -> str:
@@ -155,9 +156,9 @@ def _declared(context: QueryContext, symbol: NamedSymbol, name: str) -> Iterator
             continue
         known = declaration(action)
         if known.value is not None:
-            yield f"Fixed: {code(known.value)}"
+            yield f"Fixed: {value_text(known.value)}"
         else:
-            yield "Required" if known.default is None else f"Default: {code(known.default)}"
+            yield "Required" if known.default is None else f"Default: {value_text(known.default)}"
         if choices := _choices(action):
             yield f"\nOne of {', '.join(map(code, choices))}"
         if known.doc:
@@ -177,4 +178,4 @@ def _given(context: QueryContext, at: Location) -> str:
     value = (action.value("value") or action.value("default")) if action is not None else None
     document = context.document(at.file)
     line = document.lines.position(at.span.start)[0] + 1 if document is not None else None
-    return link(at.file, line) + (f": {code(value.text)}" if value is not None else "")
+    return link(at.file, line) + (f": {value_text(value.text)}" if value is not None else "")

@@ -164,7 +164,9 @@ def attribute_doc(attribute: Attribute) -> str:
 
 def described(launch_file: LaunchFile, offset: int) -> tuple[str, Span] | None:
     """The description, as Markdown, of the tag, attribute or substitution whose name is at `offset`, and where that
-    name is."""
+    name is. None in Python, which has a language server of its own."""
+    if launch_file.path.endswith(PYTHON_SUFFIX):
+        return None
     substitution = _substitution_at(launch_file, offset)
     if substitution is not None:
         known = language_of(launch_file).substitutions.get(substitution.command)

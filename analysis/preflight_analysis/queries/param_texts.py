@@ -10,14 +10,14 @@ _LENGTH = 200
 
 
 def value_text(value: ParamValue) -> str:
-    """The value of a parameter on one line."""
+    """The value of a parameter or an argument on one line; a text without a character as `''`, to be seen."""
     if isinstance(value, CommandValue):
         return f"output of {code(value.command)}" + (f" ({escaped(value.reason)})" if value.reason else "")
     if isinstance(value, bytes):
         return f"{len(value)} bytes"
     if value is None:
         return "unresolved"
-    text = " ".join(str(value).split())
+    text = " ".join(str(value).split()) or "''"
     return code(f"{text[:_LENGTH]}…" if len(text) > _LENGTH else text)
 
 

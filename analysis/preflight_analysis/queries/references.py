@@ -65,10 +65,27 @@ def _packages(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]
 
 def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
-        for tree in context.trees:
-            paths = (n.resolved.path for n in tree.nodes if f"{n.package}/{n.executable}" == name)
-            yield from _all((Location.of_file(p) for p in paths if p is not None and context.document(p)), declare=True)
+        yield from _all(executable_at(context, name), declare=True)
         yield from _mentioned(context, "executable", name)
+
+
+def executable_at(context: QueryContext, name: str) -> Iterator[Location]:
+    """Where the program of `package/executable` begins: a script; the function of a console script; for what is
+    compiled its source."""
+    package, _, executable = name.partition("/")
+    nodes = [n for t in context.trees for n in t.nodes if (n.package, n.executable) == (package, executable)]
+    paths = sorted({n.resolved.path for n in nodes if n.resolved.path is not None})
+    made = context.workspace.executables.made_of(package, executable)
+    if made is not None:  # what stands in a devel space only leads there
+        paths = [made.source]
+    entries = {n.resolved.path: n.resolved.entry_point for n in nodes if n.resolved.entry_point is not None}
+    for path in paths:
+        function = entries.get(path, "").partition(":")[2]
+        made_there = context.workspace.entry_point(path, function) if function else None
+        if made_there is not None:
+            yield context.line(made_there.file, made_there.line)
+        elif context.document(path) is not None:
+            yield Location.of_file(path)
 
 
 def _components(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:

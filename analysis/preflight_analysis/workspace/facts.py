@@ -11,7 +11,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tags import scopes_of, tags_of
 from preflight_analysis.generation import Generation, ros
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Substitution, Value
-from preflight_analysis.launch.references import NAMES, Named, arg_references, first_word
+from preflight_analysis.launch.references import COMPONENT, NAMES, Named, arg_references, first_word
 from preflight_analysis.launch.schema import Kind as ValueKind
 from preflight_analysis.launch.schema import Tag
 from preflight_analysis.launch.substitutions_ros2 import nested
@@ -142,7 +142,9 @@ def declaration(action: Action) -> ArgDeclaration:
 
 def _of_substitution(part: Substitution, action: Span) -> Iterator[Mention]:
     named = NAMES.get(part.command)
-    kind = "arg-use" if named == "argument" else _OF_SUBSTITUTION.get(named)
+    kind: Kind | None = "arg-use" if named == "argument" else _OF_SUBSTITUTION.get(named)
+    if part.command == COMPONENT:
+        kind = "component"
     if kind is not None:
         yield Mention(kind, *first_word(part), action)
 

@@ -43,11 +43,12 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     file = performer.value(attribute.value)
     origin = place.origin(action.head_span)
     at = place.location(attribute.value.span)
-    passed = _passed(walk, performer, action)
+    passed = _passed(performer, action)
     path = _path(walk, performer, attribute.value, file)
     if path is None:
         walk.names[-1] = None
         context.cannot_follow(at)
+        _not_read(performer, passed)
         state.include(Include(None, origin, at, {}))
         state.note_unknown("<include>", "its file is not known", at)
         return
@@ -58,6 +59,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         return
     found = _read(walk, place, path, at)
     if found is None:
+        _not_read(performer, passed)
         walk.names[-1] = None
         context.cannot_follow(at)
         return
@@ -68,6 +70,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         value = child.value("value")
         result = performer.value(value) if value is not None else Resolved("", False)
         shown[name] = result.text if result.known else None
+        _note(performer, child, name, shown[name])
         context.set(name, result, place.origin(value.span if value is not None else child.kind_span))
     below = walk.file_below(Place(path, found.document.lines, origin, run, found.partial), found)
     if found.partial or found.document.problems:
@@ -88,10 +91,12 @@ def _path(walk: Walk, performer: Performer, value: Value, file: Resolved) -> str
 
 def evaluate_inline(walk: Walk, performer: Performer, action: Action) -> None:
     """A launch description as an action, or included without a file."""
-    for name, child in _passed(walk, performer, action):
+    for name, child in _passed(performer, action):
         value = child.value("value")
+        result = performer.value(value) if value is not None else Resolved("", False)
+        _note(performer, child, name, result.text if result.known else None)
         if value is not None:
-            walk.context.set(name, performer.value(value), performer.place.origin(value.span))
+            walk.context.set(name, result, performer.place.origin(value.span))
     if not walk.too_deep(performer.place, action):
         walk.inside(performer.place, action.children)
 
@@ -125,15 +130,23 @@ def _used_in(launch_file: LaunchFile) -> frozenset[str] | None:
     return configurations_of(launch_file).used if is_told else None
 
 
-def _passed(walk: Walk, performer: Performer, action: Action) -> list[tuple[str, Action]]:
-    found = []
-    for child in action.children:
-        name = child.value("name")
-        if child.kind == PASSED[action.kind] and name is not None:
-            text = performer.value(name).text
-            found.append((text, child))
-            walk.state.uses.append(Use("argument", performer.place.location(name.span), text, text))
-    return found
+def _passed(performer: Performer, action: Action) -> list[tuple[str, Action]]:
+    """The arguments of an include, by the names that they have."""
+    given = (child for child in action.children if child.kind == PASSED[action.kind])
+    return [(performer.value(name).text, child) for child in given if (name := child.value("name")) is not None]
+
+
+def _not_read(performer: Performer, passed: list[tuple[str, Action]]) -> None:
+    """Arguments of a file that is not read: their values are not performed."""
+    for name, child in passed:
+        _note(performer, child, name, None)
+
+
+def _note(performer: Performer, child: Action, name: str, value: str | None) -> None:
+    """An argument that is passed, for hover."""
+    written = child.value("name")
+    if written is not None:
+        performer.state.uses.append(Use("argument", performer.place.location(written.span), name, value))
 
 
 def _read(walk: Walk, place: Place, path: str, at: Location) -> LaunchFile | None:
