@@ -113,7 +113,7 @@ endurance: EDITS = 100000
 endurance: setup ## EDITS=100000 through the protocol of one server, and what it does without disk, HOME, ...: bench/endurance.md (a shorter run writes it with WRITE=1)
 	$(BIN)/python tests/tools/endurance --edits $(EDITS) $(if $(or $(WRITE),$(filter 100000,$(EDITS))),--write)
 
-wheel: $(READY) ## dist/*.whl, with the library for roscpp nodes compiled for x86-64
+wheel: $(READY) ## dist/*.whl, with the libraries for nodes in C++ compiled for x86-64 and arm64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
 release: setup ## all that a release consists of, in dist/, checked; DRY=1 before its tag: RELEASING.md

@@ -1,16 +1,15 @@
 """Puts the compiled libraries for nodes in C++ into the wheel, so that a machine without a compiler can watch them.
 
 They are files of data that are only used where they fit (`tracing/preload.py`), so a wheel with them may be one for all
-platforms. `ROS_PREFLIGHT_PREBUILT` says what is built: `0` a wheel without them, `1` one with them for all platforms, a
-platform tag such as `manylinux_2_28_x86_64` one with them for that platform alone. Where it is not set they are in the
-wheel if they can be compiled.
+platforms. `ROS_PREFLIGHT_PREBUILT` says what is built: `0` a wheel without them, `1` one with those for all processors,
+a platform tag such as `manylinux_2_28_x86_64` one for that platform with those for it. Where it is not set the wheel has
+those for which there is a compiler.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import os
-import platform
 import subprocess
 import sys
 import tempfile
@@ -34,7 +33,7 @@ class PreloadHook(BuildHookInterface):  # type: ignore[misc]
             return
         self._folder = tempfile.TemporaryDirectory()
         try:
-            made = self._compile(Path(self._folder.name))
+            made = self._compile(Path(self._folder.name), wanted)
         except Exception as error:
             if wanted:
                 raise
@@ -52,18 +51,21 @@ class PreloadHook(BuildHookInterface):  # type: ignore[misc]
         if folder is not None:
             folder.cleanup()
 
-    def _compile(self, folder: Path) -> list[Path]:
+    def _compile(self, folder: Path, wanted: str) -> list[Path]:
         spec = importlib.util.spec_from_file_location("preload_compile", Path(self.root, _MODULE))
         assert spec is not None
         assert spec.loader is not None
         module: Any = importlib.util.module_from_spec(spec)
         sys.modules[spec.name] = module  # its dataclasses look for it there
         spec.loader.exec_module(module)
-        compiler = module.compiler()
-        if sys.platform != "linux" or platform.machine() not in module.MACHINES or compiler is None:
-            raise OSError("a C++ compiler on x86-64 Linux is needed")
+        machines = [machine for machine in module.MACHINES if wanted in ("", "1") or wanted.endswith(f"_{machine}")]
+        compilers = {machine: module.compiler(machine) for machine in machines if sys.platform == "linux"}
+        lacking = [machine for machine in machines if compilers.get(machine) is None]
+        if lacking and (wanted or lacking == machines):
+            raise OSError(f"a C++ compiler for {' and '.join(lacking)} Linux is needed")
         made = []
-        for watched in module.WATCHED:
-            made.append(folder / watched.prebuilt.name)
-            module.compile_library(compiler, watched, made[-1], portable=True)
+        for machine in machines:
+            for watched in module.WATCHED if machine not in lacking else ():
+                made.append(folder / watched.prebuilt(machine).name)
+                module.compile_library(compilers[machine], watched, made[-1], portable=True)
         return made

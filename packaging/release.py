@@ -2,7 +2,8 @@
 
 - `ros_preflight-V.tar.gz`: the sources.
 - `ros_preflight-V-py3-none-any.whl`: for all processors, without compiled libraries.
-- `ros_preflight-V-py3-none-manylinux_2_24_x86_64.whl`: with the libraries that are preloaded into nodes in C++.
+- `ros_preflight-V-py3-none-manylinux_2_24_x86_64.whl`, `..._aarch64.whl`: with the libraries that are preloaded into
+  nodes in C++, for one processor each.
 - `ros-preflight-V.vsix`: the VS Code extension, with the server for all platforms.
 - `ros-preflight-V.cdx.json`: what the extension installs the server with, as CycloneDX (SBOM).
 - `CHANGES.md`: the section of the version in CHANGELOG.md.
@@ -25,7 +26,7 @@ import tarfile
 import tempfile
 import venv
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import apply  # beside this file
@@ -33,9 +34,13 @@ from apply import Project
 
 ROOT = Path(__file__).resolve().parents[1]
 DIST = ROOT / "dist"
-MANYLINUX = "manylinux_2_24_x86_64"
+MACHINES = ("x86_64", "aarch64")
+"""The processors that have libraries, as `tracing/preload_compile.py` names them."""
+MANYLINUX = "manylinux_2_24"
 """glibc 2.24 and the C++ library of GCC 6, which is what the libraries ask for; `auditwheel show` is the judge."""
-_LIBRARIES = ("roscpp_preload.so", "rcl_preload.so")
+_LIBRARIES = ("roscpp_preload", "rcl_preload")
+_ELF_MACHINE = {"x86_64": b"\x3e\x00", "aarch64": b"\xb7\x00"}
+"""`e_machine` of the ELF header: EM_X86_64 and EM_AARCH64 of elf.h."""
 _PLACEHOLDER = "/OWNER/"
 
 
@@ -93,7 +98,7 @@ def build(known: Project) -> None:
     epoch = run("git", "log", "-1", "--format=%ct").strip()
     hatch = (sys.executable, "-m", "hatchling", "build", "-d", DIST)
     run(*hatch, "-t", "sdist", SOURCE_DATE_EPOCH=epoch)
-    for prebuilt in ("0", MANYLINUX):
+    for prebuilt in ("0", *(f"{MANYLINUX}_{machine}" for machine in MACHINES)):
         run(*hatch, "-t", "wheel", SOURCE_DATE_EPOCH=epoch, ROS_PREFLIGHT_PREBUILT=prebuilt)
     run("make", "--no-print-directory", "vsix", SOURCE_DATE_EPOCH=epoch, ROS_PREFLIGHT_PREBUILT="1")
     shutil.copyfile(ROOT / "out/ros-preflight.vsix", DIST / f"ros-preflight-{known.version}.vsix")
@@ -113,12 +118,12 @@ def inspect(known: Project) -> None:
     _require(wanted <= names, f"{sdist.name} lacks {wanted - names}")
     for wheel in DIST.glob("*.whl"):
         with zipfile.ZipFile(wheel) as files:
-            libraries = {Path(name).name for name in files.namelist() if name.endswith(".so")}
-        expected = set(_LIBRARIES) if MANYLINUX in wheel.name else set()
-        _require(libraries == expected, f"{wheel.name} has {sorted(libraries)}")
+            check_libraries(wheel.name, files, [machine for machine in MACHINES if wheel.stem.endswith(f"_{machine}")])
     with zipfile.ZipFile(DIST / f"ros-preflight-{known.version}.vsix") as files:
         inside = [name for name in files.namelist() if name.endswith(".whl")]
-    _require(len(inside) == 1, f"the extension has {inside}")
+        _require(len(inside) == 1, f"the extension has {inside}")
+        with files.open(inside[0]) as wheel_inside, zipfile.ZipFile(wheel_inside) as wheel_files:
+            check_libraries(inside[0], wheel_files, MACHINES)
     (pure,) = DIST.glob("*-py3-none-any.whl")
     with tempfile.TemporaryDirectory() as folder:
         venv.create(folder, with_pip=True)
@@ -128,6 +133,15 @@ def inspect(known: Project) -> None:
         _require(said == f"ros-preflight {known.version}", f"the installed wheel says {said}")
         demo = ROOT / "fixtures/ros1/demo/launch/fixed.launch"
         run(Path(folder, "bin/ros-preflight"), "check", "--no-run", demo)
+
+
+def check_libraries(name: str, files: zipfile.ZipFile, machines: Iterable[str]) -> None:
+    """Raise `NotReady` where the libraries of a wheel are not those of these processors, by their ELF headers."""
+    expected = {f"{library}.{machine}.so": machine for library in _LIBRARIES for machine in machines}
+    found = {Path(path).name: files.read(path) for path in files.namelist() if path.endswith(".so")}
+    _require(found.keys() == expected.keys(), f"{name} has {sorted(found)}")
+    for library, machine in expected.items():
+        _require(found[library][18:20] == _ELF_MACHINE[machine], f"{library} of {name} is not for {machine}")
 
 
 def _require(condition: bool, why: str) -> None:

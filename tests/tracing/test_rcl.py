@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -285,18 +284,6 @@ def test_arguments_of_ros_that_are_wrong_end_the_node_and_it_says_so(harness: Rc
         outcome = harness.trace(f"ends {given}").outcome
         assert (outcome.status, outcome.exit_code) == ("crashed", 3)
         assert "error: " in (outcome.reason or "")
-
-
-def test_a_library_for_other_machines_needs_no_newer_system_than_humble_has(tmp_path: Path) -> None:
-    compiler = preload_compile.compiler()
-    assert compiler is not None
-    preload_compile.compile_library(compiler, preload_compile.RCL, tmp_path / "made.so", portable=True)
-    shown = subprocess.run(["objdump", "-T", tmp_path / "made.so"], capture_output=True, text=True, check=True).stdout
-    needed = {(name, tuple(map(int, version.split(".")))) for name, version in re.findall(r"\((\w+)_([\d.]+)\)", shown)}
-    # Those of Ubuntu 22.04.
-    newest = {"GLIBC": (2, 35), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12, 0, 0)}
-    assert {name for name, _ in needed} <= set(newest)
-    assert [(name, version) for name, version in needed if version > newest[name]] == []
 
 
 def test_a_container_is_run_as_any_other_node(tmp_path: Path) -> None:

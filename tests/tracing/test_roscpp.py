@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 import threading
 from dataclasses import replace
@@ -251,15 +250,6 @@ def prebuilt(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert compiler is not None
     preload_compile.compile_library(compiler, preload_compile.ROSCPP, made, portable=True)
     return made
-
-
-def test_a_library_for_other_machines_needs_old_versions_only(prebuilt: Path) -> None:
-    shown = subprocess.run(["objdump", "-T", str(prebuilt)], capture_output=True, text=True, check=True).stdout
-    needed = {(name, tuple(map(int, version.split(".")))) for name, version in re.findall(r"\((\w+)_([\d.]+)\)", shown)}
-    # Those of Ubuntu 16.04, where ROS Kinetic is.
-    newest = {"GLIBC": (2, 23), "GLIBCXX": (3, 4, 21), "CXXABI": (1, 3, 9), "GCC": (4, 2, 0)}
-    assert {name for name, _ in needed} <= set(newest)
-    assert [(name, version) for name, version in needed if version > newest[name]] == []
 
 
 def test_a_prebuilt_library_is_taken_from_wherever_it_is(tmp_path: Path, prebuilt: Path, no_compiler: None) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import venv
 from pathlib import Path
 
 import pytest
+from preflight_analysis.tracing.preload_compile import MACHINES, WATCHED
 
 pytestmark = pytest.mark.ros
 
@@ -72,5 +74,6 @@ def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Pat
     assert chatter in node["publishers"]
     (copy,) = (tmp_path / "cache" / "ros-preflight" / "preload").iterdir()
     agents = site / "preflight_analysis/tracing/agents"
-    assert copy.read_bytes() == (agents / "roscpp_preload.so").read_bytes()
-    assert (agents / "rcl_preload.so").is_file()
+    assert copy.read_bytes() == (agents / f"roscpp_preload.{platform.machine()}.so").read_bytes()
+    libraries = {path.name for path in agents.glob("*.so")}
+    assert libraries == {watched.prebuilt(machine).name for watched in WATCHED for machine in MACHINES}

@@ -13,6 +13,7 @@ import functools
 import hashlib
 import logging
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -72,7 +73,7 @@ class Library:
 
     def __init__(self, folder: Path | None = None, prebuilt: Path | None = None, watched: Watched = ROSCPP) -> None:
         self._folder = folder or cache_folder("preload")
-        self._prebuilt = prebuilt or watched.prebuilt
+        self._prebuilt = prebuilt or watched.prebuilt(platform.machine())
         self._watched = watched
         self._lock = threading.Lock()
         self._unfit = False
@@ -146,13 +147,13 @@ class Library:
     @functools.cached_property
     def _compiled(self) -> Preload:
         if not _supported():
-            return Preload(None, f"{self._watched.name} nodes are watched on {MACHINES[0]} only")
+            return Preload(None, f"{self._watched.name} nodes are watched on {' and '.join(MACHINES)} only")
         if self._compiler is None:
             return Preload(None, f"there is no C++ compiler to watch {self._watched.name} nodes with: apt install g++")
         compiler = os.path.realpath(self._compiler)
         with contextlib.suppress(OSError):
             info = os.stat(compiler)
-            named = (compiler, str(info.st_size), str(info.st_mtime_ns), os.uname().machine, *FLAGS)
+            named = (compiler, str(info.st_size), str(info.st_mtime_ns), platform.machine(), *FLAGS)
             made_of = b"".join(file.read_bytes() for file in self._watched.files) + exports(self._watched).encode()
             return self._at(hashlib.sha256("\0".join(named).encode(errors="surrogatepass") + made_of).hexdigest())
         return Preload(None, "the C++ compiler or our own source cannot be read")
@@ -181,7 +182,7 @@ def _used(path: str | None) -> None:
 
 
 def _supported() -> bool:
-    return sys.platform == "linux" and os.uname().machine in MACHINES
+    return sys.platform == "linux" and platform.machine() in MACHINES
 
 
 def _copy(prebuilt: Path, path: Path) -> bool:

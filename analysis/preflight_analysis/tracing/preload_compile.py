@@ -5,6 +5,7 @@ does it as well.
 from __future__ import annotations
 
 import os
+import platform
 import shutil
 import subprocess
 import tempfile
@@ -32,10 +33,9 @@ class Watched:
         its name what they do."""
         return (self.source, _COMMON, *sorted(self.source.with_suffix("").glob("*.hpp")))
 
-    @property
-    def prebuilt(self) -> Path:
-        """The one that a wheel brings, of x86-64; absent where nothing was built."""
-        return self.source.with_suffix(".so")
+    def prebuilt(self, machine: str) -> Path:
+        """The one for a processor that a wheel brings; absent where nothing was built."""
+        return self.source.with_suffix(f".{machine}.so")
 
 
 ROSCPP = Watched(
@@ -47,8 +47,9 @@ RCL = Watched("rcl", _AGENTS / "rcl_preload.cpp", "rcl_*;")
 WATCHED = (ROSCPP, RCL)
 
 COMPILERS = ("g++", "clang++", "c++")
-MACHINES = ("x86_64",)
-"""Where the layout of arguments and results was tried."""
+MACHINES = ("x86_64", "aarch64")
+"""Where the layout of arguments and results was tried, as `platform.machine` has them: all nodes of the tests on
+x86-64, four of Debian's roscpp nodes on arm64 (docs/tracing.md)."""
 SECONDS = 180
 """At most for the compiler, which takes some 5 s: on a machine that is busy with other things many times that, and who
 gives up sees less of all nodes in C++."""
@@ -59,9 +60,12 @@ one in the same process would not know the strings and exceptions of the first."
 _FILES = "open; open64; openat; openat64; __open_2; __open64_2; fopen; fopen64; statvfs; statvfs64;"
 
 
-def compiler() -> str | None:
-    """The path of a C++ compiler."""
-    return next((found for found in map(shutil.which, COMPILERS) if found), None)
+def compiler(machine: str | None = None) -> str | None:
+    """The path of a C++ compiler for a processor: without one, or for that of this machine, the one that is installed
+    for it; for another one a cross compiler, as Debian names them."""
+    own = machine in (None, platform.machine())
+    names = COMPILERS if own else tuple(f"{machine}-linux-gnu-{name}" for name in COMPILERS)
+    return next((found for found in map(shutil.which, names) if found), None)
 
 
 def exports(watched: Watched) -> str:

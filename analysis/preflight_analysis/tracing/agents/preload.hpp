@@ -26,12 +26,17 @@
 
 #ifdef PREFLIGHT_PORTABLE
 // Since 2.34 these are in glibc itself under a new version, which older ones lack; the old version is still there.
-__asm__(".symver dlsym,dlsym@GLIBC_2.2.5");
-__asm__(".symver dlopen,dlopen@GLIBC_2.2.5");
-__asm__(".symver dlclose,dlclose@GLIBC_2.2.5");
-__asm__(".symver dladdr,dladdr@GLIBC_2.2.5");
-__asm__(".symver pthread_once,pthread_once@GLIBC_2.2.5");
-__asm__(".symver pthread_sigmask,pthread_sigmask@GLIBC_2.2.5");
+#ifdef __aarch64__
+#define OLDEST "GLIBC_2.17"
+#else
+#define OLDEST "GLIBC_2.2.5"
+#endif
+__asm__(".symver dlsym,dlsym@" OLDEST);
+__asm__(".symver dlopen,dlopen@" OLDEST);
+__asm__(".symver dlclose,dlclose@" OLDEST);
+__asm__(".symver dladdr,dladdr@" OLDEST);
+__asm__(".symver pthread_once,pthread_once@" OLDEST);
+__asm__(".symver pthread_sigmask,pthread_sigmask@" OLDEST);
 // Older ones have none; 0 says to the C++ library that there may be threads, which is always right.
 extern "C" __attribute__((visibility("hidden"))) char __libc_single_threaded = 0;
 #endif
