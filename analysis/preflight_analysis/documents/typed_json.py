@@ -12,6 +12,8 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 _Reader = Callable[[Any], Any]
+TRANSIENT = "transient"
+"""In the metadata of a field that is None in what is written and read."""
 
 
 def from_json(kind: type[T], data: object) -> T:
@@ -57,6 +59,9 @@ def _of(is_one: Callable[[Any], bool], data: Any) -> Any:
     return data
 
 
+_NONE: _Reader = functools.partial(_of, lambda data: data is None)
+
+
 def _or_none(read: _Reader, data: Any) -> Any:
     return None if data is None else read(data)
 
@@ -69,7 +74,10 @@ def _tuple(read: _Reader, data: Any) -> tuple[Any, ...]:
 
 def _dataclass(kind: type) -> _Reader:
     hints = typing.get_type_hints(kind)
-    fields = {field.name: _reader(hints[field.name]) for field in dataclasses.fields(kind)}
+    fields = {
+        field.name: _NONE if TRANSIENT in field.metadata else _reader(hints[field.name])
+        for field in dataclasses.fields(kind)
+    }
 
     def read(data: Any) -> Any:
         if not isinstance(data, dict) or not data.keys() <= fields.keys():

@@ -26,6 +26,11 @@ class Connection:
     action: str | None = None
     """Of a topic: the action that it is a part of, under its final name."""
 
+    @property
+    def is_placed(self) -> bool:
+        """Whether the launch decides on its name: by a remap, or by a parameter."""
+        return self.remap is not None or self.endpoint.named_by is not None
+
 
 @dataclass(frozen=True, slots=True)
 class Channel:

@@ -22,7 +22,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.groups import GROUPS
-from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, ParamUse, Range, Role
+from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, NamedBy, ParamUse, Range, Role
 
 _KEPT = 1024
 _TYPE = ".type"
@@ -143,20 +143,22 @@ def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued) -> Cata
     series, `topics.*.topic` for what is below each of `topics`."""
     if not found.by_parameter and not found.typed:
         return found
-    own = [(param.name.removeprefix(f"{node.name}/"), param.value) for param in given]
-    words = {name: str(value).lower() for name, value in own}
+    own = [(param.name.removeprefix(f"{node.name}/"), param) for param in given]
+    words = {name: str(param.value).lower() for name, param in own}
     typed = {
         id(end): replace(end, type=types[words[name]]) for end, name, types in found.typed if words.get(name) in types
     }
     ends = [typed.get(id(end), end) for end in found.endpoints]
     for pattern, each in found.by_parameter:
         end = typed.get(id(each), each)
-        values = [value for name, value in own for value in _of_pattern(name, value, pattern, series=not end.name)]
+        series = not end.name
+        values = [(p, value) for name, p in own for value in _of_pattern(name, p.value, pattern, series=series)]
         if values:
             ends = [each for each in ends if each is not end]
-        for value in values:
+        for param, value in values:
             if isinstance(value, str) and value and names.is_legal(value):
-                ends.append(replace(end, name=value, conditional=end.conditional and bool(end.name)))
+                by = NamedBy(param.name, param.place)
+                ends.append(replace(end, name=value, conditional=end.conditional and bool(end.name), named_by=by))
     return replace(found, endpoints=tuple(ends))
 
 

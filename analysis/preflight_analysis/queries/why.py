@@ -267,7 +267,7 @@ def _evidence(connection: Connection) -> str:
 
 
 def _name(analysis: Analysis, kind: ChannelKind, provider: Connection, consumer: Connection) -> Link:
-    decides = next((each for each in (consumer, provider) if each.remap is not None), consumer)
+    decides = next((each for each in (consumer, provider) if each.is_placed), consumer)
     place = connection_location(decides)
     if provider.name == consumer.name:
         return Link("name", "ok", f"both use the {_NOUN[kind]} '{consumer.name}'", place)

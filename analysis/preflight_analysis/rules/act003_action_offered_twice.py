@@ -19,7 +19,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if len(servers) < 2:
             continue
         # A remap that brings them together is the place to change; else the later of the nodes.
-        servers.sort(key=lambda c: c.remap is not None)
+        servers.sort(key=lambda c: c.is_placed)
         yield rule.finding(
             f"action '{channel.name}' has {len(servers)} servers ({' and '.join(c.node.name for c in servers)}): "
             "each executes every goal",

@@ -38,8 +38,8 @@ class NearMiss:
 
     @property
     def site(self) -> Connection:
-        """The endpoint at which it is reported: that whose name the launch file sets, else the consumer."""
-        if self.consumer.remap is None and self.provider.remap is not None:
+        """The endpoint at which it is reported: that whose name the launch sets, else the consumer."""
+        if not self.consumer.is_placed and self.provider.is_placed:
             return self.provider
         return self.consumer
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Remap
+from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.finding import Edit, Fix
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Connection
@@ -26,9 +27,12 @@ def fixes(near: NearMiss, consumers: Document | None, providers: Document | None
         corrected = _correct_remap(document, site, site.remap, other.name)
         if corrected is not None:
             return (corrected,)
+    if site.remap is None and site.endpoint.named_by is not None:
+        corrected = _correct_parameter(consumers if site is near.consumer else providers, site, other.name)
+        return (corrected,) if corrected is not None else ()
     # A remap at a publisher that others listen to would only move the gap to them.
     movable = (near.consumer, *((near.provider,) if near.provider_dangles else ()))
-    connections = [connection for connection in movable if connection.remap is None]
+    connections = [connection for connection in movable if not connection.is_placed]
     found = [
         _insert_remap(
             consumers if connection is near.consumer else providers,
@@ -69,6 +73,16 @@ def _correct_remap(document: Document | None, connection: Connection, remap: Rem
         return None
     text = _in_style_of(written, connection.name, new)
     return Fix(f"Replace '{written}' with '{text}'", (Edit(remap.target_location, text),), True)
+
+
+def _correct_parameter(document: Document | None, connection: Connection, new: str) -> Fix | None:
+    """The value of the parameter that names the end corrected."""
+    end = connection.endpoint
+    place = value_place(end.named_by.place, end.name, document) if end.named_by is not None else None
+    if place is None:
+        return None
+    text = _in_style_of(end.name, connection.name, new)
+    return Fix(f"Replace '{end.name}' with '{text}'", (Edit(place, text),), True)
 
 
 def _in_style_of(written: str, full: str, new: str) -> str:

@@ -63,8 +63,12 @@ def argument_location(context: Context, node: LaunchNode, text: str) -> Location
 
 
 def connection_location(connection: Connection) -> Location:
-    """Where the launch file decides on the name of the connection: the remap's `to`, else the node's start tag."""
-    return connection.remap.target_location if connection.remap is not None else connection.node.location
+    """Where the launch decides on the name of the connection: the remap's `to`, the parameter that names it, else the
+    node's start tag."""
+    if connection.remap is not None:
+        return connection.remap.target_location
+    named_by = connection.endpoint.named_by
+    return named_by.place if named_by is not None else connection.node.location
 
 
 def related_endpoint(connection: Connection, verb: str) -> Related:

@@ -14,6 +14,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Executables
+from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.finding import Confidence, EndpointRef, Finding, Fix, Related, Severity
@@ -23,6 +24,7 @@ from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.once import Once
+from preflight_analysis.knowledge.model import Knowledge
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 
@@ -99,10 +101,17 @@ class Context(Once):
     graph: Graph | None = None
     why_not_run: str | None = None
     settings_problems: tuple[tuple[str, Location], ...] = ()
+    own_knowledge: tuple[Knowledge, ...] = ()
+    """What the user's files say of parameters."""
     of_branches: tuple[Finding, ...] = ()
     """What was found in tags that the tree leaves out (`workspace/branches.py`)."""
     kept: Kept = field(default_factory=Kept, repr=False, compare=False)
     """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
+
+    @property
+    def known(self) -> KnownMeanings:
+        """What is known of the parameters of nodes and plugins."""
+        return KnownMeanings(self.own_knowledge, self.environment.distro, self.tree.generation)
 
     def location(self, path: str, span: Span) -> Location:
         """The location of a span of a document."""

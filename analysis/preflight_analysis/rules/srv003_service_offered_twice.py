@@ -27,7 +27,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
         if len(servers) > 1:
             # A remap that brings them together is the place to change; else the later of the nodes.
-            servers.sort(key=lambda c: c.remap is not None)
+            servers.sort(key=lambda c: c.is_placed)
             key = (connection_location(servers[-1]), tuple(c.node.name for c in servers))
             found.setdefault(key, []).append((channel.name, servers))
     for (location, nodes), offered in found.items():

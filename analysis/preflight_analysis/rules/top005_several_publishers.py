@@ -65,7 +65,7 @@ def _is_shared(connection: Connection) -> bool:
 def _finding(
     rule: Rule, channel: Channel, connections: list[Connection], severity: Severity, consequence: str
 ) -> Finding:
-    connections = sorted(connections, key=lambda connection: connection.remap is not None)
+    connections = sorted(connections, key=lambda connection: connection.is_placed)
     sure = not any(connection.endpoint.uncertain for connection in connections)
     return rule.finding(
         f"'{channel.name}' has {len(connections)} publishers ({' and '.join(c.node.name for c in connections)}): "

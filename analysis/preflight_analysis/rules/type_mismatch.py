@@ -20,7 +20,7 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
         return
     for consumer, provider, difference in chain.from_iterable(context.once(_all_misfits)[kind]):
         site, other = (consumer, provider)
-        if consumer.remap is None and provider.remap is not None:
+        if not consumer.is_placed and provider.is_placed:
             site, other = provider, consumer
         yield rule.finding(
             f"type mismatch on '{consumer.name}': {provider.node.name} {verbs.provides} "

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
+from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.typed_json import TRANSIENT
 from preflight_analysis.evaluation import names
 
 Role = Literal["publisher", "subscriber", "service", "client", "action_server", "action_client"]
@@ -30,6 +32,13 @@ _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning
 _THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
 _WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
 Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "catalogue", "none"]
+
+
+class NamedBy(NamedTuple):
+    """The parameter whose value is the name of an endpoint, and where that value is written."""
+
+    parameter: str
+    place: Location
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +77,8 @@ class Endpoint:
     """Of what the catalogue says: which one, with the commit that it was read at."""
     of_other_distribution: bool = False
     """Of what the catalogue says: whether it knows that of another distribution than is used."""
+    named_by: NamedBy | None = field(default=None, metadata={TRANSIENT: True})
+    """The parameter of the launch that gives the name; no run tells it."""
 
     @property
     def assumed(self) -> bool:

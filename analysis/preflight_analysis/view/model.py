@@ -14,6 +14,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.findings.report import positions
 from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.rules.places import connection_location
 from preflight_analysis.tracing.interface import Interface, Role
 
 Kind = Literal["topic", "service", "action"]
@@ -187,7 +188,7 @@ class _Builder:
 
     def _edge(self, kind: Kind, connection: Connection, node: int, channel: int) -> ViewEdge:
         endpoint = connection.endpoint
-        launch = connection.remap.target_location if connection.remap is not None else connection.node.location
+        launch = connection_location(connection)
         source = (
             (Place(endpoint.source_file, endpoint.source_line),)
             if endpoint.source_file is not None and endpoint.source_line is not None

@@ -22,6 +22,7 @@ from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
+from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
@@ -39,6 +40,7 @@ from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.nodl.loaded_plugins import LoadedPlugins
+from preflight_analysis.nodl.named_endpoints import with_named_endpoints
 from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
@@ -380,7 +382,9 @@ class Workspace:
         if not tree.ros.own_parameters:
             interfaces = with_simulated_controllers(tree, interfaces, environment)
         interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
-        return with_command_lines(tree, interfaces, documents, kept)
+        interfaces = with_command_lines(tree, interfaces, documents, kept)
+        known = KnownMeanings((), environment.distro, tree.generation)
+        return with_named_endpoints(tree, interfaces, known, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

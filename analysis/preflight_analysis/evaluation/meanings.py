@@ -1,0 +1,262 @@
+"""What the parameters of the nodes of a launch stand for, by what is known of packages."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from itertools import compress
+from operator import attrgetter
+from typing import Any, NamedTuple
+
+from preflight_analysis.catalogue.released import DISTRIBUTIONS
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.knowledge.load import knowledge_of
+from preflight_analysis.knowledge.model import Entry, EntryKind, Knowledge, Meaning
+
+_NUMBER = "{N}"
+_LISTED = re.compile(r"\{(\w[\w.]*)\}")
+_OTHER = "$"
+"""Before the name of a parameter whose value is meant."""
+_KEPT = 4096
+_MOST = 256
+"""Items of a list."""
+
+
+class Known(NamedTuple):
+    """What is known of a node, a plugin or a controller, and where that is from, in words. `is_used`: whether that was
+    read of the version that is used, as far as that is known."""
+
+    entry: Entry
+    package: str
+    evidence: str
+    is_used: bool
+
+
+@dataclass(frozen=True, slots=True)
+class KnownMeanings:
+    """All that is known, the user's own files first. `distro` is None where it is not known which one is used."""
+
+    own: tuple[Knowledge, ...]
+    distro: str | None
+    generation: int
+
+    def of_node(self, node: LaunchNode) -> Known | None:
+        """What is known of a node; None where nothing is."""
+        package, kind, name = _place(node)
+        return self.of(package, kind, name)
+
+    def of(self, package: str, kind: EntryKind, name: str) -> Known | None:
+        """What is known of an executable, a component, ... of a package."""
+        for said in self.own:
+            entry = said.entry(kind, name, self.distro) if said.package == package else None
+            if entry is not None:
+                return Known(entry, package, said.evidence, True)
+        common = knowledge_of(package)
+        entry = common.entry(kind, name, self.distro) if common is not None else None
+        if common is None or entry is None or DISTRIBUTIONS[self.generation].keys().isdisjoint(entry.distributions):
+            return None
+        return Known(entry, package, common.evidence, self._is_used(entry))
+
+    def _is_used(self, entry: Entry) -> bool:
+        if self.distro is not None:
+            return self.distro in entry.distributions
+        # What several distributions have alike is likely so in the one that is not known.
+        return len(DISTRIBUTIONS[self.generation].keys() & set(entry.distributions)) > 1 or self.generation == 1
+
+
+def _place(node: LaunchNode) -> tuple[str, EntryKind, str]:
+    if node.plugin is not None:
+        return node.package, "components", node.plugin.removeprefix("::")
+    if node.package == "nodelet" and node.executable == "nodelet":
+        words = node.args.split()
+        if len(words) > 1 and words[0] in ("load", "standalone"):
+            # By convention the name begins with that of the package.
+            return words[1].partition("/")[0], "nodelets", words[1]
+    return node.package, "executables", node.executable
+
+
+class Meant(NamedTuple):
+    """A value and what it stands for. `parameter` is the name as the node asks for it (`odom0`, `scan.topic`); `param`
+    is what sets it, None of a default. The items of a list come one by one."""
+
+    meaning: Meaning
+    known: Known
+    parameter: str
+    value: Any
+    param: Param | None
+
+    def type_of(self, settings: Settings) -> str | None:
+        """The type of a topic, service or action, `package/Name`; None where that is not known."""
+        for parameter, types in self.meaning.type_by.items():
+            value = str(settings.value(parameter, self.parameter)).lower()
+            return types.get(value)
+        return self.meaning.type
+
+
+class Settings:
+    """The parameters of a node below one name, with dots between the parts of theirs, and the defaults of those that
+    its knowledge has a meaning for."""
+
+    def __init__(self, known: Known, params: Sequence[tuple[str, Param]]) -> None:
+        self.known = known
+        self.params = dict(params)
+        self.defaults = {each.pattern: each.default for each in known.entry.meanings if each.default is not None}
+
+    def value(self, name: str, beside: str = "") -> Any:
+        """The value of a parameter, its default where it is not set, None where there is none. `./x` is the one that
+        stands beside another."""
+        if name.startswith("./"):
+            name = f"{beside.rpartition('.')[0]}.{name[2:]}".removeprefix(".")
+        found = self.params.get(name)
+        return found.value if found is not None else self.default(name)
+
+    def default(self, name: str) -> Any:
+        """The value that a parameter has where it is not set: `$x` is that of another one."""
+        found = self.defaults.get(name)
+        if isinstance(found, str) and found.startswith(_OTHER) and found != f"{_OTHER}{name}":
+            return self.value(found.removeprefix(_OTHER))
+        return found
+
+    def holds(self, conditions: Mapping[str, Any], beside: str = "") -> bool:
+        """Whether all parameters have the values that are asked of them: `$x` is that of another one, `!` any other."""
+        return all(self._is(self.value(name, beside), wanted) for name, wanted in conditions.items())
+
+    def _is(self, value: Any, wanted: Any) -> bool:
+        if isinstance(wanted, list):
+            return any(self._is(value, each) for each in wanted)
+        if isinstance(wanted, str) and wanted.startswith("!"):
+            return not self._is(value, wanted[1:])
+        if isinstance(wanted, str) and wanted.startswith(_OTHER):
+            wanted = self.value(wanted.removeprefix(_OTHER))
+        return str(value).lower() == str(wanted).lower()
+
+
+def known_of_nodes(tree: LaunchTree, known: KnownMeanings, kept: Kept) -> Sequence[Known | None]:
+    """What is known of each node of a launch, those that a simulator makes last."""
+    return kept.each(_of_node, tree.nodes_and_simulated, known)
+
+
+def _of_node(node: LaunchNode, known: KnownMeanings) -> Known | None:
+    return known.of_node(node)
+
+
+_BY_NAME = attrgetter("name")
+
+
+def params_of_nodes(tree: LaunchTree, known: Sequence[Known | None], kept: Kept) -> Sequence[Sequence[Param]]:
+    """The parameters of each node. Those of ROS 1 stand right below its name, of one of which something is known at any
+    depth."""
+    if tree.ros.own_parameters:
+        return [node.params for node in tree.nodes_and_simulated]
+    direct = kept.grouped(_namespace, "named", tree.all_params)
+    found: list[Sequence[Param]] = [direct.get(node.name, ()) for node in tree.nodes]
+    params = sorted(tree.all_params, key=_BY_NAME) if any(known) else []
+    for at in compress(range(len(found)), known):
+        # The next sign behind a slash.
+        name = tree.nodes[at].name
+        start, end = (bisect_left(params, f"{name}{sign}", key=_BY_NAME) for sign in "/0")
+        found[at] = kept.get(_all, (name, at), tuple(params[start:end]))
+    return found
+
+
+def _namespace(param: Param) -> str:
+    return param.name.rpartition("/")[0]
+
+
+def _all(params: tuple[Param, ...]) -> tuple[Param, ...]:
+    return params
+
+
+def own_params(node: LaunchNode, given: Sequence[Param]) -> tuple[tuple[str, Param], ...]:
+    """The parameters of a node by the names by which it asks for them, with dots between their parts. `given` are those
+    of ROS 2 as the node has them, or those of ROS 1 below its name."""
+    below = f"{node.name}/"
+    return tuple((param.name.removeprefix(below).replace("/", "."), param) for param in given)
+
+
+def meant_by(known: Known, params: Sequence[tuple[str, Param]]) -> tuple[Meant, ...]:
+    """All values that mean something, in the order of what is known; defaults among them."""
+    settings = Settings(known, params)
+    return tuple(
+        each
+        for meaning in known.entry.meanings
+        for each in _of_meaning(meaning, settings)
+        if settings.holds(meaning.when, each.parameter)
+    )
+
+
+def _of_meaning(meaning: Meaning, settings: Settings) -> Iterator[Meant]:
+    for name in _expanded(meaning.pattern, settings):
+        for parameter, value, param in _values(name, settings):
+            for each in value[:_MOST] if isinstance(value, (list, tuple)) else (value,):
+                yield Meant(meaning, settings.known, parameter, each, param)
+        if name not in settings.params and meaning.default is not None and "*" not in name and _NUMBER not in name:
+            default = settings.default(meaning.pattern)
+            for each in default if isinstance(default, list) else [default]:
+                yield Meant(meaning, settings.known, name, each, None)
+
+
+def _expanded(pattern: str, settings: Settings) -> tuple[str, ...]:
+    """The pattern for each item of the lists that it names."""
+    listed = next((each for each in _LISTED.finditer(pattern) if each[0] != _NUMBER), None)
+    if listed is None:
+        return (pattern,)
+    before, _, _ = pattern[: listed.start()].rpartition(".")
+    names = (f"{before}.{listed[1]}", listed[1]) if before else (listed[1],)
+    value = next((found for name in names if (found := settings.value(name)) is not None), None)
+    items = dict.fromkeys(items_of(value))
+    return tuple(
+        name
+        for item in items
+        for name in _expanded(f"{pattern[: listed.start()]}{item}{pattern[listed.end() :]}", settings)
+    )
+
+
+def items_of(value: Any) -> list[str]:
+    """What a list of texts has, or a text with blanks in between."""
+    items = value.split() if isinstance(value, str) else value if isinstance(value, (list, tuple)) else ()
+    return [each for each in items if isinstance(each, str)][:_MOST]
+
+
+def _values(name: str, settings: Settings) -> Iterator[tuple[str, Any, Param | None]]:
+    exact = settings.params.get(name)
+    if exact is not None:
+        yield name, exact.value, exact
+        return
+    if "*" not in name and _NUMBER not in name:
+        return
+    fits = _compiled(name)
+    wanted = name.split(".")
+    for parameter, param in settings.params.items():
+        if fits.fullmatch(parameter):
+            yield parameter, param.value, param
+        elif isinstance(param.value, (list, dict)):
+            words = parameter.split(".")
+            if len(words) < len(wanted) and _compiled(".".join(wanted[: len(words)])).fullmatch(parameter):
+                for value in _within(param.value, wanted[len(words) :]):
+                    yield parameter, value, param
+
+
+@lru_cache(maxsize=_KEPT)
+def _compiled(pattern: str) -> re.Pattern[str]:
+    """What fits a pattern without lists."""
+    parts = re.split(r"(\{N\}|\*)", pattern)
+    return re.compile("".join({_NUMBER: r"\d+", "*": r"[^.]+"}.get(part, re.escape(part)) for part in parts))
+
+
+def _within(value: Any, wanted: Sequence[str]) -> Iterator[Any]:
+    """What stands in a list or dictionary of ROS 1 where the rest of a pattern says."""
+    if not wanted:
+        yield value
+        return
+    first, *rest = wanted
+    if isinstance(value, dict):
+        values = value.values() if first == "*" else [value[first]] if first in value else []
+    else:
+        values = value if isinstance(value, list) and first == "*" else []
+    for each in values:
+        yield from _within(each, rest)

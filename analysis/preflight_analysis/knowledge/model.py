@@ -1,0 +1,123 @@
+"""What is known of a package's nodes and plugins beyond names and types: what the values of their parameters stand for.
+
+docs/knowledge.md describes the files that this is read from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Any, Literal
+
+from preflight_analysis.dataclass import dataclass
+
+Kind = Literal[
+    "topic", "service", "action", "frame", "joint", "interface", "controller", "plugin", "file", "node", "list", "value"
+]
+ROLES: Mapping[Kind, tuple[str, ...]] = {
+    "topic": ("publisher", "subscriber"),
+    "service": ("server", "client"),
+    "action": ("server", "client"),
+    "frame": ("used", "named", "prefix"),
+    "joint": ("used", "commanded", "read", "optional"),
+    "interface": ("command", "state", "both"),
+    "controller": ("name", "namespace"),
+    "plugin": (),
+    "file": (),
+    "node": ("name",),
+    "list": (),
+    "value": (),
+}
+"""What each kind of value may be for; any word where nothing is listed. A frame that is `used` has to be there, one
+that is `named` is only written into messages, `prefix` is put before the names of others. A joint is `commanded` or
+`read` by a controller, `optional` where another one may stand in for it."""
+EntryKind = Literal["executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins"]
+ENTRY_KINDS: tuple[EntryKind, ...] = (
+    "executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """What the values of the parameters of a pattern stand for.
+
+    `pattern` has the names of parameters with dots between: `odom{N}` stands for `odom0`, `odom1`, ...; `{topics}.type`
+    for `front.type` where the parameter `topics` lists `front`; `*` for one name or for each item of a list. `role` is
+    one of `ROLES`; of a plugin its base class, of a file what kind of one, of a list what each item's section has to
+    have. `type` is that of a topic, service or action as `package/Name`; `type_by` has it by the value of another
+    parameter. `default` is the value where the parameter is not set, `$x` that of the parameter `x`. `when` are values
+    that other parameters must have, one of several where it is a list; `!x` is any value but `x`.
+    """
+
+    pattern: str
+    kind: Kind
+    role: str = ""
+    type: str | None = None
+    type_by: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    default: Any = None
+    required: bool = False
+    when: Mapping[str, Any] = field(default_factory=dict)
+    qos: Mapping[str, Any] = field(default_factory=dict)
+    append: str = ""
+    """What is put behind the value to make the name: `/compressed`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """A transform that is broadcast. `parent` and `child` name parameters, or are frames where they begin with `=`."""
+
+    parent: str
+    child: str
+    static: bool = False
+    when: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """What is known of some executables, components, ... of a package: `names` has them by their kind.
+
+    `base` is the base class of plugins, `within` what other nodes there are in the process, by their full name below
+    the namespace of the process, with the component or plugin that says what they are.
+    """
+
+    names: Mapping[EntryKind, tuple[str, ...]]
+    meanings: tuple[Meaning, ...] = ()
+    frames: tuple[Frames, ...] = ()
+    distributions: tuple[str, ...] = ()
+    base: str | None = None
+    within: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """What is wrong with a file, and its line, counted from 1."""
+
+    message: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Knowledge:
+    """What a file says of a package. `source` is where that was read: repository, commit, files; empty for a user's
+    own. What is wrong in it is left out and stands in `problems`."""
+
+    package: str = ""
+    entries: tuple[Entry, ...] = ()
+    distributions: tuple[str, ...] = ()
+    source: Mapping[str, Any] = field(default_factory=dict)
+    problems: tuple[Problem, ...] = ()
+    path: str = ""
+    """The path of a user's own file."""
+
+    @property
+    def evidence(self) -> str:
+        """Where that is from, in words."""
+        repository, commit = self.source.get("repository"), str(self.source.get("commit", ""))
+        if not repository:
+            return f"the knowledge file of {self.package}"
+        return f"what is known of {self.package} ({repository} at {commit[:7]})"
+
+    def entry(self, kind: EntryKind, name: str, distro: str | None) -> Entry | None:
+        """What is known of an executable, component, ... as that distribution has it, else as any has it."""
+        found = [each for each in self.entries if name in each.names.get(kind, ())]
+        return next((each for each in found if distro in each.distributions), found[0] if found else None)

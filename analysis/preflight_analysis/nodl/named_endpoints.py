@@ -1,0 +1,112 @@
+"""Topics, services and actions that parameters name, by what is known of a package: `odom0: /odom` is a subscription.
+
+Where a run, the source or the catalogue told such an endpoint already, it learns which parameter names it. Where they
+did not, and may have missed it, there is one more.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import (
+    Known,
+    KnownMeanings,
+    Meant,
+    Settings,
+    known_of_nodes,
+    meant_by,
+    own_params,
+    params_of_nodes,
+)
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy, Role
+
+_ROLES: Mapping[tuple[str, str], Role] = {
+    ("topic", "publisher"): "publisher",
+    ("topic", "subscriber"): "subscriber",
+    ("service", "server"): "service",
+    ("service", "client"): "client",
+    ("action", "server"): "action_server",
+    ("action", "client"): "action_client",
+}
+_KINDS = {"topic": "msg", "service": "srv", "action": "action"}
+_SAYS_SO = re.compile(r"(?:^|[._])(?:topic|service|action)s?(?:$|[._])|topic(?:_?name)?$", re.IGNORECASE)
+"""The name of a parameter that has the name of an endpoint, whatever node has it."""
+
+
+def with_named_endpoints(
+    tree: LaunchTree, interfaces: Sequence[Interface], known: KnownMeanings, kept: Kept
+) -> Sequence[Interface]:
+    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last, with what their parameters
+    name."""
+    said = known_of_nodes(tree, known, kept)
+    columns = tree.nodes_and_simulated, interfaces, said, params_of_nodes(tree, said, kept)
+    return kept.each_row(_with_named, columns, tree.ros.kinds_in_types)
+
+
+def _with_named(
+    node: LaunchNode, interface: Interface, known: Known | None, given: Sequence[Param], kinds_in_types: bool
+) -> Interface:
+    if not given or interface.pending:
+        return interface
+    params = own_params(node, given)
+    meant = meant_by(known, params) if known is not None else ()
+    settings = Settings(known, params) if known is not None else None
+    by_name = {(end.role, end.name): at for at, end in enumerate(interface.endpoints)}
+    found: dict[int, NamedBy] = {}
+    more: dict[tuple[str, str], Endpoint] = {}
+    for each in meant:
+        role = _ROLES.get((each.meaning.kind, each.meaning.role))
+        if role is None or settings is None or not isinstance(each.value, str) or not names.is_legal(each.value):
+            continue
+        name = f"{each.value}{each.meaning.append}"
+        named_by = NamedBy(each.param.name, each.param.place) if each.param is not None else None
+        at = by_name.get((role, name))
+        if at is not None:
+            if named_by is not None:
+                found.setdefault(at, named_by)
+        elif name and not (interface.known_in_full or interface.declared):
+            more[role, name] = _endpoint(role, name, each, settings, named_by, kinds_in_types)
+    for at, named_by in _by_their_names(interface, params):
+        found.setdefault(at, named_by)
+    if not found and not more:
+        return interface
+    ends = tuple(replace(end, named_by=found[at]) if at in found else end for at, end in enumerate(interface.endpoints))
+    source = interface.source if interface.known else "catalogue"
+    return replace(interface, source=source, endpoints=(*ends, *more.values()))
+
+
+def _endpoint(
+    role: Role, name: str, meant: Meant, settings: Settings, named_by: NamedBy | None, kinds_in_types: bool
+) -> Endpoint:
+    type_ = meant.type_of(settings)
+    if type_ is not None and type_ != "*" and kinds_in_types:
+        package, _, rest = type_.partition("/")
+        type_ = f"{package}/{_KINDS[meant.meaning.kind]}/{rest.rpartition('/')[2]}"
+    return Endpoint(
+        role,
+        name,
+        type_,
+        None,
+        meant.meaning.qos,
+        inferred=True,
+        catalogued=meant.known.evidence,
+        of_other_distribution=not meant.known.is_used,
+        named_by=named_by,
+    )
+
+
+def _by_their_names(interface: Interface, params: Sequence[tuple[str, Param]]) -> Iterator[tuple[int, NamedBy]]:
+    """The endpoints whose name is the value of one parameter, which by its own name has that of an endpoint."""
+    values: dict[str, list[Param]] = {}
+    for name, param in params:
+        if isinstance(param.value, str) and param.value and _SAYS_SO.search(name):
+            values.setdefault(param.value, []).append(param)
+    for at, end in enumerate(interface.endpoints) if values else ():
+        named = values.get(end.name, ())
+        if len(named) == 1:
+            yield at, NamedBy(named[0].name, named[0].place)
