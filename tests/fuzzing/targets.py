@@ -67,6 +67,8 @@ from preflight_analysis.queries.rename import RenameRefusedError, prepare, renam
 from preflight_analysis.queries.signature import signature
 from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.queries.tokens import tokens
+from preflight_analysis.robot.parse import parse_description
+from preflight_analysis.robot.sources import source_file
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.snapshot import report as snapshot_report
 from preflight_analysis.snapshot.difference import difference
@@ -462,9 +464,15 @@ def gazebo_bridges(data: bytes) -> None:
 
 
 def robot_description(data: bytes) -> None:
-    """What it says to the plugins of ros2_control in Gazebo."""
-    for plugin in plugins_in(text_of(data)):
+    """What it says of the robot, and to the plugins of ros2_control in Gazebo; where its elements are written."""
+    text = text_of(data)
+    for plugin in plugins_in(text):
         assert plugin.namespace.startswith("/")
+    assert set(parse_description(text).roots) <= set(parse_description(text).links)
+    found = source_file(disk_with({"/w/robot.urdf": text}).db, "/w/robot.urdf")
+    for written in found.written if found is not None else ():
+        assert 0 <= written.span.start <= written.span.end <= len(text)
+        assert written.may_be(written.value) or not written.is_literal
 
 
 def setup_py(data: bytes) -> None:

@@ -45,6 +45,7 @@ from preflight_analysis.findings.finding import Edit, Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.nodl.plugins import PluginIndex
+from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, MadeNode, Outcome, ParamUse, Range, Role
@@ -200,6 +201,7 @@ def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assu
             text = sources.text(path)
             if isinstance(text, Document):
                 documents[path] = text
+    documents = {**documents_of(tree, sources, environment), **documents}
     index = ExecutableIndex(environment, sources)
     return Context(
         fixture.root, tree, documents, launch_files, environment, index, PluginIndex(environment, sources), sources

@@ -83,6 +83,13 @@ LAUNCH_SUBSTITUTIONS = f"[ROS 2: Using substitutions]({_DOCS}/Tutorials/Intermed
 TOPICS = f"[ROS 1: Topics]({_WIKI}/Topics)"
 TOPICS_2 = f"[ROS 2: About topics]({_DOCS}/Concepts/Basic/About-Topics.html)"
 TOPIC_NAMES = f"[ROS 2 design: Topic and service name mapping]({_DESIGN}/topic_and_service_names.html)"
+ROS2_CONTROL_URDF = (
+    "[ros2_control: URDF](https://control.ros.org/master/doc/ros2_control/hardware_interface/doc/"
+    "hardware_components_userdoc.html)"
+)
+URDF = f"[ROS: URDF]({_WIKI}/urdf/XML/model)"
+URDF_JOINT = f"[ROS: URDF, <joint>]({_WIKI}/urdf/XML/joint)"
+URDF_LINK = f"[ROS: URDF, <link>]({_WIKI}/urdf/XML/link)"
 RUNS = "[What a run shows of a node](../tracing.md)"
 XACRO = f"[ROS 1: xacro]({_WIKI}/xacro)"
 XML_STANDARD = "[XML 1.0](https://www.w3.org/TR/xml/)"

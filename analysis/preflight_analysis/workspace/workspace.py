@@ -43,6 +43,7 @@ from preflight_analysis.nodl.loaded_plugins import LoadedPlugins
 from preflight_analysis.nodl.named_endpoints import with_named_endpoints
 from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
+from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
@@ -415,6 +416,8 @@ class Workspace:
                 text = self.sources.text(path)
                 if not isinstance(text, Unreadable):
                     documents[path] = text
+        for path, document in documents_of(tree, self.sources, self.environment_of(tree.file)).items():
+            documents.setdefault(path, document)
         return documents, launch_files
 
     def _manifest_around(self, path: str) -> str | None:

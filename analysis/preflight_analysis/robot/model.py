@@ -1,0 +1,93 @@
+"""What a robot description says, as plain data (http://wiki.ros.org/urdf/XML), and what others add to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from preflight_analysis.dataclass import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A `<joint>` of the robot. `parent` and `child` are links, "" where the element does not name one; `mimic` is the
+    joint that it follows."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    mimic: str | None = None
+    limited: bool = False
+    """Whether it has a `<limit>`, which revolute and prismatic ones need."""
+
+
+@dataclass(frozen=True, slots=True)
+class ControlJoint:
+    """A joint that a `<ros2_control>` or `<transmission>` element names, with its interfaces: of `<ros2_control>` those
+    for commands and those for states, of a transmission its hardware interfaces as commands."""
+
+    name: str
+    commands: tuple[str, ...] = ()
+    states: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ControlSystem:
+    """A `<ros2_control>` element. `sensors` and `gpios` have their interfaces as joints do."""
+
+    name: str
+    type: str
+    plugin: str
+    joints: tuple[ControlJoint, ...]
+    sensors: tuple[ControlJoint, ...] = ()
+    gpios: tuple[ControlJoint, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Transmission:
+    """A `<transmission>` element of ros_control."""
+
+    name: str
+    joints: tuple[ControlJoint, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboPlugin:
+    """A `<plugin>` in a `<gazebo>` element. `params` has the texts of the elements in it by their tags, the first one
+    of each; `reference` is the link that the element is about, "" for the robot."""
+
+    name: str
+    filename: str
+    params: Mapping[str, str]
+    reference: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Malformed:
+    """Why a text is no XML: the parser's words, and the line of the text, counted from 1."""
+
+    message: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """A robot description. Names are in the order of the text, repeated as there. `kind` is the tag of the root:
+    `robot` for URDF; of another one (`sdf`) nothing else is read, nor where the text is `malformed`."""
+
+    kind: str
+    name: str = ""
+    links: tuple[str, ...] = ()
+    joints: tuple[Joint, ...] = ()
+    meshes: tuple[str, ...] = ()
+    """Each file once, as written."""
+    systems: tuple[ControlSystem, ...] = ()
+    transmissions: tuple[Transmission, ...] = ()
+    plugins: tuple[GazeboPlugin, ...] = ()
+    malformed: Malformed | None = None
+
+    @property
+    def roots(self) -> tuple[str, ...]:
+        """The links that no joint has as its child, each once."""
+        children = {joint.child for joint in self.joints}
+        return tuple(dict.fromkeys(link for link in self.links if link not in children))

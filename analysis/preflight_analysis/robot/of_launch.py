@@ -1,0 +1,76 @@
+"""The robot descriptions that a launch hands to its nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
+from preflight_analysis.robot.model import Description
+from preflight_analysis.robot.parse import parse_description
+
+DESCRIPTION = "robot_description"
+"""The name of the parameter that robot_state_publisher, controller managers and planners read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A robot of a launch. `param` is the first parameter that has its description; `nodes` are those that get it
+    (ROS 2) or below whose namespace it is (ROS 1: `/arm/robot_description` is for the nodes in `/arm`)."""
+
+    description: Description
+    text: str
+    param: Param
+    nodes: tuple[LaunchNode, ...]
+
+
+def robots_of(tree: LaunchTree) -> tuple[Robot, ...]:
+    """The descriptions that the launch has, each once; the same objects each time. One whose command was not run is not
+    there (`unread_of`), nor is what is no URDF."""
+    return tree.once(_robots)
+
+
+def unread_of(tree: LaunchTree) -> tuple[Param, ...]:
+    """The parameters that hold a description which is not known."""
+    return tree.once(_unread)
+
+
+def robot_of(tree: LaunchTree, node: LaunchNode) -> Robot | None:
+    """The robot whose description a node gets, else the one of its namespace, else the only one of the launch."""
+    robots = [robot for robot in robots_of(tree) if robot.description.kind == "robot"]
+    mine = [robot for robot in robots if any(each is node for each in robot.nodes)]
+    near = [robot for robot in robots if any(each.namespace == node.namespace for each in robot.nodes)]
+    found = mine or near or robots
+    return found[0] if len(found) == 1 else None
+
+
+def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
+    found: dict[str, Robot] = {}
+    for param, nodes in _params(tree):
+        if not isinstance(param.value, str):
+            continue
+        known = found.get(param.value)
+        if known is None:
+            found[param.value] = Robot(parse_description(param.value), param.value, param, nodes)
+        else:
+            more = tuple(node for node in nodes if all(node is not each for each in known.nodes))
+            found[param.value] = Robot(known.description, known.text, known.param, known.nodes + more)
+    return tuple(found.values())
+
+
+def _unread(tree: LaunchTree) -> tuple[Param, ...]:
+    return tuple(param for param, _ in _params(tree) if isinstance(param.value, CommandValue))
+
+
+def _params(tree: LaunchTree) -> Iterator[tuple[Param, tuple[LaunchNode, ...]]]:
+    if tree.ros.own_parameters:
+        for node in tree.nodes:
+            for param in node.params:
+                if param.name == DESCRIPTION:
+                    yield param, (node,)
+        return
+    for name, param in tree.params.items():
+        if names.leaf(name) == DESCRIPTION:
+            space = names.parent(name)
+            yield param, tuple(node for node in tree.nodes if node.name.startswith(space))

@@ -1,0 +1,133 @@
+"""The text of a robot description to what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+from lxml import etree
+
+from preflight_analysis.documents.reading import SIZE_LIMIT
+from preflight_analysis.robot.model import (
+    ControlJoint,
+    ControlSystem,
+    Description,
+    GazeboPlugin,
+    Joint,
+    Malformed,
+    Transmission,
+)
+
+_KEPT = 32
+_EMPTY = Description("")
+
+
+@lru_cache(maxsize=_KEPT)
+def parse_description(text: str) -> Description:
+    """What a description says. Never raises; entities are not expanded, nothing is loaded, and of a text that is longer
+    than a file may be nothing is read."""
+    if len(text) > SIZE_LIMIT:
+        return _EMPTY
+    parser = etree.XMLParser(
+        encoding="utf-8",
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        remove_comments=True,
+        remove_pis=True,
+    )
+    try:
+        # A declaration has to be the first thing, which launch files with a text in them do not keep.
+        root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
+    except etree.XMLSyntaxError as error:
+        above = text[: len(text) - len(text.lstrip())].count("\n")
+        return Description("", malformed=Malformed(_words(error), (error.lineno or 1) + above))
+    except ValueError:
+        return _EMPTY
+    if _tag(root) != "robot":
+        return Description(_tag(root), _get(root, "name"))
+    joints = tuple(map(_joint, _children(root, "joint")))
+    gazebo = [(each, _get(each, "reference")) for each in _children(root, "gazebo")]
+    meshes = (_get(mesh, "filename") for link in _children(root, "link") for mesh in link.iter("mesh"))
+    return Description(
+        "robot",
+        _get(root, "name"),
+        tuple(_get(each, "name") for each in _children(root, "link")),
+        joints,
+        tuple(dict.fromkeys(filter(None, meshes))),
+        tuple(map(_system, _children(root, "ros2_control"))),
+        tuple(map(_transmission, _children(root, "transmission"))),
+        tuple(_plugin(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
+    )
+
+
+def _words(error: etree.XMLSyntaxError) -> str:
+    """The parser's words without the place, which is that in a text that nobody sees."""
+    message = (error.msg or "").partition(", line ")[0]
+    return message[:1].lower() + message[1:]
+
+
+def _tag(element: etree._Element) -> str:
+    return element.tag if isinstance(element.tag, str) else ""
+
+
+def _get(element: etree._Element, attribute: str) -> str:
+    return element.get(attribute) or ""
+
+
+def _children(element: etree._Element, tag: str) -> Iterator[etree._Element]:
+    return element.iterchildren(tag)
+
+
+def _text(element: etree._Element, tag: str) -> str:
+    """The text of the first element of that tag within another one."""
+    found = element.find(tag)
+    return (found.text or "").strip() if found is not None else ""
+
+
+def _joint(element: etree._Element) -> Joint:
+    ends = {tag: _get(found, "link") for tag in ("parent", "child") if (found := element.find(tag)) is not None}
+    mimic = element.find("mimic")
+    return Joint(
+        _get(element, "name"),
+        _get(element, "type"),
+        ends.get("parent", ""),
+        ends.get("child", ""),
+        (_get(mimic, "joint") or None) if mimic is not None else None,
+        element.find("limit") is not None,
+    )
+
+
+def _system(element: etree._Element) -> ControlSystem:
+    return ControlSystem(
+        _get(element, "name"),
+        _get(element, "type"),
+        _text(element, "hardware/plugin"),
+        *(tuple(map(_controlled, _children(element, tag))) for tag in ("joint", "sensor", "gpio")),
+    )
+
+
+def _controlled(element: etree._Element) -> ControlJoint:
+    commands, states = (
+        tuple(_get(each, "name") for each in _children(element, f"{kind}_interface")) for kind in ("command", "state")
+    )
+    return ControlJoint(_get(element, "name"), commands, states)
+
+
+def _transmission(element: etree._Element) -> Transmission:
+    joints = tuple(
+        ControlJoint(
+            _get(each, "name"),
+            tuple((found.text or "").strip() for found in _children(each, "hardwareInterface")),
+        )
+        for each in _children(element, "joint")
+    )
+    return Transmission(_get(element, "name"), joints)
+
+
+def _plugin(element: etree._Element, reference: str) -> GazeboPlugin:
+    params: dict[str, str] = {}
+    for each in element.iter():
+        if each is not element and not len(each):
+            params.setdefault(_tag(each), (each.text or "").strip())
+    return GazeboPlugin(_get(element, "name"), _get(element, "filename"), params, reference)

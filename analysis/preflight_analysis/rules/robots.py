@@ -1,0 +1,28 @@
+"""What rules about robot descriptions share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Related
+from preflight_analysis.robot.of_launch import Robot, robots_of
+from preflight_analysis.robot.sources import place_of
+from preflight_analysis.rules.rule import Context
+
+
+def robots(context: Context) -> Iterator[Robot]:
+    """The robots of the launch whose URDF can be read."""
+    return (robot for robot in robots_of(context.tree) if robot.description.kind == "robot")
+
+
+def written(
+    context: Context, robot: Robot, tag: str, attribute: str, value: str, within: str = ""
+) -> tuple[Location, tuple[Related, ...]]:
+    """Where an attribute of the description is written, and the parameter that holds the description; that parameter
+    alone where the place is not known."""
+    parameter = robot.param.place
+    place = place_of(robot, context.disk, context.environment, tag, attribute, value, within)
+    if place is None:
+        return parameter, ()
+    return place, (Related("robot_description of this launch", parameter),)

@@ -1,0 +1,65 @@
+"""URD001: a robot description that is no XML, or no URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.robot.model import Malformed
+from preflight_analysis.robot.of_launch import Robot, robots_of
+from preflight_analysis.robot.sources import files_of
+from preflight_analysis.rules.further_reading import URDF
+from preflight_analysis.rules.problems import include_chain, shown
+from preflight_analysis.rules.rule import Context, Rule
+
+_KINDS = ("robot", "sdf")
+"""Tags of roots that robot_state_publisher takes; SDF by a plugin (sdformat_urdf)."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for robot in robots_of(context.tree):
+        description, text = robot.description, robot.text.strip()
+        if not text:
+            continue
+        if description.malformed is not None:
+            yield _malformed(rule, context, robot, description.malformed)
+        elif description.kind and description.kind not in _KINDS:
+            yield rule.finding(
+                f"root element of '{robot.param.name}' is <{description.kind}>, not <robot>",
+                robot.param.place,
+                related=include_chain(robot.param.origin),
+            )
+
+
+def _malformed(rule: Rule, context: Context, robot: Robot, malformed: Malformed) -> Finding:
+    place: Location = robot.param.place
+    where = f"line {malformed.line}"
+    if not robot.text.lstrip().startswith("<"):
+        return rule.finding(
+            f"parameter '{robot.param.name}' is not XML: it does not begin with '<'",
+            place,
+            related=include_chain(robot.param.origin),
+        )
+    file = next(iter(files_of(robot, context.disk, context.environment)), None)
+    if file is not None and file.document.text == robot.text:
+        lines = file.document.lines
+        place = file.document.location(lines.line_span(min(malformed.line, len(lines)) - 1))
+        where = shown(file.document.path, context)
+    return rule.finding(f"parameter '{robot.param.name}' is not well-formed XML: {malformed.message} ({where})", place)
+
+
+RULE = Rule(
+    id="URD001",
+    name="malformed-description",
+    severity="error",
+    what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is neither "
+    "`<robot>` nor `<sdf>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file.",
+    why="`robot_state_publisher` ends with an error and publishes no frame. Controller managers and planners wait for "
+    "a description or end too.",
+    example='<param name="robot_description" textfile="$(find arm)/urdf/arm.yaml"/>',
+    instead='<param name="robot_description" textfile="$(find arm)/urdf/arm.urdf"/>',
+    references=(URDF,),
+    check=_check,
+    in_branches=True,
+)

@@ -1,0 +1,52 @@
+"""URD002: a joint between links of which one does not exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import URDF_JOINT
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for robot in robots(context):
+        links = frozenset(robot.description.links)
+        for joint in robot.description.joints:
+            for end, link in (("parent", joint.parent), ("child", joint.child)):
+                if link in links:
+                    continue
+                if not link:
+                    place, related = written(context, robot, "joint", "name", joint.name)
+                    yield rule.finding(f"joint '{joint.name}' has no {end} link", place, related=related)
+                    continue
+                near = nearest(link, links)
+                place, related = written(context, robot, end, "link", link)
+                if not related:
+                    place, related = written(context, robot, "joint", "name", joint.name)
+                yield rule.finding(
+                    f"link '{link}' does not exist: it is the {end} of joint '{joint.name}'{did_you_mean(near)}",
+                    place,
+                    related=related,
+                    fixes=rename(context, place, link, near) if near is not None else (),
+                )
+
+
+RULE = Rule(
+    id="URD002",
+    name="unknown-link",
+    severity="error",
+    what="Checks for a joint of the robot description whose parent or child is not a link of it. The finding is in "
+    "the URDF or xacro file if the place is unambiguous, else at the parameter of the launch file.",
+    why="`robot_state_publisher` refuses the description and ends, so the robot has no frames.",
+    example='<joint name="lidar_joint" type="fixed">\n  <parent link="base_lnk"/>\n  <child link="lidar_link"/>\n'
+    "</joint>",
+    instead='<joint name="lidar_joint" type="fixed">\n  <parent link="base_link"/>\n  <child link="lidar_link"/>\n'
+    "</joint>",
+    references=(URDF_JOINT,),
+    check=_check,
+    in_branches=True,
+)

@@ -1,0 +1,50 @@
+"""URD004: two links or two joints of one name."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.robot.of_launch import Robot
+from preflight_analysis.robot.sources import places_of
+from preflight_analysis.rules.further_reading import URDF
+from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for robot in robots(context):
+        description = robot.description
+        yield from _repeated(rule, context, robot, "link", description.links)
+        yield from _repeated(rule, context, robot, "joint", [joint.name for joint in description.joints])
+
+
+def _repeated(rule: Rule, context: Context, robot: Robot, tag: str, names: Sequence[str]) -> Iterator[Finding]:
+    if len(frozenset(names)) == len(names):
+        return
+    for name, count in Counter(names).items():
+        if count == 1 or not name:
+            continue
+        places = places_of(robot, context.disk, context.environment, tag, "name", name)
+        message = f"duplicate {tag} '{name}': the robot description has {count} of this name"
+        if len(places) > 1:
+            yield rule.finding(message, places[1], related=[Related(f"the first {tag}", places[0])])
+        else:
+            place, related = written(context, robot, tag, "name", name)
+            yield rule.finding(message, place, related=related)
+
+
+RULE = Rule(
+    id="URD004",
+    name="duplicate-element",
+    severity="error",
+    what="Checks for two links, or two joints, of the robot description with the same name. A macro of xacro that is "
+    "called twice without another prefix makes them.",
+    why="`robot_state_publisher` refuses the description and ends: `link 'wheel_link' is not unique`.",
+    example='<xacro:wheel prefix="left"/>\n<xacro:wheel prefix="left"/>',
+    instead='<xacro:wheel prefix="left"/>\n<xacro:wheel prefix="right"/>',
+    references=(URDF,),
+    check=_check,
+    in_branches=True,
+)

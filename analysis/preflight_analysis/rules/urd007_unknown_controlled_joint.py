@@ -1,0 +1,60 @@
+"""URD007: a joint that ros2_control or a transmission names and the robot does not have.
+
+Since Jazzy the component parser of ros2_control throws for it: `Joint 'x' not found in URDF`
+(https://github.com/ros-controls/ros2_control/blob/jazzy/hardware_interface/src/component_parser.cpp, `parse_joint`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.rule import Context, Rule
+
+_LENIENT = ("foxy", "galactic", "humble", "iron")
+"""Distributions whose ros2_control loads the hardware all the same."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    refused = context.tree.ros.ament and context.environment.distro not in (None, *_LENIENT)
+    for robot in robots(context):
+        description = robot.description
+        joints = frozenset(joint.name for joint in description.joints)
+        named = [
+            *(("ros2_control", each.name, joint.name) for each in description.systems for joint in each.joints),
+            *(("transmission", each.name, joint.name) for each in description.transmissions for joint in each.joints),
+        ]
+        for tag, owner, joint in dict.fromkeys(named):
+            if joint in joints or not joint:
+                continue
+            near = nearest(joint, joints)
+            place, related = written(context, robot, "joint", "name", joint, tag)
+            if not related:
+                place, related = written(context, robot, tag, "name", owner)
+            yield rule.finding(
+                f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
+                place,
+                severity="error" if refused and tag == "ros2_control" else None,
+                related=related,
+                fixes=rename(context, place, joint, near) if near is not None else (),
+            )
+
+
+RULE = Rule(
+    id="URD007",
+    name="unknown-controlled-joint",
+    severity="warning",
+    what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have. It is "
+    "an error with ros2_control of Jazzy and newer, which refuses such a description.",
+    why="The joint is not moved: the simulator skips it, and controllers that claim it report positions of no joint. "
+    "ros2_control of Jazzy and newer does not load the hardware at all.",
+    example='<ros2_control name="arm" type="system">\n  <joint name="sholder_joint"/>\n</ros2_control>',
+    instead='<ros2_control name="arm" type="system">\n  <joint name="shoulder_joint"/>\n</ros2_control>',
+    references=(ROS2_CONTROL_URDF,),
+    check=_check,
+    in_branches=True,
+)

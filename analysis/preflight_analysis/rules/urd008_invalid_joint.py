@@ -1,0 +1,48 @@
+"""URD008: a joint that the parser of URDF refuses.
+
+https://github.com/ros/urdfdom/blob/master/urdf_parser/src/joint.cpp (`parseJoint`)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.further_reading import URDF_JOINT
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.rule import Context, Rule
+
+_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+_LIMITED = ("revolute", "prismatic")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for robot in robots(context):
+        for joint in robot.description.joints:
+            if joint.type not in _TYPES:
+                has = f"has the unknown type '{joint.type}'" if joint.type else "has no type"
+                message = f"joint '{joint.name}' {has}{did_you_mean(nearest(joint.type, _TYPES))}"
+            elif joint.type in _LIMITED and not joint.limited:
+                message = f"joint '{joint.name}' has no <limit>, which the type '{joint.type}' requires"
+            else:
+                continue
+            place, related = written(context, robot, "joint", "name", joint.name)
+            yield rule.finding(message, place, related=related)
+
+
+RULE = Rule(
+    id="URD008",
+    name="invalid-joint",
+    severity="error",
+    what="Checks for a joint of the robot description without a type that URDF has, and for a revolute or prismatic "
+    "joint without `<limit>`.",
+    why="`robot_state_publisher` refuses the description and ends.",
+    example='<joint name="wheel_joint" type="revolute">\n  <parent link="base_link"/>\n  <child link="wheel"/>\n'
+    "</joint>",
+    instead='<joint name="wheel_joint" type="continuous">\n  <parent link="base_link"/>\n  <child link="wheel"/>\n'
+    "</joint>",
+    references=(URDF_JOINT,),
+    check=_check,
+    in_branches=True,
+)

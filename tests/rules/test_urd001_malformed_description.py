@@ -1,0 +1,41 @@
+"""URD001: a robot description that is no XML, or no URDF."""
+
+import json
+
+import pytest
+from support.check import check, findings_of
+
+_LAUNCH = """
+    <launch>
+      <param name="robot_description" command="xacro arm"/>
+      {}
+    </launch>
+    //- commands
+    {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("<robot><link></robot>", "parameter '/robot_description' is not well-formed XML: "),
+        ("/p/arm.urdf", "parameter '/robot_description' is not XML: it does not begin with '<'"),
+        ("<model/>", "root element of '/robot_description' is <model>, not <robot>"),
+    ],
+)
+def test_what_no_parser_takes(text: str, said: str) -> None:
+    commands = json.dumps({"xacro arm": {"output": text}})
+    (found,) = [each for each in findings_of(_LAUNCH.format("", commands)) if each.rule == "URD001"]
+    assert found.severity == "error"
+    assert found.message.startswith(said)
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize("text", ["<robot/>", "<sdf/>", " \n", '<?xml version="1.0"?>\n<robot/>'])
+def test_what_is_taken(text: str) -> None:
+    check(_LAUNCH.format("", json.dumps({"xacro arm": {"output": text}})))
+
+
+@pytest.mark.silent
+def test_a_command_that_was_not_run() -> None:
+    check(_LAUNCH.format("", "{}"))

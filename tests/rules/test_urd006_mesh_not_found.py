@@ -1,0 +1,56 @@
+"""URD006: a mesh of the robot whose file does not exist."""
+
+from pathlib import Path
+
+import pytest
+from support.check import apply, check
+from support.robot_launch import of_urdf, robot
+
+_URDF = '<link name="a"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> str:
+    (tmp_path / "arms/meshes").mkdir(parents=True)
+    (tmp_path / "arms/meshes/elbow.STL").touch()
+    return f"\n//- {tmp_path}/arms/package.xml\n<package><name>arms</name></package>"
+
+
+def _expected(mesh: str, message: str) -> str:
+    tag = f'<mesh filename="{mesh}"/>'
+    return robot(tag, f"{'^' * len(mesh)} warning[URD006] {message}".rjust(len(message) + len(mesh) + 33))
+
+
+def test_another_case(package: str) -> None:
+    mesh = "package://arms/meshes/elbow.stl"
+    written = _expected(mesh, "mesh 'arms/meshes/elbow.stl' does not exist; did you mean 'arms/meshes/elbow.STL'?")
+    text = of_urdf(_URDF.format(mesh), written + package)
+    (found,) = check(text)
+    assert "package://arms/meshes/elbow.STL" in apply(text, found.fixes[0].edits)["/p/arm.xacro"]
+
+
+def test_a_file_by_its_path(package: str, tmp_path: Path) -> None:
+    written = _expected("file://$(find arms)/meshes/wrist.stl", "mesh 'arms/meshes/wrist.stl' does not exist")
+    check(of_urdf(_URDF.format(f"file://{tmp_path}/arms/meshes/wrist.stl"), written + package))
+
+
+def test_a_slip_in_the_package(package: str) -> None:
+    mesh = "package://armss/meshes/elbow.STL"
+    text = of_urdf(_URDF.format(mesh), _expected(mesh, "package 'armss' of a mesh does not exist") + package)
+    (found,) = check(text)
+    assert "package://arms/meshes" in apply(text, found.fixes[0].edits)["/p/arm.xacro"]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        "package://arms/meshes/elbow.STL",
+        "package://elsewhere/meshes/elbow.stl",
+        "file:///home/me/elbow.stl",
+        "model://arm/elbow.stl",
+        "elbow.stl",
+    ],
+)
+def test_one_that_is_there_or_may_be(mesh: str, package: str) -> None:
+    check(of_urdf(_URDF.format(mesh), "<robot/>" + package))
