@@ -37,14 +37,25 @@ class Refresher:
         self._answered: dict[str, _Answered] = {}
         self._task: asyncio.Task[None] | None = None
         self._again = False
+        self.looks = 0
+        """How often the answers may have become others so far."""
         server.after_analysis.append(self.look)
 
-    def answered(self, document: OpenDocument, answer: object, ask: Callable[[], Awaitable[object]]) -> None:
-        """What the client was told of a document, and how to ask for it again; `ask` gives None where it cannot."""
+    def answered(
+        self, document: OpenDocument, answer: object, ask: Callable[[], Awaitable[object]], asked: int
+    ) -> None:
+        """What the client was told of a document, and how to ask for it again; `ask` gives None where it cannot.
+        `asked` are the `looks` from before the answer was made: it may be out of date already."""
         self._answered[document.uri] = _Answered(document, answer, ask)
+        if asked != self.looks:
+            self._compare_soon()
 
     def look(self) -> None:
         """The answers may be others now."""
+        self.looks += 1
+        self._compare_soon()
+
+    def _compare_soon(self) -> None:
         self._again = True
         if self._answered and (self._task is None or self._task.done()) and self._supported():
             self._task = self._server.spawn(self._compare())

@@ -90,9 +90,9 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_CODE_LENS)
     async def code_lens(ls: PreflightServer, params: types.CodeLensParams) -> list[types.CodeLens] | None:
-        uri = params.text_document.uri
+        uri, asked = params.text_document.uri, refresher.looks
         found = await answer(uri)
         document = ls.texts.get(uri)
         if document is not None:
-            refresher.answered(document, found, lambda: answer(uri))
+            refresher.answered(document, found, lambda: answer(uri), asked)
         return found

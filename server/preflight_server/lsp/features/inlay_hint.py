@@ -63,6 +63,7 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
     async def inlay_hint(ls: PreflightServer, params: types.InlayHintParams) -> list[types.InlayHint] | None:
+        asked = refresher.looks
         found = await _hints(ls, params.text_document.uri, params.range)
         if found is None:
             return None
@@ -73,5 +74,5 @@ def register(server: PreflightServer) -> None:
             now = await _hints(ls, uri, within)
             return now[0].hints if now else None
 
-        refresher.answered(hints.document, hints.hints, again)
+        refresher.answered(hints.document, hints.hints, again, asked)
         return _converted(hints.hints, positions)
