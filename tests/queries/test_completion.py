@@ -196,7 +196,7 @@ def test_arguments_of_an_included_file_required_ones_first() -> None:
     assert found is not None
     assert [(i.label, i.detail, i.doc) for i in found.items] == [
         ("robot", "required", ""),
-        ("rate", "default: 5", "How often, in Hz"),
+        ("rate", "default: 5", "How often, in Hz\n\nDefault: `5`"),
     ]
     half = "<launch><include file='$(find p)/inner.launch'><arg name='robot' value='x'/><arg name='$0" + INNER
     assert offered(half) == ["rate"]

@@ -45,6 +45,23 @@ async def test_the_server_says_what_triggers(harness: Harness) -> None:
         assert set(provider.trigger_characters or ()) == set("< \"'/$(:>")
 
 
+async def test_what_is_looked_at_is_explained(harness: Harness, path: Path) -> None:
+    async with editing(harness) as editor:
+        packages = await at_cursor(editor, path, '<launch>\n  <node pkg="$0"/>\n</launch>\n')
+        found = {item.label: item for item in packages}
+        assert found["preflight_demo"].documentation is None
+        resolved = await editor.client.completion_item_resolve_async(found["preflight_demo"])
+        assert isinstance(resolved.documentation, types.MarkupContent)
+        assert resolved.documentation.value.startswith("package `preflight_demo`")
+        (script, *_) = await at_cursor(editor, path, '<launch>\n  <node pkg="preflight_demo" type="$0"/>\n</launch>\n')
+        resolved = await editor.client.completion_item_resolve_async(script)
+        assert isinstance(resolved.documentation, types.MarkupContent)
+        assert "`chatter` `std_msgs/String`" in resolved.documentation.value
+        script.data = {"not": "ours"}
+        again = await editor.client.completion_item_resolve_async(script)
+        assert again.label == script.label
+
+
 async def test_from_an_empty_file_on(harness: Harness, path: Path) -> None:
     async with editing(harness) as editor:
         assert labels(await at_cursor(editor, path, CURSOR)) == ["launch"]

@@ -37,14 +37,16 @@ CLASSES: Mapping[str, Mapping[str, Role]] = {
     "actions": {"server": "action_server", "client": "action_client"},
 }
 """What a class means in each group; parameters have none."""
-_ITEMS = {"topics": "topic", "services": "service", "actions": "action", "params": "param"}
-_ATTRIBUTES = {
+ITEMS: Mapping[str, str] = {"topics": "topic", "services": "service", "actions": "action", "params": "param"}
+"""The tag of an item in each group."""
+ATTRIBUTES: Mapping[str, tuple[str, ...]] = {
     "topic": ("name", "type", "class"),
     "service": ("name", "type", "class"),
     "action": ("name", "type", "class"),
     "param": ("name", "default"),
 }
-GROUPS = tuple(_ITEMS)
+"""The attributes of each item."""
+GROUPS = tuple(ITEMS)
 """The tags that hold an annotation."""
 
 _WRAPPER = "<_>"
@@ -99,7 +101,7 @@ def annotated_groups(action: Action) -> tuple[AnnotatedGroup, ...]:
     for group in _groups(action):
         items = []
         for item in group.children:
-            read = _read_item(group.name, item, []) if item.name == _ITEMS.get(group.name) else None
+            read = _read_item(group.name, item, []) if item.name == ITEMS.get(group.name) else None
             if read is not None:
                 items.append(AnnotatedItem(read, item.span, {name: span for name, _, span in item.attributes}))
         if group.name in GROUPS:
@@ -152,8 +154,8 @@ def _items(groups: Iterable[_Tag], problems: list[AnnotationProblem]) -> Iterato
             problems.append(AnnotationProblem(f"unknown annotation <{group.name}>; {_one_of(GROUPS)}", group.name_span))
             continue
         for item in group.children:
-            if item.name != _ITEMS[group.name]:
-                message = f"unexpected <{item.name}> in <{group.name}>; expected <{_ITEMS[group.name]}>"
+            if item.name != ITEMS[group.name]:
+                message = f"unexpected <{item.name}> in <{group.name}>; expected <{ITEMS[group.name]}>"
                 problems.append(AnnotationProblem(message, item.name_span))
                 continue
             read = _read_item(group.name, item, problems)
@@ -165,7 +167,7 @@ def read_item(
     group: str, head: Span, attributes: Sequence[tuple[str, str, Span]], problems: list[AnnotationProblem]
 ) -> Endpoint | ParamUse | None:
     """One item of a group (`topics`), written elsewhere than in a tag; None after saying what is wrong with it."""
-    return _read_item(group, _Tag(_ITEMS[group], head, tuple(attributes), head, head, ()), problems)
+    return _read_item(group, _Tag(ITEMS[group], head, tuple(attributes), head, head, ()), problems)
 
 
 def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
@@ -173,7 +175,7 @@ def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
     for group in _groups(action):
         for item in group.children:
             for name, value, span in item.attributes:
-                if name == "name" and item.name == _ITEMS.get(group.name):
+                if name == "name" and item.name == ITEMS.get(group.name):
                     yield item.name, value, span
 
 
@@ -205,7 +207,7 @@ def written(what: Endpoint | ParamUse) -> tuple[str, str]:
         return "params", f"<param name={_quoted(what.name)}/>"
     group, word = next((g, w) for g, classes in CLASSES.items() for w, role in classes.items() if role == what.role)
     attributes = f"name={_quoted(what.name)} type={_quoted(what.type or '*')} class={_quoted(word)}"
-    return group, f"<{_ITEMS[group]} {attributes}/>"
+    return group, f"<{ITEMS[group]} {attributes}/>"
 
 
 def annotation_text(interface: Interface, indent: str = "") -> str:
@@ -225,7 +227,7 @@ def annotation_text(interface: Interface, indent: str = "") -> str:
 def annotation_template(indent: str = "") -> str:
     """A comment with one of each kind, for the user to fill in."""
     blocks = {
-        group: [f'<{_ITEMS[group]} name="" type="" class="{word}"/>' for word in classes]
+        group: [f'<{ITEMS[group]} name="" type="" class="{word}"/>' for word in classes]
         for group, classes in CLASSES.items()
         if group != "actions"
     }
@@ -306,7 +308,7 @@ def _read_item(group: str, item: _Tag, problems: list[AnnotationProblem]) -> End
     """The item, or None after saying what is wrong with it."""
     given = {name: (value, span) for name, value, span in item.attributes}
     found: list[AnnotationProblem] = []
-    allowed = _ATTRIBUTES[item.name]
+    allowed = ATTRIBUTES[item.name]
     found += [
         AnnotationProblem(f"unknown attribute '{name}'; {_one_of(allowed)}", span)
         for name, (_, span) in given.items()

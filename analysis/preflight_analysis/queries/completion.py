@@ -14,6 +14,7 @@ from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
 from preflight_analysis.launch.schema import Attribute
+from preflight_analysis.queries.completion_annotation import annotation_place, complete_annotation
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_python import complete_python
 from preflight_analysis.queries.completion_values import Asked, complete_value
@@ -61,6 +62,9 @@ def _completed(
     ahead_of_runs: Callable[[Analysis], Analysis],
     trigger: str | None,
 ) -> Completion | None:
+    annotation = annotation_place(launch_file, offset)
+    if annotation is not None:
+        return complete_annotation(ahead_of_runs(analysis), launch_file, annotation, trigger)
     if trigger == ">":
         return _closing(launch_file, offset) if _is_xml(launch_file.path) else None
     if is_param_file(analysis, launch_file.path):

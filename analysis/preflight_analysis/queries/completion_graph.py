@@ -14,6 +14,7 @@ from preflight_analysis.launch.model import NODE_KINDS
 from preflight_analysis.queries.completion_items import Item
 from preflight_analysis.queries.cursor import Place
 from preflight_analysis.queries.param_texts import default_text
+from preflight_analysis.queries.places import link
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -43,19 +44,22 @@ def parameters(analysis: Analysis, file: str, place: Place, element: Element, be
         return
     node = _node_tag(place)
     if node is None:
-        for name in sorted({r.name for r in graph.param_reads if not r.use.builtin and "~" not in r.name}):
-            yield Item("parameter", name, name)
+        reads = {read.name: read for read in graph.param_reads if not read.use.builtin and "~" not in read.name}
+        for name, read in sorted(reads.items()):
+            doc = parameter_doc(read.node, read.use, analysis.tree.generation)
+            yield Item("parameter", name, name, doc, default_of(read.use, analysis.tree.generation))
         return
     siblings = (child.get("name") for child in node.elements if child.span != element.span)
     present = {written.value.text for written in siblings if written is not None}
     seen: set[str] = set()
-    for _, interface in _interfaces(analysis, graph, file, node):
+    for asking, interface in _interfaces(analysis, graph, file, node):
         for use in interface.params:
             own = own_name(use, analysis.tree.generation)
             if own is None or use.builtin or use.access == "set" or own in seen or own in present:
                 continue
             seen.add(own)
-            yield Item("parameter", own, own, detail=default_of(use, analysis.tree.generation))
+            generation = analysis.tree.generation
+            yield Item("parameter", own, own, parameter_doc(asking, use, generation), default_of(use, generation))
 
 
 def own_name(use: ParamUse, generation: int) -> str | None:
@@ -64,6 +68,12 @@ def own_name(use: ParamUse, generation: int) -> str | None:
     if ros(generation).own_parameters:
         return use.name.removeprefix("~")
     return use.name[1:] if use.name.startswith("~") else None
+
+
+def parameter_doc(node: LaunchNode, use: ParamUse, generation: int) -> str:
+    """Which node asks for a parameter, and where its source does."""
+    where = f" — {link(use.source_file, use.source_line)}" if use.source_file else ""
+    return f"{'Declared' if ros(generation).own_parameters else 'Read'} by {code(node.name)}{where}"
 
 
 def default_of(use: ParamUse, generation: int) -> str:

@@ -26,6 +26,7 @@ ItemKind = Literal[
     "namespace",
     "parameter",
     "endpoint",
+    "type",
 ]
 
 
@@ -33,7 +34,8 @@ ItemKind = Literal[
 class Item:
     """One proposal. `text` replaces the completion's span; `snippet` is the same with tab stops, in LSP's syntax.
 
-    `label` is shown, and what is typed is compared with it unless `filter` says otherwise. `doc` is Markdown.
+    `label` is shown, and what is typed is compared with it unless `filter` says otherwise. `doc` is Markdown;
+    `about` is what `completion_docs.documentation` is asked for instead, once the user looks at the proposal.
     """
 
     kind: ItemKind
@@ -43,6 +45,7 @@ class Item:
     detail: str = ""
     snippet: str | None = None
     filter: str | None = None
+    about: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,17 +6,17 @@ The names come from the same sources as in the other formats; the Python languag
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.findings.markdown import escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_tree import arguments
 from preflight_analysis.launch.schema import Kind
 from preflight_analysis.queries.arguments import accepted, argument_values, resolved
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
-from preflight_analysis.queries.completion_values import Asked, argument_detail, whole_values
+from preflight_analysis.queries.completion_values import Asked, argument_detail, argument_doc, whole_values
 from preflight_analysis.queries.cursor_python import PythonKind, PythonPlace, place_at_python
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.facts import ArgDeclaration
@@ -74,7 +74,7 @@ def _below(items: Iterable[Item], outer: str) -> Iterator[Item]:
     for item in items:
         if item.label.startswith(outer):
             name = item.label[len(outer) :]
-            yield Item(item.kind, name, name, item.doc, item.detail)
+            yield replace(item, label=name, text=name)
 
 
 def _paths(analysis: Analysis, file: str, found: PythonPlace, folder: str) -> Iterator[Item]:
@@ -94,7 +94,7 @@ def _arguments(analysis: Analysis, file: str, found: PythonPlace) -> Iterator[It
     for each in declared.values():
         value = values.get(each.name)
         detail = f"= {value}" if value is not None else argument_detail(each)
-        yield Item("argument", each.name, each.name, escaped(each.doc or ""), detail)
+        yield Item("argument", each.name, each.name, argument_doc(each), detail)
 
 
 def _declared(found: PythonPlace) -> Iterator[ArgDeclaration]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.files import Files
-from preflight_analysis.findings.markdown import escaped
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.references import NAMES
 from preflight_analysis.launch.schema import Attribute, Kind
@@ -20,6 +21,7 @@ from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
 from preflight_analysis.queries.cursor import Place
 from preflight_analysis.queries.language import Language, language_of
+from preflight_analysis.queries.param_texts import value_text
 from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
@@ -199,15 +201,14 @@ def _names(asked: Asked, command: str) -> Iterable[Item]:
 
 
 def _closed(items: Iterable[Item], close: str) -> Iterator[Item]:
-    for item in items:
-        yield Item(item.kind, item.label, item.text + close, item.doc, item.detail)
+    return (replace(item, text=item.text + close) for item in items)
 
 
 def _packages(asked: Asked) -> Iterator[Item]:
     """The workspace's own packages first."""
     environment = asked.analysis.environment
     by_place = sorted(environment.packages.values(), key=lambda p: (not p.is_within(environment.workspace), p.name))
-    return (Item("package", package.name, package.name, detail=package.share) for package in by_place)
+    return (Item("package", each.name, each.name, detail=each.share, about=("package", each.name)) for each in by_place)
 
 
 def _arguments(asked: Asked) -> Iterator[Item]:
@@ -220,12 +221,22 @@ def _arguments(asked: Asked) -> Iterator[Item]:
         detail = f"= {value}" if value is not None else argument_detail(declared)
         if declared.span.start > asked.offset:
             detail = f"{detail}, declared below"
-        yield Item("argument", declared.name, declared.name, escaped(declared.doc or ""), detail)
+        yield Item("argument", declared.name, declared.name, argument_doc(declared), detail)
 
 
 def argument_detail(declared: ArgDeclaration) -> str:
     """Whether an argument has to be given, or what it is otherwise."""
     return "required" if declared.required else f"default: {declared.default or declared.value or repr('')}"
+
+
+def argument_doc(declared: ArgDeclaration) -> str:
+    """What its author says of an argument, what it may be, and what it is where it is not passed."""
+    lines = [escaped(declared.doc)] if declared.doc else []
+    if declared.choices:
+        lines.append(f"One of {', '.join(map(code, declared.choices))}")
+    if not declared.required and declared.value is None:
+        lines.append(f"Default: {value_text(declared.default or '')}")
+    return "\n\n".join(lines)
 
 
 def _variables(asked: Asked) -> Iterator[Item]:
@@ -336,23 +347,25 @@ def _roots(asked: Asked) -> Iterator[Item]:
     """What a path starts with: the file's own folder and package, then the other packages."""
     find = asked.language.package
     own = [p for p in asked.analysis.environment.packages.values() if asked.file.startswith(f"{p.share}/")]
-    yield from (Item("package", f"$({find} {p.name})/", f"$({find} {p.name})/", detail=p.share) for p in own)
+    packages = sorted(_packages(asked), key=lambda item: item.label not in {p.name for p in own})
+    paths = [replace(item, label=f"$({find} {item.label})/", text=f"$({find} {item.label})/") for item in packages]
+    yield from paths[: len(own)]
     yield Item("folder", "$(dirname)/", "$(dirname)/", asked.language.substitutions["dirname"][1])
-    for item in _packages(asked):
-        if item.label not in {p.name for p in own}:
-            yield Item("package", f"$({find} {item.label})/", f"$({find} {item.label})/", detail=item.detail)
+    yield from paths[len(own) :]
 
 
 def _executables(asked: Asked, element: Element) -> Iterator[Item]:
     package = element.get("pkg")
     name = resolved(asked.analysis, asked.file, package.value.text) if package is not None else None
-    return (Item("executable", each, each, detail=name or "") for each in asked.executables.names(name or ""))
+    for each in asked.executables.names(name or ""):
+        yield Item("executable", each, each, detail=name or "", about=("executable", name or "", each))
 
 
 def _components(asked: Asked, element: Element) -> Iterator[Item]:
     package = element.get("pkg")
     name = resolved(asked.analysis, asked.file, package.value.text) if package is not None else None
-    return (Item("executable", each, each, detail=name or "") for each in asked.executables.components(name or ""))
+    for each in asked.executables.components(name or ""):
+        yield Item("executable", each, each, detail=name or "", about=("component", name or "", each))
 
 
 def _passed_arguments(asked: Asked, element: Element) -> Iterator[Item]:
@@ -367,7 +380,7 @@ def _passed_arguments(asked: Asked, element: Element) -> Iterator[Item]:
     passed = {name.value.text for child in siblings if (name := child.get("name")) is not None}
     for declared in accepted(target):
         if declared.name not in passed:
-            yield Item("argument", declared.name, declared.name, escaped(declared.doc or ""), argument_detail(declared))
+            yield Item("argument", declared.name, declared.name, argument_doc(declared), argument_detail(declared))
 
 
 def _machines(asked: Asked, element: Element) -> Iterator[Item]:

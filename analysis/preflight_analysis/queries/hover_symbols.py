@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Element, Node, Text
+from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.graph.model import ParamRead
-from preflight_analysis.launch.model import Action
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
@@ -19,7 +19,7 @@ from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import NamedSymbol, own_parameter, settings_of, symbol_at
 from preflight_analysis.tracing.interface import ParamUse
 from preflight_analysis.workspace.facts import declaration
-from preflight_analysis.workspace.workspace import Analysis
+from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 _SHOWN = 8
 
@@ -30,7 +30,7 @@ def symbol_hover(context: QueryContext, offset: int) -> Hover | None:
     if symbol is None or not symbol.names:
         return None
     if symbol.kind == "package":
-        text = _package(context, *symbol.names)
+        text = package_text(context.workspace, *symbol.names)
         return Hover(text, symbol.span) if text else None
     if symbol.kind == "param":
         blocks = list(_parameters(context, symbol))
@@ -38,12 +38,13 @@ def symbol_hover(context: QueryContext, offset: int) -> Hover | None:
     return None
 
 
-def _package(context: QueryContext, name: str) -> str:
-    package = context.workspace.environment.packages.get(name)
+def package_text(workspace: Workspace, name: str) -> str:
+    """A package with its version, path and description; an empty text where it is not known."""
+    package = workspace.environment.packages.get(name)
     if package is None:
         return ""
-    document = context.document(package.manifest)
-    root = parse_xml(package.manifest, document.text).root if document is not None else None
+    manifest = workspace.sources.text(package.manifest)
+    root = parse_xml(package.manifest, manifest.text).root if not isinstance(manifest, Unreadable) else None
     texts = {each.tag: _content(each) for each in root.elements} if root is not None else {}
     version = f" {code(texts['version'])}" if texts.get("version") else ""
     lines = [f"package {code(name)}{version} — {link(package.manifest, None)}", "", code(package.share)]
@@ -159,16 +160,11 @@ def _declared(context: QueryContext, symbol: NamedSymbol, name: str) -> Iterator
             yield f"Fixed: {value_text(known.value)}"
         else:
             yield "Required" if known.default is None else f"Default: {value_text(known.default)}"
-        if choices := _choices(action):
-            yield f"\nOne of {', '.join(map(code, choices))}"
+        if known.choices:
+            yield f"\nOne of {', '.join(map(code, known.choices))}"
         if known.doc:
             yield f"\n{escaped(known.doc)}"
         return
-
-
-def _choices(action: Action) -> list[str]:
-    values = (child.value("value") for child in action.children if child.kind == "choice")
-    return [value.text for value in values if value is not None]
 
 
 def _given(context: QueryContext, at: Location) -> str:

@@ -9,6 +9,7 @@ import yaml
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import MARK, Section
+from preflight_analysis.queries.completion_graph import parameter_doc
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.cursor_yaml import Entry, outline
 from preflight_analysis.queries.param_files import Reader, readers
@@ -89,7 +90,8 @@ def _parameters(found: Sequence[Reader], keys: list[str], siblings: set[str], co
             value = _written(use.default) if use.has_default and use.default is not None else ""
             snippet = f"{label}: ${{1:{_escaped(value)}}}" if colon else None
             text = label + (": " if colon else "")
-            yield Item("parameter", label, text, detail=default_text(use).replace("`", ""), snippet=snippet)
+            detail, doc = default_text(use).replace("`", ""), parameter_doc(reader.node, use, 2)
+            yield Item("parameter", label, text, doc, detail, snippet=snippet)
 
 
 def _fitting(found: Sequence[Reader], keys: list[str]) -> list[Reader]:

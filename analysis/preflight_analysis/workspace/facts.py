@@ -64,13 +64,14 @@ class Mention:
 
 @dataclass(frozen=True, slots=True)
 class ArgDeclaration:
-    """An `<arg>` tag of the file, under whatever condition. `default` and `value` as written."""
+    """An `<arg>` tag of the file, under whatever condition. `default`, `value` and `choices` as written."""
 
     name: str
     default: str | None
     value: str | None
     doc: str | None
     span: Span
+    choices: tuple[str, ...] = ()
 
     @property
     def required(self) -> bool:
@@ -137,7 +138,8 @@ def declaration(action: Action) -> ArgDeclaration:
     texts = {a.name: a.value.text for a in action.attributes}
     span = next(a.value.span for a in action.attributes if a.name == "name")
     doc = texts.get("doc") or texts.get("description")
-    return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), doc, span)
+    choices = tuple(v.text for child in action.children if child.kind == "choice" and (v := child.value("value")))
+    return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), doc, span, choices)
 
 
 def _of_substitution(part: Substitution, action: Span) -> Iterator[Mention]:

@@ -92,7 +92,7 @@ class _Writer:
         return [
             self._paths.number(facts.path),
             [self._observations.number(each) for each in facts.observations],
-            [[a.name, a.default, a.value, a.doc, *a.span] for a in facts.args],
+            [[a.name, a.default, a.value, a.doc, *a.span, *a.choices] for a in facts.args],
             [_KINDS.index(m.kind) for m in mentions],
             [m.name for m in mentions],
             [offset for m in mentions for offset in (*m.span, *m.action)],
@@ -230,9 +230,11 @@ class _Reader:
         return tuple(map(self._observations.__getitem__, numbers))
 
 
-def _argument(name: object, default: object, value: object, doc: object, start: int, end: int) -> ArgDeclaration:
+def _argument(
+    name: object, default: object, value: object, doc: object, start: int, end: int, *choices: object
+) -> ArgDeclaration:
     texts = _text_or_none(default), _text_or_none(value), _text_or_none(doc)
-    return ArgDeclaration(_text(name), *texts, Span(int(start), int(end)))
+    return ArgDeclaration(_text(name), *texts, Span(int(start), int(end)), tuple(map(_text, choices)))
 
 
 def _offsets(numbers: list[int]) -> tuple[list[int], list[int]]:

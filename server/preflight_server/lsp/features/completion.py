@@ -1,17 +1,22 @@
-"""`textDocument/completion`."""
+"""`textDocument/completion`, and `completionItem/resolve` for the documentation of what the user looks at.
+
+The `data` of a proposal with more to say has the document's URI, then what `queries.completion_docs` takes as `about`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, TypeGuard
 
 from lsprotocol import types
 from preflight_analysis.queries.completion import TRIGGERS
 from preflight_analysis.queries.completion import complete as query
+from preflight_analysis.queries.completion_docs import documentation
 from preflight_analysis.queries.completion_items import Item, ItemKind
 
 from preflight_server.lsp.markup import markup
 from preflight_server.lsp.positions import Positions
+from preflight_server.lsp.text_store import to_path
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -35,6 +40,7 @@ _KINDS: Mapping[ItemKind, types.CompletionItemKind] = {
     "namespace": types.CompletionItemKind.Module,
     "parameter": types.CompletionItemKind.Field,
     "endpoint": types.CompletionItemKind.Event,
+    "type": types.CompletionItemKind.Struct,
 }
 
 
@@ -43,7 +49,7 @@ SUGGEST = "editor.action.triggerSuggest"
 
 
 def _item(
-    item: Item, order: int, range_: types.Range, options: types.ClientCompletionItemOptions, *, suggests: bool
+    item: Item, order: int, range_: types.Range, options: types.ClientCompletionItemOptions, uri: str, *, suggests: bool
 ) -> types.CompletionItem:
     snippet = item.snippet if options.snippet_support else None
     return types.CompletionItem(
@@ -57,13 +63,22 @@ def _item(
         text_edit=types.TextEdit(range_, snippet if snippet is not None else item.text),
         # What is in the folder comes next.
         command=types.Command("", SUGGEST) if suggests and item.kind == "folder" else None,
+        data=[uri, *item.about] if item.about else None,
     )
 
 
 def register(server: PreflightServer) -> None:
     """Register the handler."""
 
-    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list(TRIGGERS)))
+    def options() -> types.ClientCompletionItemOptions:
+        client = server.client_capabilities.text_document
+        asked = client.completion.completion_item if client and client.completion else None
+        return asked or types.ClientCompletionItemOptions()
+
+    @server.feature(
+        types.TEXT_DOCUMENT_COMPLETION,
+        types.CompletionOptions(trigger_characters=list(TRIGGERS), resolve_provider=True),
+    )
     async def completion(ls: PreflightServer, params: types.CompletionParams) -> types.CompletionList | None:
         session = ls.session_of(params.text_document.uri)
         latest = await session.latest(params.text_document.uri, python=True) if session else None
@@ -86,11 +101,25 @@ def register(server: PreflightServer) -> None:
         )
         if found is None:
             return None
-        client = ls.client_capabilities.text_document
-        asked = client.completion.completion_item if client and client.completion else None
-        options, range_ = asked or types.ClientCompletionItemOptions(), positions.range(found.span)
+        uri, shown, range_ = params.text_document.uri, options(), positions.range(found.span)
         suggests = SUGGEST in ls.client_commands
         # Without tab stops a snippet is but its tag, which is offered already.
-        offered = [each for each in found.items if options.snippet_support or each.kind != "snippet"]
-        items = [_item(item, n, range_, options, suggests=suggests) for n, item in enumerate(offered)]
+        offered = [each for each in found.items if shown.snippet_support or each.kind != "snippet"]
+        items = [_item(item, n, range_, shown, uri, suggests=suggests) for n, item in enumerate(offered)]
         return types.CompletionList(False, items)
+
+    @server.feature(types.COMPLETION_ITEM_RESOLVE)
+    async def resolve(ls: PreflightServer, item: types.CompletionItem) -> types.CompletionItem:
+        uri, *about = item.data if _is_ours(item.data) else ("",)
+        session, path = ls.session_of(uri), to_path(uri)
+        if session is None or path is None:
+            return item
+        workspace = await session.workspace()
+        text = await session.in_pool(lambda: documentation(workspace, path, about))
+        item.documentation = markup(text, options().documentation_format) if text else None
+        return item
+
+
+def _is_ours(data: object) -> TypeGuard[Sequence[str]]:
+    """Whether a client hands back what it was given."""
+    return isinstance(data, (list, tuple)) and len(data) > 1 and all(isinstance(each, str) for each in data)

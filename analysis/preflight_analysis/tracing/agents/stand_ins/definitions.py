@@ -79,6 +79,22 @@ class Definitions:
         ]
         return sorted({*(name[: -len(kind) - 1] for name in listed if name.endswith("." + kind)), *common})
 
+    def all(self, kind: str) -> list[str]:
+        """The full names (`std_msgs/msg/String`) of all definitions of a kind that are at hand."""
+        middle, generation = f"/{kind}/", str(self._generation)
+        found = {
+            name
+            for name, text in self._catalogue().items()
+            if middle in name and (isinstance(text, str) or generation in text)
+        }
+        for package, share in self._packages.items():
+            try:
+                listed = os.listdir(os.path.join(share, kind))
+            except OSError:
+                continue
+            found.update(package + middle + name[: -len(kind) - 1] for name in listed if name.endswith("." + kind))
+        return sorted(found)
+
     def _catalogue(self) -> dict[str, Any]:
         if self._common is None:
             self._common = dict(DEFINITIONS)
