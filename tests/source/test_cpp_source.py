@@ -484,6 +484,23 @@ def test_only_one_side_of_a_conditional_expression_is_computed(harness: Harness)
     ]
 
 
+def test_the_second_part_of_an_and_or_an_or_may_not_be_computed(harness: Harness) -> None:
+    found = harness.read(
+        """
+        bool make(ros::NodeHandle & nh, const char * name) { nh.advertise<std_msgs::String>(name, 1); return true; }
+        void main(int argc, char** argv) {
+          ros::init(argc, argv, "t");
+          ros::NodeHandle nh;
+          bool a = ros::isShuttingDown() && make(nh, "and");
+          if (ros::isShuttingDown() || make(nh, "or")) {}
+          if (true && make(nh, "known")) {}
+        }
+        """
+    )
+    assert found is not None
+    assert [(end.name, end.conditional) for end in found.endpoints] == [("and", True), ("or", True), ("known", False)]
+
+
 def test_images(harness: Harness) -> None:
     body = """
         ros::NodeHandle nh, pnh("~");

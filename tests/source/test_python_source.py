@@ -164,6 +164,18 @@ def test_only_one_side_of_a_conditional_expression_is_computed(harness: Harness)
     ]
 
 
+def test_the_second_part_of_an_and_or_an_or_may_not_be_computed(harness: Harness) -> None:
+    found = harness.read(
+        """
+        a = rospy.is_shutdown() and rospy.Publisher("and", String)
+        b = rospy.is_shutdown() or rospy.Publisher("or", String)
+        c = True and rospy.Publisher("known", String)
+        """
+    )
+    assert found is not None
+    assert [(end.name, end.conditional) for end in found.endpoints] == [("and", True), ("or", True), ("known", False)]
+
+
 def test_parameters_of_the_launch_and_defaults_give_names(harness: Harness) -> None:
     text = """
         rospy.Publisher(rospy.get_param("~topic", "fallback"), String)

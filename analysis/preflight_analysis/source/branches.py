@@ -94,6 +94,17 @@ class Branches:
                 self.store(change.names, change.name, value)
         return False
 
+    def maybe_value(self, expression: Callable[[], Any]) -> Any:
+        """Go through an expression that may not be computed, as the second part of `a and b`: its value if it is."""
+        values: list[Any] = []
+
+        def branch() -> bool:
+            values.append(expression())
+            return False
+
+        self.either(branch, lambda: False)
+        return values[0] if values else UNKNOWN
+
     def either_value(self, first: Callable[[], Any], second: Callable[[], Any]) -> Any:
         """Go through two expressions, one of which is computed: the value that they agree on."""
         values: list[Any] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import partial
 from typing import Any
 
 from tree_sitter import Node
@@ -125,7 +126,8 @@ class Expressions(CallExpressions):
         known = truth(left)
         if known is stop:
             return stop
-        right = truth(self._value(node.child_by_field_name("right"), scope))
+        compute = partial(self._value, node.child_by_field_name("right"), scope)
+        right = truth(compute() if known is not None else self._branches.maybe_value(compute))
         return right if right is stop or (known is not None and right is not None) else UNKNOWN
 
     def _conditional(self, node: Node, scope: Scope) -> Any:

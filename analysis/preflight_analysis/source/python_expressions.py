@@ -194,7 +194,8 @@ class Expressions(ABC):
         stop = isinstance(node.op, ast.Or)
         certain = True
         for operand in node.values:
-            value = self._value(operand, scope)
+            compute = partial(self._value, operand, scope)
+            value = compute() if certain else self._branches.maybe_value(compute)
             truth = truth_of(value)
             if truth is None:
                 certain = False
