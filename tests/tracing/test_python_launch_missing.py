@@ -712,3 +712,28 @@ def generate_launch_description():
     analysis = harness.launch(path)
     assert {finding.rule for finding in analysis.findings} == {"LCH032"}
     assert not analysis.tree.complete
+
+
+def test_files_that_are_written_into_the_share_folder_are_there(harness: PythonHarness) -> None:
+    source = harness.write("urdf/a.urdf.xacro", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="a"/>')
+    path = harness.write(
+        "launch/a.launch.py",
+        f"""
+        import os, subprocess
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        SOURCE = {str(source)!r}
+        FOLDER = os.path.dirname(SOURCE)
+
+        def generate_launch_description():
+            made = [os.path.join(FOLDER, f"{{name}}.urdf") for name in ("opened", "option", "shell", "missing")]
+            with open(made[0], "w") as file:
+                file.write("<robot/>")
+            subprocess.run(["xacro", SOURCE, "-o", made[1]], check=True)
+            os.system(f"xacro {{SOURCE}} > {{made[2]}}")
+            return LaunchDescription([Node(package="p", executable="x", name="n", arguments=made)])
+        """,
+    )
+    findings = [each for each in harness.launch(path).findings if each.rule == "PRM005"]
+    assert ["missing.urdf" in each.message for each in findings] == [True]

@@ -349,6 +349,8 @@ class LaunchTree(Once):
     simulated: tuple[LaunchNode, ...] = ()
     """ROS 2: controller managers that the launch does not start, but the simulator, for the robots that are spawned in
     it."""
+    written: frozenset[str] = frozenset()
+    """The paths of the files that Python launch files write."""
 
     @property
     def ros(self) -> Generation:

@@ -83,6 +83,7 @@ def evaluate_ros2(
         state.edited,
         tuple(state.nodes_before),
         simulated,
+        frozenset(state.made),
     )
 
 

@@ -25,6 +25,8 @@ PRINTED = "preflight_printed"
 _ERRORS = ("FileNotFoundError", "OSError", "CalledProcessError")
 _OF_SHELLS = frozenset("|&;<>$`(){}*?~#\n")
 _JOINS = re.compile(r"[|&;\n]+")
+_INTO_FILE = re.compile(r"(?<=\S)\s*(?<![\d&>])>\s*([^\s|&;<>]+)\s*\Z")
+"""What a shell prints into a file at last, which for xacro is an option."""
 _PROGRAM = re.compile(r"\s*(?:\w+=\S*\s+)*([A-Za-z][\w.+-]*)(?=\s|$)")
 _BUILT_IN = frozenset(
     ("cd", "eval", "exec", "exit", "export", "for", "if", "read", "set", "source", "then", "unset", "while")
@@ -42,6 +44,14 @@ def install(subprocess: Any) -> None:
             super().__init__(_there(args, sys._getframe(1)), *more, **kwargs)
 
     subprocess.Popen = Popen
+    system: Any = os.system
+
+    def called(command: Any) -> int:
+        if not is_own(sys._getframe(1)) or not _is_missing(command, sys._getframe(1)):
+            return int(system(command))
+        return int(subprocess.call(command, shell=True)) << 8  # noqa: S604 - as `os.system` does; inside the sandbox
+
+    os.system = called
 
 
 def is_unknown(line: Any, frame: Any) -> bool:
@@ -72,6 +82,7 @@ def _words(line: Any) -> list[str]:
     """Those of a command line; none of one that only a shell understands."""
     if not isinstance(line, str):
         return [os.fspath(each) for each in line] if isinstance(line, (list, tuple)) else []
+    line = _INTO_FILE.sub(r" -o \1", line)
     try:
         return [] if not _OF_SHELLS.isdisjoint(line) else shlex.split(line)
     except ValueError:
@@ -107,9 +118,15 @@ def _of_xacro(words: list[str]) -> Any:
     if any(map(anything.is_unknown, words)):
         return None
     given = dict(word.split(":=", 1) for word in words if ":=" in word)
-    files = [word for word in words if ":=" not in word and not word.startswith("-")]
+    output = next((after for option, after in zip(words, words[1:]) if option == "-o"), None)
+    files = [word for word in words if ":=" not in word and not word.startswith("-") and word != output]
     try:
         (file,) = files
-        return importlib.import_module("xacro").process_file(file, mappings=given).toprettyxml(indent="  ")
+        text = importlib.import_module("xacro").process_file(file, mappings=given).toprettyxml(indent="  ")
+        if output is None:
+            return text
+        with open(output, "w", encoding="utf-8") as made:
+            made.write(text)
+        return ""
     except Exception:
         return None
