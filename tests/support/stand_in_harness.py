@@ -42,16 +42,16 @@ def both_of_ros1(script: Path, **more: Any) -> tuple[Interface, Interface]:
     return real.trace(asked, cancel), bare.trace(asked, cancel)
 
 
-def without_rclpy(harness: Ros2Harness) -> Environment:
-    """The harness's workspace on a machine without ROS."""
-    python = bare_python()
+def without_rclpy(harness: Ros2Harness, python: Path | None = None) -> Environment:
+    """The harness's workspace on a machine without ROS, or with what the interpreter `python` has of it."""
+    python = python or bare_python() / "python3"
     found = detect_environment(str(harness.folder), harness.variables)
     return replace(
         found,
-        ros2_python=str(python / "python3"),
+        ros2_python=str(python),
         ament_prefixes=(),
-        variables={**found.variables, "PATH": f"{python}:/usr/bin:/bin"},
-        named_folders=(*found.named_folders, str(python.parent)),
+        variables={**found.variables, "PATH": f"{python.parent}:/usr/bin:/bin"},
+        named_folders=(*found.named_folders, str(python.parent.parent)),
     )
 
 

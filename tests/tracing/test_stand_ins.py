@@ -17,7 +17,7 @@ from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace import Tracer
 from support.ros2_harness import Ros2Harness, checked, node_of, ros2_prefix
 from support.stand_in_harness import bare_python, both_of_ros1, both_of_ros2, seen, without_rclpy, without_rospy
-from support.tracing_harness import ROS1_FIXTURES, environment, own, request, write_node
+from support.tracing_harness import ROS1_FIXTURES, SYSTEM_PYTHON, environment, own, request, write_node
 
 pytestmark = pytest.mark.ros
 
@@ -569,3 +569,19 @@ def test_a_crash_without_a_module_that_the_program_provides_for(tmp_path: Path, 
     imports = "try:\n    import far_vision\nexcept ImportError:\n    far_vision = None\n"
     found = trace_without(write_node(tmp_path, f"{imports}import rospy\nrospy.init_node('n')\n{end}\n"))
     assert (found.outcome.status, found.outcome.lacks) == ("crashed", lacks)
+
+
+def test_what_debian_has_for_nodes_of_ros1_is_nothing_for_those_of_ros2(tmp_path: Path) -> None:
+    constructor = """
+        self.listener = TransformListener(Buffer(), self)
+        self.create_service(Trigger, 'reset', print)
+    """
+    imports = "from std_srvs.srv import Trigger", "from tf2_ros import Buffer, TransformListener"
+    harness = Ros2Harness(tmp_path, n=node_of(constructor, *imports))
+    launch = harness.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='n'/></launch>")
+    graph = checked(launch, without_rclpy(harness, Path(SYSTEM_PYTHON)), None).graph
+    assert graph is not None
+    (interface,) = graph.processes
+    assert interface.outcome.status == "spinning"
+    assert {"rclpy", "std_srvs", "tf2_ros"} <= {*interface.stand_ins}
+    assert ("service", "reset", "std_srvs/srv/Trigger") in own(interface)

@@ -6,6 +6,7 @@ import importlib.abc
 import importlib.machinery
 import json
 import os
+import re
 import sys
 from typing import Any
 
@@ -27,6 +28,11 @@ OF_GENERATION = {
     for number in (1, 2)
 }
 """The libraries that have a stand-in of their own, by generation of ROS."""
+_IMPORTS_OF = {
+    1: re.compile(r"^\s*(?:import|from) (?:genpy|roslib|rospy)\b", re.MULTILINE),
+    2: re.compile(r"^\s*(?:import|from) (?:rclpy|rosidl_\w+)\b", re.MULTILINE),
+}
+"""What libraries and messages of each generation import."""
 
 
 class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
@@ -51,6 +57,13 @@ class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
                 _without_real_rclpy()
             return importlib.machinery.ModuleSpec(fullname, self, is_package=True)
         return None
+
+    def in_place_of(self, top: str) -> Any:
+        """What is found in the place of a library or a package of messages that is there."""
+        note(top)
+        if top in self._libraries:
+            return importlib.machinery.PathFinder.find_spec(top, self._folders)
+        return importlib.machinery.ModuleSpec(top, self, is_package=True)
 
     def create_module(self, spec: Any) -> Any:
         return InterfaceModule(spec.name, self._maker) if "." in spec.name else AnyModule(spec.name)
@@ -80,6 +93,37 @@ class _RclpyFirst(importlib.abc.MetaPathFinder):
         return importlib.machinery.PathFinder.find_spec(fullname, [os.path.join(LIBRARIES, "ros2")])
 
 
+class _NoOtherGeneration(importlib.abc.MetaPathFinder):
+    """Finds stand-ins before libraries and messages of the other generation of ROS, which Debian has for whatever
+    program there is."""
+
+    def __init__(self, generation: int, found: StandIns) -> None:
+        self._generation, self._found = generation, found
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        spec = importlib.machinery.PathFinder.find_spec(fullname) if "." not in fullname else None
+        folders = (spec.submodule_search_locations if spec is not None else None) or ()
+        if not any(map(self._is_of_other, folders)):
+            return None
+        return self._found.in_place_of(fullname)
+
+    def _is_of_other(self, folder: str) -> bool:
+        parts = [below for kind in KINDS if os.path.isdir(below := os.path.join(folder, kind))]
+        if os.path.basename(folder) in OF_GENERATION[self._generation]:
+            parts.append(folder)
+        return any(_imports(3 - self._generation, each) for each in parts)
+
+
+def _imports(generation: int, folder: str) -> bool:
+    """Whether a module in the folder imports what those of a generation do."""
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".py"):
+            with open(os.path.join(folder, name), encoding="utf-8", errors="replace") as file:
+                if _IMPORTS_OF[generation].search(file.read()):
+                    return True
+    return False
+
+
 def _without_real_rclpy() -> None:
     """Messages are missing: from the start of the program on, rclpy is to be the stand-in."""
     rclpy = sys.modules.get("rclpy")
@@ -96,8 +140,12 @@ def _without_real_rclpy() -> None:
 
 def put_rclpy_first() -> None:
     """Find the stand-in of rclpy before the interpreter's own ways find a module; what weaves is asked even before."""
+    _put_first(_RclpyFirst())
+
+
+def _put_first(finder: importlib.abc.MetaPathFinder) -> None:
     own = (at for at, each in enumerate(sys.meta_path) if each is importlib.machinery.PathFinder)
-    sys.meta_path.insert(next(own, len(sys.meta_path)), _RclpyFirst())
+    sys.meta_path.insert(next(own, len(sys.meta_path)), finder)
 
 
 _noted: set[str] = set()
@@ -124,5 +172,6 @@ def install() -> None:
     on_use.append(lambda: channel.send("asked", what="stand-in"))
     found = StandIns(job["generation"], job["packages"])
     sys.meta_path += [found, MissingModules(note, found.stands_in, lacked)]
+    _put_first(_NoOtherGeneration(job["generation"], found))
     if AGAIN in os.environ:
         put_rclpy_first()
