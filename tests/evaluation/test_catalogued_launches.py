@@ -130,6 +130,12 @@ def test_a_file_that_is_a_slip_of_one(tmp_path: Path) -> None:
     assert [fix.title for fix in finding.fixes] == ["Replace 'scna.launch' with 'scan.launch'"]
     marked = analysed(tmp_path, include("scan_launch.py", ros2=True), "a.launch.xml", "jazzy")
     assert said(marked) == [("LCH013", "warning", "likely")]
+    (in_mark,) = (
+        f
+        for f in analysed(tmp_path, include("scan.lanch.py", ros2=True), "a.launch.xml", "jazzy").findings
+        if f.rule == "LCH013"
+    )
+    assert in_mark.message.endswith("did you mean 'scan.launch.py'?")
 
 
 def test_a_file_that_no_known_one_is_like_may_be_of_another_version(tmp_path: Path) -> None:

@@ -81,24 +81,6 @@ def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     assert (meant in findings[0].message) == (severity == "warning")
 
 
-@pytest.mark.parametrize(("program", "severity"), [("base.py", "warning"), ("pid_control", "hint")])
-def test_a_package_that_has_the_files_and_not_the_programs(tmp_path: Path, program: str, severity: str) -> None:
-    for name in ("robot", "beside"):
-        (tmp_path / "src" / name / "config").mkdir(parents=True)
-        (tmp_path / "src" / name / "package.xml").write_text(manifest(name, "catkin"))
-    (tmp_path / "src" / "robot" / "config" / "base.yaml").write_text("rate: 1")
-    (tmp_path / "src" / "robot" / "base.py").write_text("#!/usr/bin/env python3\n")
-    (tmp_path / "src" / "robot" / "base.py").chmod(0o755)
-    launch = tmp_path / "src" / "robot" / "main.launch"
-    launch.write_text(
-        '<launch><rosparam command="load" file="$(find vortex)/config/base.yaml"/>'
-        f'<node pkg="vortex" type="{program}" name="n"/><node pkg="stranger" type="t" name="m"/></launch>'
-    )
-    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
-    findings = [f for f in workspace.static(str(launch), {}).findings if "'vortex'" in f.message and f.rule == "PKG001"]
-    assert {f.severity for f in findings} == {severity}
-
-
 @pytest.mark.parametrize(
     ("text", "paths"),
     [
@@ -164,12 +146,14 @@ def test_a_package_whose_name_is_unknown_is_not_judged() -> None:
     assert [finding.rule for finding in findings] == ["ARG003"]
 
 
-def of_packages(launch: Path, *names: str, python: str | None = None, distro: str = "noetic") -> list[Finding]:
-    """What is said of nodes of these packages in a workspace that has package `demo` alone."""
+def of_packages(
+    launch: Path, *names: str, python: str | None = None, distro: str = "noetic", needs: str = "our_own_driver"
+) -> list[Finding]:
+    """What is said of nodes of these packages in a workspace that has package `demo` alone, which needs one."""
     nodes = "".join(f'<node pkg="{name}" type="x" name="n{at}"/>' for at, name in enumerate(names))
     launch.write_text(f"<launch>{nodes}</launch>")
     share = str(launch.parent)
-    packages = {"demo": Package("demo", share, f"{share}/package.xml", frozenset({"our_own_driver"}))}
+    packages = {"demo": Package("demo", share, f"{share}/package.xml", frozenset({needs}))}
     environment = Environment(1, distro, {}, (share,), packages, {}, (), (), python)
     findings = Workspace(environment, Sources(), share).static(str(launch)).findings
     return [finding for finding in findings if finding.rule == "PKG001"]
@@ -197,6 +181,18 @@ def test_a_slip_in_a_released_name_is_an_error_with_a_fix(launch: Path) -> None:
     assert (finding.severity, finding.confidence, finding.lack) == ("error", "certain", None)
     assert "did you mean 'robot_state_publisher'?" in finding.message
     assert finding.fixes[0].edits[0].text == "robot_state_publisher"
+
+
+def test_a_slip_in_the_name_of_a_dependency_that_is_not_here_is_an_error_with_a_fix(launch: Path) -> None:
+    (finding,) = of_packages(launch, "topic_tols", needs="topic_tools")
+    assert (finding.severity, finding.confidence, finding.lack) == ("error", "certain", None)
+    assert "did you mean 'topic_tools'?" in finding.message
+    assert finding.fixes[0].edits[0].text == "topic_tools"
+
+
+def test_a_dependency_that_differs_in_a_short_word_is_another_one(launch: Path) -> None:
+    (finding,) = of_packages(launch, "pol_msgs", needs="pcl_msgs")
+    assert (finding.severity, finding.fixes) == ("info", ())
 
 
 def test_a_short_word_is_near_to_too_much(launch: Path) -> None:

@@ -1,7 +1,6 @@
 """PKG002: an executable that its package does not have."""
 
 from pathlib import Path
-from shutil import rmtree
 
 import pytest
 from preflight_analysis.environment.model import Environment, Package
@@ -9,6 +8,7 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import findings_of
 from support.demo_package import judge
+from support.package_elsewhere import analysed
 
 
 @pytest.mark.parametrize(
@@ -39,16 +39,6 @@ def test_a_file_that_only_the_installed_package_may_execute(launch: Path) -> Non
     (finding,) = judge(launch, "plain.py")
     assert "start it from the install space" in finding.message
     assert (finding.severity, finding.confidence) == ("warning", "likely")
-
-
-def test_a_package_whose_build_file_git_ignores(launch: Path) -> None:
-    launch.parent.joinpath(".gitignore").write_text("CMakeLists.txt\n")
-    rmtree(launch.parent / "nodes")
-    (finding,) = judge(launch, "exported")
-    assert (finding.rule, finding.severity, finding.fixes) == ("PKG002", "info", ())
-    launch.parent.joinpath(".gitignore").write_text("other\n")
-    (finding,) = judge(launch, "exported")
-    assert finding.severity == "error"
 
 
 @pytest.mark.silent
@@ -172,3 +162,19 @@ def test_a_name_that_has_to_be_given(launch: Path) -> None:
     (finding,) = judge(launch, "/dev/null")
     assert finding.severity == "info"
     assert finding.message.endswith("; set the argument that names it")
+
+
+@pytest.mark.parametrize(("distro", "sure"), [("noetic", ("warning", "likely")), (None, ("hint", "possible"))])
+def test_a_slip_of_an_executable_of_the_catalogue(tmp_path: Path, distro: str | None, sure: tuple[str, str]) -> None:
+    analysis = analysed(tmp_path, '<launch><node pkg="joy" type="joy_nod" name="j"/></launch>', distro=distro)
+    (finding,) = (f for f in analysis.findings if f.rule == "PKG002")
+    assert (finding.severity, finding.confidence) == sure
+    assert finding.message == "package 'joy' of noetic has no executable 'joy_nod'; did you mean 'joy_node'?"
+    assert [edit.text for edit in finding.fixes[0].edits] == ["joy_node"]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize("name", ["joy_node", "another_node", "joy_node2"])
+def test_an_executable_that_another_version_may_have(tmp_path: Path, name: str) -> None:
+    analysis = analysed(tmp_path, f'<launch><node pkg="joy" type="{name}" name="j"/></launch>', distro="noetic")
+    assert [f for f in analysis.findings if f.rule == "PKG002"] == []

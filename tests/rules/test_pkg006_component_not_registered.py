@@ -9,6 +9,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.package_elsewhere import analysed
 from support.unbuilt_packages import manifest
 
 MANIFEST = "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
@@ -119,3 +120,19 @@ def test_components_of_a_package_that_is_not_built(tmp_path: Path) -> None:
             "'vision::Tracker'",
         ),
     ]
+
+
+def test_a_slip_of_a_component_of_the_catalogue(tmp_path: Path) -> None:
+    text = LAUNCH.format(package="image_proc", plugin="image_proc::RectifyNod")
+    (finding,) = (f for f in analysed(tmp_path, text, "a.launch.xml", "jazzy").findings if f.rule == "PKG006")
+    assert (finding.severity, finding.confidence) == ("warning", "likely")
+    assert finding.message.endswith(
+        "has no component 'image_proc::RectifyNod'; did you mean 'image_proc::RectifyNode'?"
+    )
+
+
+@pytest.mark.silent
+def test_a_component_that_another_version_may_have(tmp_path: Path) -> None:
+    for plugin in ("image_proc::RectifyNode", "image_proc::UndistortNode"):
+        text = LAUNCH.format(package="image_proc", plugin=plugin)
+        assert not [f for f in analysed(tmp_path, text, "a.launch.xml", "jazzy").findings if f.rule == "PKG006"]

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 
 from preflight_analysis.catalogue.launches import catalogued_file
+from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
+from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.findings.finding import Confidence, Severity
-from preflight_analysis.rules.rule import Context
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.rules.places import attribute_location
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
 
 
 def is_of_distribution(context: Context, distro: str) -> bool:
@@ -32,3 +39,26 @@ def by_catalogue(context: Context, path: str) -> str:
         return ""
     repository, commit, *_ = json.loads(text.text)[0]
     return f" (from the catalogue of {file.distro}, {repository} at {commit[:7]})"
+
+
+def slips(rule: Rule, context: Context, node: LaunchNode, kind: str, attribute: str) -> Iterator[Finding]:
+    """What is said of a node whose package is not here, and has none of that name but one of which it is a slip. `kind`
+    is `executables` or `components`; `attribute` names it. Without a near one it may be of another version."""
+    name = node.plugin if kind == "components" else node.executable
+    distro = distribution_of(context.tree.generation, context.environment.distro)
+    known = interfaces_of(node.package, distro).get(kind, {})
+    if not name or name in known or any(other_names(node.package, kind, name, distro)):
+        return
+    near = nearest(name, known)
+    if near is None or not is_slip(name, near):
+        return
+    same = is_of_distribution(context, distro)
+    location = attribute_location(context, node, attribute)
+    yield rule.finding(
+        f"package '{node.package}' of {distro} has no {kind.removesuffix('s')} '{name}'{did_you_mean(near)}",
+        location,
+        severity="warning" if same else "hint",
+        confidence="likely" if same else "possible",
+        related=include_chain(node.origin),
+        fixes=rename(context, location, name, near, preferred=same),
+    )

@@ -52,6 +52,7 @@ _OPEN_F_STRING = re.compile(r"\b[rR]?[fF][rR]?['\"][^'\"\n]*\{[^}'\"\n]*$", re.M
 _MADE = ("msg", "srv", "action", "cfg")
 """Modules of a package that its build makes."""
 _LONG = 5
+_SHORT = 4
 """Letters of a word."""
 
 
@@ -88,11 +89,20 @@ def near_package(context: Context, name: str) -> str | None:
     generation = context.tree.generation
     if distributions_with(name, generation):
         return None
-    near = nearest(name, context.environment.packages)
+    near = nearest(name, context.environment.packages) or _near_dependency(context, name)
     if near is None or not is_slip_of_words(name, near):
         released = nearest_released(name, generation, 1)
-        near = next((each for each in released if is_slip(name, each) and _differ_in_long_words(name, each)), None)
+        near = next((each for each in released if is_slip(name, each) and _differ_in_words_of(_LONG, name, each)), None)
     return None if near is None or is_of_family(context, name, near) else near
+
+
+def _near_dependency(context: Context, name: str) -> str | None:
+    """The package of which it is a slip, released and not here, that a manifest of the workspace names; none for what a
+    manifest names as well."""
+    if name in context.once(_absent_dependencies):
+        return None
+    near = nearest(name, context.once(_released_dependencies))
+    return near if near is not None and _differ_in_words_of(_SHORT, name, near) else None
 
 
 def is_of_family(context: Context, name: str, near: str) -> bool:
@@ -114,17 +124,26 @@ def words_of_folders(context: Context) -> frozenset[str]:
 
 def _unknown_dependencies(context: Context) -> frozenset[str]:
     """What the manifests of the workspace name, and is neither here nor released."""
-    packages, generation = context.environment.packages, context.tree.generation
+    return _absent_dependencies(context) - _released_dependencies(context)
+
+
+def _released_dependencies(context: Context) -> frozenset[str]:
+    """What the manifests of the workspace name, and is not here but released."""
+    generation = context.tree.generation
+    return frozenset(name for name in _absent_dependencies(context) if distributions_with(name, generation))
+
+
+def _absent_dependencies(context: Context) -> frozenset[str]:
+    packages = context.environment.packages
     own = (package.dependencies for package in packages.values() if not is_installed(context, package))
-    named = frozenset[str]().union(*own)
-    return frozenset(name for name in named if name not in packages and not distributions_with(name, generation))
+    return frozenset[str]().union(*own) - packages.keys()
 
 
-def _differ_in_long_words(name: str, other: str) -> bool:
+def _differ_in_words_of(length: int, name: str, other: str) -> bool:
     """Of the thousands of released names one is always near `arm_description` or another with a short word."""
     words, others = name.split("_"), other.split("_")
     differing = [pair for pair in zip(words, others, strict=False) if pair[0] != pair[1]]
-    return len(words) != len(others) or all(len(word) >= _LONG for pair in differing for word in pair)
+    return len(words) != len(others) or all(len(word) >= length for pair in differing for word in pair)
 
 
 def lack_of_build(context: Context, package: str) -> Lack:

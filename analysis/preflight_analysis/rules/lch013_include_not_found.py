@@ -1,7 +1,7 @@
 """LCH013: an include, or a launch by a process, of a file that is not there."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.catalogue.launches import launch_files_of
 from preflight_analysis.evaluation.problems import IncludeNotCatalogued, IncludeNotFound, LaunchedFileNotFound
@@ -35,10 +35,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
-def _near(name: str, others: Iterable[str]) -> str | None:
+def _near(name: str, others: Sequence[str]) -> str | None:
     """The one that a name is a slip of, whatever marks it as a launch file."""
     near = nearest(name, others, key=_stem)
-    return near if near is not None and (_stem(name) == _stem(near) or is_slip(_stem(name), _stem(near))) else None
+    if near is not None and (_stem(name) == _stem(near) or is_slip(_stem(name), _stem(near))):
+        return near
+    near = nearest(name, others)  # `camera_lanch.py`
+    return near if near is not None and is_slip(name, near) else None
 
 
 def _stem(name: str) -> str:
@@ -54,7 +57,7 @@ RULE = Rule(
     "rest of the launch goes on. For a common package that is not installed, the catalogue knows its launch files. "
     "A typo of those is a warning if the catalogue has the distribution in use, otherwise a hint. A file in a top "
     "folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder where "
-    "the launch is started (`$(env PWD)`), and one that a node creates from the launch file, whose name it begins with.",
+    "the launch is started (`$(env PWD)`).",
     why="`roslaunch` stops and starts nothing, at any depth of includes. A relative path starts at the folder in "
     "which `roslaunch` runs, not at the folder of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',

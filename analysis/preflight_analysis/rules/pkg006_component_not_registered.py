@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.catalogued import slips
 from preflight_analysis.rules.further_reading import COMPOSITION
 from preflight_analysis.rules.nearest import did_you_mean, nearest_class
 from preflight_analysis.rules.places import attribute_location
@@ -17,6 +18,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables = context.executables
     for node in context.tree.nodes:
         if node.kind != "composable" or not node.plugin or node.unknowns:
+            continue
+        if node.package not in context.environment.packages:
+            yield from slips(rule, context, node, "components", "plugin")
             continue
         registered = executables.components(node.package)
         # A word of the build files that is not understood as a registration may well be one.
@@ -48,7 +52,8 @@ RULE = Rule(
     what="Checks for the plugin of a `<composable_node>` that its package does not register. The finding names the "
     "nearest registered component. Registered components are those in the resource index of an installed package. "
     "In the workspace they are those of `rclcpp_components_register_node(s)` in `CMakeLists.txt`. A package without "
-    "known components is not checked.",
+    "known components is not checked. For a common package that is not installed, the catalogue knows its "
+    "components. A typo of those is a warning if the catalogue has the distribution in use, otherwise a hint.",
     why="The container logs `Failed to find class with the requested plugin name` and continues without the component.",
     example='<composable_node pkg="vision" plugin="Detector" name="detector"/>\n'
     '<!-- rclcpp_components_register_nodes(detector "vision::Detector") -->',
