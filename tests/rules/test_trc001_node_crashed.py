@@ -244,6 +244,15 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
         ("    f'at {\n    ^\nSyntaxError: unterminated string literal", ("program", "python3.12")),
         ('    f"{Duration.of(\n    ^\nSyntaxError: unterminated string literal', ("program", "python3.12")),
         ("    f'at {rate} Hz)\n    ^\nSyntaxError: unterminated string literal", None),
+        ("""    x = f"{a["b"]}"\n    ^\nSyntaxError: f-string: unmatched '['""", ("program", "python3.12")),
+        ("""    x = f"\\"{a + "b"}\\""\n    ^\nSyntaxError: f-string: expecting '}'""", ("program", "python3.12")),
+        ("""    x = f"{a" + "b"\n    ^\nSyntaxError: f-string: expecting '}'""", None),
+        (
+            "    x = f'{'\\n'}'\n    ^\nSyntaxError: f-string expression part cannot include a backslash",
+            ("program", "python3.12"),
+        ),
+        ("    type Point = tuple\n         ^^^^^\nSyntaxError: invalid syntax", ("program", "python3.12")),
+        ("    typo Point = tuple\n         ^^^^^\nSyntaxError: invalid syntax", None),
         (
             "  subprocess.run(['sudo'])\nFileNotFoundError: [Errno 2] No such file or directory: 'sudo'",
             ("program", "sudo"),

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from preflight_analysis.source.analyse import SourceInterface
 from preflight_analysis.source.known_params import LaunchParams
+from preflight_analysis.source.python_text import requoted
 from support.source_harness import SourceHarness
 
 HEAD = "import rospy\nfrom std_msgs.msg import String\n"
@@ -262,6 +263,33 @@ def test_star_imports_give_types_where_one_package_has_it(harness: Harness) -> N
 )
 def test_what_does_not_parse_costs_no_more_than_itself(harness: Harness, broken: str) -> None:
     assert "before" in harness.topics(f'rospy.Publisher("before", String)\n{broken}\n')
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        """rospy.Publisher(f"{names["a"]}/out", String)""",
+        """rospy.Publisher(f"{"arm" if names else "leg"}/{"out"}", String)""",
+        """type Name = str; rospy.Publisher("arm/out", String)""",
+    ],
+)
+def test_syntax_of_newer_pythons(harness: Harness, line: str) -> None:
+    assert harness.topics(f'names = {{"a": "arm"}}\n{line}\n') == ["arm/out"]
+
+
+@pytest.mark.parametrize(
+    ("line", "other"),
+    [
+        ("""f"{a["b"]}" + f"{c}" """, """f"{a['b']}" + f"{c}" """),
+        ("""f'{{"a"}} {", ".join(b)}'""", """f'{{"a"}} {", ".join(b)}'"""),
+        ("""f"\\"{a + "b"}\\"" """, """f"\\"{a + 'b'}\\"" """),
+        ("""f"{a["it's"]}" """, """f"{a["it's"]}" """),
+        ("""f"{a" + "b" """, """f"{a" + "b" """),
+        ("""if"a"in{"b"}: pass""", """if"a"in{"b"}: pass"""),
+    ],
+)
+def test_quotes_within_those_of_an_f_string(line: str, other: str) -> None:
+    assert requoted(line) == other
 
 
 @pytest.mark.parametrize(

@@ -68,6 +68,7 @@ def _findings(harness: SourceHarness, launch: str) -> dict[str, Finding]:
         'rospy.Publisher("chatter", String, queue_size=numpy.int32(1))',
         'for name in ("a", "b"):\n    rospy.Publisher(name, String)',
         "class Node:\n    def __init__(self):\n        rospy.Publisher('a', String)\nNode()",
+        "class One:\n    def __new__(cls):\n        return super().__new__(cls)\nOne()",
     ],
 )
 def test_all_is_told(harness: SourceHarness, body: str) -> None:
@@ -81,8 +82,15 @@ def test_all_is_told(harness: SourceHarness, body: str) -> None:
         "rospy.get_param('~' + sys.stdin.readline())",
         "import helpers\nhelpers.set_up()",
         "def f(n):\n    rospy.Publisher(f'a{n}', String)\n" + "\n".join(f"f({n})" for n in range(50)),
+        "class Later:\n    def __new__(cls, *args):\n        return Maker(cls, args)\nLater(1)",
     ],
-    ids=["a name that is computed", "a parameter that is computed", "an unknown library", "more than is gone through"],
+    ids=[
+        "a name that is computed",
+        "a parameter that is computed",
+        "an unknown library",
+        "more than is gone through",
+        "a class that makes something else",
+    ],
 )
 def test_there_may_be_more(harness: SourceHarness, body: str) -> None:
     assert not _read(harness, body).whole

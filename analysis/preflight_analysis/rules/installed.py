@@ -47,8 +47,14 @@ _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "
 _NO_KEY = re.compile(r"KeyError: '(\w+)'")
 _NO_LOADED = re.compile(r"KeyError: '([\w.]+)'")
 _NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
-_OPEN_F_STRING = re.compile(r"\b[rR]?[fF][rR]?['\"][^'\"\n]*\{[^}'\"\n]*$", re.MULTILINE)
-"""An expression within a string that goes on in the next line, as Python allows it since 3.12 (PEP 701)."""
+_NEWER_SYNTAX = (
+    re.compile(r"\b[rR]?[fF][rR]?['\"][^'\"\n]*\{[^}'\"\n]*$", re.MULTILINE),
+    re.compile(r"""\b[rR]?[fF][rR]?(["'])(?:\\.|(?!\1)[^\\\n])*\{(?:(?!\1)[^{}\n])*\1[^{}\n]*\1[^{}\n]*\}"""),
+    re.compile(r"^SyntaxError: f-string expression part cannot include a backslash", re.MULTILINE),
+    re.compile(r"^\s*type \w+(?:\[.*\])? = .*\n[\s^]*\nSyntaxError: invalid syntax", re.MULTILINE),
+)
+"""What Python reads since 3.12: within a string an expression that goes on in the next line, one with the quotes of the
+string, and one with a backslash (PEP 701), and aliases of types (PEP 695)."""
 _MADE = ("msg", "srv", "action", "cfg")
 """Modules of a package that its build makes."""
 _LONG = 5
@@ -244,7 +250,7 @@ def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lac
         return lack_of_program(context, found[1])
     if last.startswith("ImportError") and (found := _NO_MODULE.search(whole)):
         return lack_of_module(context, found[1])  # Django says more of it
-    if last.startswith("SyntaxError") and _OPEN_F_STRING.search(whole):
+    if last.startswith("SyntaxError") and any(newer.search(whole) for newer in _NEWER_SYNTAX):
         return lack_of_program(context, "python3.12")
     return None
 

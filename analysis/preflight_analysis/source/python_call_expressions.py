@@ -106,6 +106,9 @@ class CallExpressions(Expressions):
         return self._calls.call(path, args, kwargs, scope.module.path, node.lineno)
 
     def _instantiate(self, cls: Class, args: list[Any], kwargs: dict[str, Any]) -> Any:
+        if isinstance(maker := cls.find("__new__"), Function) and not _makes_own(maker):
+            self._calls.cut_short()
+            return UNKNOWN
         instance = Instance(cls)
         made = cls.find("__init__")
         if isinstance(made, Function):
@@ -190,3 +193,9 @@ class CallExpressions(Expressions):
             if method in ("keys", "values", "items"):
                 return list(getattr(owner, method)())
         return UNKNOWN
+
+
+def _makes_own(maker: Function) -> bool:
+    """Whether a `__new__` asks another one for what it gives, as that of a class with one instance does."""
+    calls = (each.func for each in ast.walk(maker.node) if isinstance(each, ast.Call))
+    return any(isinstance(func, ast.Attribute) and func.attr == "__new__" for func in calls)
