@@ -111,6 +111,22 @@ def test_a_launch_file_that_refuses_for_what_the_machine_lacks(tmp_path: Path, a
     assert finding.message == (said if severity == "info" else "RuntimeError: record first")
 
 
+@pytest.mark.parametrize(
+    ("helper", "said", "severity"),
+    [
+        ("def made(n):\n    raise ValueError(\n'')\n", "map_file is required for localization", "info"),
+        ("def made(n):\n    raise ValueError(\n'')\n", "mode must be one of a and b", "error"),
+        ("def made(n):\n    return {}[map_file]\n", "map_file", "error"),
+    ],
+)
+def test_a_launch_file_that_refuses_an_empty_argument(tmp_path: Path, helper: str, said: str, severity: str) -> None:
+    text = TEXT + "DeclareLaunchArgument('map_file', default_value='')\n"
+    analysis = _launched(tmp_path, _error(tmp_path, "ValueError", said), text=text, helper=helper)
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert (finding.severity, finding.stops_launch) == (severity, True)
+    assert finding.message.endswith("argument 'map_file' is empty") == (severity == "info")
+
+
 def test_a_file_of_somebodys_home_that_a_package_has(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
     (tmp_path / "maps").mkdir()

@@ -36,6 +36,30 @@ def _described(harness: PythonHarness, *actions: str, before: str = "", name: st
     return harness.write(name, text + "".join(f"        {action},\n" for action in actions) + "    ])\n")
 
 
+def test_a_program_may_have_a_name_that_says_no_format(harness: PythonHarness) -> None:
+    _described(harness, "Node(package='p', executable='x', name='n')", name="launch/inner.launch")
+    include = "IncludeLaunchDescription(PythonLaunchDescriptionSource(FindPackageShare('p').find('p') + '{}'))"
+    path = _described(harness, include.format("/launch/inner.launch"), name="launch/outer.launch")
+    analysis = harness.launch(path)
+    assert analysis.tree.complete and not analysis.tree.problems
+    assert [node.name for node in analysis.tree.nodes] == ["/n"]
+
+
+def test_a_text_that_is_set_for_all_nodes_is_read_as_yaml(harness: PythonHarness) -> None:
+    """launch_ros passes it as `-p name:=value`; a component gets it as the text that it is."""
+    path = _described(
+        harness,
+        "SetParameter(name='use_sim_time', value='false')",
+        "SetParameter(name='frame', value='map')",
+        "Node(package='p', executable='x', name='one')",
+        "ComposableNodeContainer(package='rclcpp_components', executable='component_container', name='c', namespace='',"
+        " composable_node_descriptions=[ComposableNode(package='p', plugin='p::N', name='n')])",
+    )
+    nodes = {node.name: {p.name: p.value for p in node.params} for node in harness.launch(path).tree.nodes}
+    assert nodes["/one"] == {"use_sim_time": False, "frame": "map"}
+    assert nodes["/n"] == {"use_sim_time": "false", "frame": "map"}
+
+
 def test_actions_are_evaluated_like_those_of_xml(harness: PythonHarness) -> None:
     params = harness.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n")
     path = _described(

@@ -565,6 +565,10 @@ def generate_launch_description():
         found = "there"
     except FileNotFoundError:
         found = "missing"
+    try:
+        subprocess.run(["no_such_program"], check=True)
+    except subprocess.CalledProcessError:
+        pass
     return LaunchDescription([
         Node(package="p", executable="x", name="one", arguments=[printed.strip(), json.dumps({"a": no_such_module.B})]),
         Node(package="p", executable="x", name=found),
@@ -585,6 +589,7 @@ WHAT_IS_DONE_WITH_IT = {
     "a default among choices": "DeclareLaunchArgument('a', default_value=unknown.a, choices=['a', 'b'])",
     "choices": "DeclareLaunchArgument('a', default_value='c', choices=unknown.kinds())",
     "a text in a list": "', '.join([unknown.name, 'a']), ' '.join(unknown)",
+    "compared with several": "'a.yaml'.endswith(('.yaml', '.yml')), text.startswith(('a', unknown.name()))",
     "replaced": "'/sensing/CAMERA'.replace('CAMERA', unknown.name()), 'a'.startswith(unknown.name())",
     "joined to a path": "os.path.join(share, 'a', unknown.name(), *['b', 'c'])",
     "written": "open('/tmp/a.txt', 'w').write(unknown.text())",

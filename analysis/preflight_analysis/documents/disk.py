@@ -14,7 +14,7 @@ from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
+from preflight_analysis.documents.hash_comments import has_hash_comments, preflight_comments
 from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.incremental.database import Database
@@ -125,7 +125,7 @@ def document_of(db: Database, path: str) -> Document | Unreadable:
         text = _plain(path, data_of(db, path))
     if isinstance(text, Unreadable):
         return text
-    comments = preflight_comments(text.text, text.lines) if path.endswith(HASH_SUFFIXES) else ()
+    comments = preflight_comments(text.text, text.lines) if has_hash_comments(path, text.text) else ()
     return Document(path, text.text, text.digest, comments, (), text.lines)
 
 

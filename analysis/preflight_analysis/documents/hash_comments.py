@@ -6,13 +6,19 @@ import re
 from collections.abc import Iterable
 
 from preflight_analysis.documents.document import Comment, SpannedText
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import LineIndex, Span
 
 MARK = "preflight:"
-HASH_SUFFIXES = (".yaml", ".yml", ".py")
+_HASH_SUFFIXES = (".yaml", ".yml", ".py")
 """Of files whose comments begin with a hash."""
 _COMMENT = re.compile(r"(?P<before>(?:^|(?<=\s)))#(?P<content>[ \t]*preflight:[^\r\n]*)", re.MULTILINE)
 _MORE = re.compile(r"[ \t]*#(?P<content>[^\r\n]*)")
+
+
+def has_hash_comments(path: str, text: str) -> bool:
+    """Whether comments of a file begin with a hash."""
+    return path.endswith(_HASH_SUFFIXES) or is_python(path, text)
 
 
 def preflight_comments(text: str, lines: LineIndex) -> tuple[Comment, ...]:

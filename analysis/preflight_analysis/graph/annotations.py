@@ -19,7 +19,7 @@ from functools import lru_cache
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element, SpannedText
-from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, MARK
+from preflight_analysis.documents.hash_comments import MARK, has_hash_comments
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.xml_text import quoted_attribute
@@ -252,7 +252,7 @@ def annotation_edit(node: LaunchNode, text: str, document: Document) -> Edit | N
     """
     if not text or read_annotation(node.action)[0] is not None:
         return None
-    if document.path.endswith(HASH_SUFFIXES):
+    if has_hash_comments(document.path, document.text):
         return insert_comment_above(node.action, document, _for_hash(text))
     if not document.text[: node.action.head_span.end].endswith(">"):
         return None

@@ -13,6 +13,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.movable import Movable, moved
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.once import Once, each_once
 
@@ -174,6 +175,11 @@ class LaunchFile(Once):
     extra_roots: tuple[Span, ...] = ()
     partial: bool = False
     named: tuple[Substitution, ...] | None = None
+
+    @property
+    def is_python(self) -> bool:
+        """Whether it is a program in Python."""
+        return is_python(self.path, self.document.text)
 
 
 def action_at(launch_file: LaunchFile, offset: int) -> Action | None:

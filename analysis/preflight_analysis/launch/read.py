@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable
 
 from preflight_analysis.catalogue.launches import catalogued_file
+from preflight_analysis.documents.python_text import PYTHON_SUFFIX, is_python
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.xml import parse_xml, without_comments
 from preflight_analysis.documents.yaml import parse_yaml
@@ -22,7 +23,6 @@ from preflight_analysis.launch.ros2_xml import read_ros2_xml
 from preflight_analysis.launch.ros2_yaml import read_ros2_yaml
 
 YAML_SUFFIXES = (".yaml", ".yml")
-PYTHON_SUFFIX = ".py"
 LAUNCH_SUFFIXES = (
     ".launch",
     ".test",
@@ -33,8 +33,6 @@ _OF_XML = {1: read_ros1, 2: read_ros2_xml}
 """Who reads XML, by generation."""
 LAUNCH_FOLDER = "launch"
 """Where packages have their launch files, whatever they are called."""
-LAUNCH_FUNCTION = re.compile(r"^(?:async )?def\s+(generate_launch_description)\b", re.MULTILINE)
-"""What launch calls in a Python launch file."""
 _MAY_HAVE_FUNCTION = re.compile(r"\bgen\w*_desc|^\s*from\s.*\bimport\s+\*", re.MULTILINE)
 
 # Each begins with what is quickly found: all of a long file is looked through on each keystroke.
@@ -91,7 +89,7 @@ def read_launch(
     path, text = source.path, source.text
     if catalogued_file(path) is not None:
         return read_catalogued(source)
-    if path.endswith(PYTHON_SUFFIX):
+    if is_python(path, text):
         return read_ros2_python(source, python())
     if path.endswith(YAML_SUFFIXES):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
@@ -106,7 +104,7 @@ def is_yaml(path: str) -> bool:
 
 def generation_of(path: str, text: str, undecided: int = 1, of_package: OfPackage = no_package) -> int:
     """1 or 2; `undecided` for what has no mark of either, in no package that has one."""
-    if path.endswith((*YAML_SUFFIXES, PYTHON_SUFFIX)):
+    if path.endswith(YAML_SUFFIXES) or is_python(path, text):
         return 2
     code = without_comments(text)
     never_ros1 = _is_never_ros1(code)

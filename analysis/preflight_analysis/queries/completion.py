@@ -12,7 +12,7 @@ from dataclasses import replace
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
+from preflight_analysis.launch.read import is_yaml
 from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.queries.completion_annotation import annotation_place, complete_annotation
 from preflight_analysis.queries.completion_items import Completion, Item
@@ -66,10 +66,10 @@ def _completed(
     if annotation is not None:
         return complete_annotation(ahead_of_runs(analysis), launch_file, annotation, trigger)
     if trigger == ">":
-        return _closing(launch_file, offset) if _is_xml(launch_file.path) else None
+        return _closing(launch_file, offset) if _is_xml(launch_file) else None
     if is_param_file(analysis, launch_file.path):
         return complete_param_file(ahead_of_runs(analysis), launch_file.document, offset, trigger)
-    if launch_file.path.endswith(PYTHON_SUFFIX):
+    if launch_file.is_python:
         return complete_python(analysis, launch_file, offset, files, executables, ahead_of_runs, trigger)
     place = place_in(launch_file, offset)
     if place is None:
@@ -85,8 +85,8 @@ def _completed(
     return Completion(place.word, tuple(_items(launch_file, place)))
 
 
-def _is_xml(path: str) -> bool:
-    return not path.endswith(PYTHON_SUFFIX) and not is_yaml(path)
+def _is_xml(launch_file: LaunchFile) -> bool:
+    return not launch_file.is_python and not is_yaml(launch_file.path)
 
 
 def _closing(launch_file: LaunchFile, offset: int) -> Completion | None:

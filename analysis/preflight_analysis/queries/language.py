@@ -11,7 +11,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.model import LaunchFile, Substitution, action_at
-from preflight_analysis.launch.read import PYTHON_SUFFIX, is_yaml
+from preflight_analysis.launch.read import is_yaml
 from preflight_analysis.launch.schema import Attribute, Kind, Tag
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
@@ -145,7 +145,7 @@ def language_of(launch_file: LaunchFile) -> Language:
 
 def place_in(launch_file: LaunchFile, offset: int) -> Place | None:
     """What kind of place a cursor is in; None where nothing of the language can stand."""
-    if launch_file.path.endswith(PYTHON_SUFFIX):
+    if launch_file.is_python:
         return None
     if is_yaml(launch_file.path):
         return place_at_yaml(launch_file.document, offset)

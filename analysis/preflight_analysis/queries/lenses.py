@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.python_text import LAUNCH_FUNCTION
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
-from preflight_analysis.launch.read import LAUNCH_FUNCTION, PYTHON_SUFFIX
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.index import Root
 
@@ -37,12 +38,12 @@ def lenses(context: QueryContext) -> Lenses | None:
     head = launch_file.root.head_span
     if launch_file.partial and (found := LAUNCH_FUNCTION.search(launch_file.document.text)) is not None:
         head = Span(*found.span(1))
-    return Lenses(head, tuple(places), own, len(nodes), analysis.launch, _why_not(context))
+    return Lenses(head, tuple(places), own, len(nodes), analysis.launch, _why_not(context, launch_file))
 
 
-def _why_not(context: QueryContext) -> str:
+def _why_not(context: QueryContext, launch_file: LaunchFile) -> str:
     """Why a Python launch file has no run; of other formats nothing has to be run."""
-    if not context.path.endswith(PYTHON_SUFFIX):
+    if not launch_file.is_python:
         return ""
     tree = context.trees[0]
     included = {include.origin for include in tree.includes if include.path == context.path}

@@ -8,9 +8,9 @@ import re
 from collections.abc import Callable, Iterator
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import LaunchFile, Value
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.queries.arguments import argument_values, resolved
 from preflight_analysis.queries.cursor_python import written_paths
 from preflight_analysis.workspace.workspace import Analysis
@@ -32,8 +32,8 @@ def links(analysis: Analysis, file: str, exists: Callable[[str], bool] = os.path
     """The files that the evaluation read by name, and what looks like a path in any other value and names a file. In
     Python, where a path is put together in many ways, it is the last piece of it that leads there."""
     exists = functools.cache(exists)
-    if file.endswith(PYTHON_SUFFIX):
-        document = analysis.documents.get(file)
+    document = analysis.documents.get(file)
+    if is_python(file, document.text if document is not None else ""):
         return tuple(_of_python(analysis, file, document.text, exists)) if document is not None else ()
     found: dict[Span, Link] = {}
     for use in analysis.tree.uses:

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.launch.model import NODE_KINDS, Action
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.launch.references import NOT_ARGUMENTS
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.node_names import mentions_of, remap_names, tags_of
@@ -99,8 +99,10 @@ def _checked(context: QueryContext, edits: tuple[Edit, ...]) -> tuple[Edit, ...]
 
 def _is_text(context: QueryContext, place: Location) -> bool:
     """Whether it is what a name of ROS's stands for there, and not in Python a variable of that name."""
-    document = context.document(place.file) if place.file.endswith(PYTHON_SUFFIX) else None
-    return document is None or document.text[place.span.start - 1 : place.span.start] in ("'", '"', "/")
+    document = context.document(place.file)
+    if document is None or not is_python(place.file, document.text):
+        return True
+    return document.text[place.span.start - 1 : place.span.start] in ("'", '"', "/")
 
 
 def _argument_places(context: QueryContext, symbol: NamedSymbol, name: str) -> frozenset[Location]:
@@ -159,9 +161,9 @@ def _node_places(context: QueryContext, symbol: NamedSymbol, name: str) -> froze
         raise RenameRefusedError("The node has no name yet")
     trees = context.all_trees
     own = tuple(_tags_named(context, symbol))
-    runs = [
-        c for tree in context.trees for c in tree.commands if c.launch_file and context.path.endswith(PYTHON_SUFFIX)
-    ]
+    launch_file = context.launch_file(context.path)
+    python = launch_file is not None and launch_file.is_python
+    runs = [command for tree in context.trees for command in tree.commands if command.launch_file and python]
     if any(run.result is None or run.result.status != "done" for run in runs):
         raise RenameRefusedError("The Python launch file was not run: the place of the node's name is unknown")
     if not own:

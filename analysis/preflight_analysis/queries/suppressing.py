@@ -9,14 +9,14 @@ from collections.abc import Iterator
 import yaml
 
 from preflight_analysis.documents.document import Document, Element
-from preflight_analysis.documents.hash_comments import HASH_SUFFIXES, preflight_comments
+from preflight_analysis.documents.hash_comments import has_hash_comments, preflight_comments
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.findings.finding import Edit, Finding
 from preflight_analysis.findings.suppression import read_suppressions
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 
 _BLANKS = re.compile(r"[ \t]*")
 
@@ -43,7 +43,7 @@ def _candidates(document: Document, offset: int, rule: str) -> Iterator[tuple[Sp
             yield Span(end, end), f", {rule}"
     newline = "\r\n" if "\r\n" in text else "\n"
     mark = f"preflight: ignore[{rule}]"
-    comment = f"# {mark}" if document.path.endswith(HASH_SUFFIXES) else f"<!-- {mark} -->"
+    comment = f"# {mark}" if has_hash_comments(document.path, document.text) else f"<!-- {mark} -->"
     for above in dict.fromkeys((line, lines.position(_start_of_tag(document, offset))[0])):
         start = lines.line_start(above)
         blanks = _BLANKS.match(text, start)
@@ -67,7 +67,7 @@ def _start_of_tag(document: Document, offset: int) -> int:
 
 
 def _parsed(path: str, text: str) -> Document:
-    if not path.endswith(HASH_SUFFIXES):
+    if not has_hash_comments(path, text):
         return parse_xml(path, text)
     lines = LineIndex(text)
     return Document(path, text, digest(text), preflight_comments(text, lines), (), lines)
@@ -83,10 +83,10 @@ def _covers(path: str, text: str, offset: int, rule: str) -> bool:
 
 def _means_the_same(document: Document, text: str) -> bool:
     """Whether what was inserted is but a comment."""
-    if document.path.endswith(PYTHON_SUFFIX):
+    if is_python(document.path, document.text):
         before, after = _syntax(document.text), _syntax(text)
         return before == after
-    if document.path.endswith(HASH_SUFFIXES):
+    if has_hash_comments(document.path, document.text):
         before_yaml, after_yaml = parse_yaml(document.path, document.text), parse_yaml(document.path, text)
         return _plain(before_yaml.node) == _plain(after_yaml.node)
     return len(parse_xml(document.path, text).problems) <= len(parse_xml(document.path, document.text).problems)

@@ -191,11 +191,11 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     launch of one file tells."""
     path = context.root
     launch_file = context.launch_files.get(path)
-    python = path.endswith(".py")
     if launch_file is None or launch_file.document.problems or context.tree.includes:
         return
     if any(problems_of(context, ArgumentNeeded)):
         return  # made to be included by another, which knows the argument too
+    python = launch_file.is_python
     if python and (not context.tree.complete or _uses_others(launch_file.document.text)):
         return  # what it was not seen to do may use it, and what helpers of the project do is not in its text
     texts = [document.text for document in context.documents.values()]
@@ -235,7 +235,7 @@ def _passed_in_vain_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
 @memoize_by_file
 def _named_once(launch_file: LaunchFile) -> tuple[tuple[str, Span], ...]:
     """The arguments that a file declares and names nowhere else, not even in a comment."""
-    python, text = launch_file.path.endswith(".py"), launch_file.document.text
+    python, text = launch_file.is_python, launch_file.document.text
     if launch_file.document.problems or (python and _uses_others(text)):
         return ()
     if (_ANY_IN_PYTHON if python else _ANY).search(text):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.documents.hash_comments import has_hash_comments
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.problems import MissingAttribute
@@ -39,7 +40,7 @@ def _message(missing: MissingAttribute) -> str:
 
 def _insertion(context: Context, file: str, tag: Tag, name: str) -> tuple[Fix, ...]:
     document = context.documents.get(file)
-    if document is None or document.path.endswith((".yaml", ".yml", ".py")):
+    if document is None or has_hash_comments(document.path, document.text):
         return ()
     return (Fix(f"Add attribute '{name}'", (insert_attribute(tag.action, document, name),), True),)
 

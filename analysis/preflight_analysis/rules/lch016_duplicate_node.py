@@ -60,7 +60,7 @@ def _in_branches(rule: Rule, context: Context) -> Iterator[Finding]:
     """Nodes of Python launch files that have one name in a branch which this launch need not take."""
     said = {problem.location for problem in problems_of(context, DuplicateNode)}
     for path, launch_file in context.launch_files.items():
-        for twice in made_twice(launch_file) if path.endswith(".py") else ():
+        for twice in made_twice(launch_file) if launch_file.is_python else ():
             first, second = context.location(path, twice.first), context.location(path, twice.second)
             if said.isdisjoint((first, second)):
                 yield rule.finding(

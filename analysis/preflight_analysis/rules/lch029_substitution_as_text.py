@@ -67,7 +67,7 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     # The last place in a launch file is that of the tag, or of its attribute that names the file.
     where = next((at for at in reversed(param.origin) if at.file in context.launch_files), None)
     tag = (tags.around(where) or tags.at(where)) if where is not None else None
-    python = where is not None and where.file.endswith(".py")
+    python = where is not None and context.launch_files[where.file].is_python
     if where is None or not (python or (tag is not None and tag.action.kind == tag_name)):
         return
     if tag is not None and tag.action.attribute("name" if ament else attribute) is not None:

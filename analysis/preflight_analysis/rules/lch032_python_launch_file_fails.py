@@ -3,6 +3,8 @@
 import re
 from collections.abc import Iterator
 
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.reach import within
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
@@ -16,6 +18,8 @@ from preflight_analysis.rules.problems import problem_finding, problems_of, show
 from preflight_analysis.rules.rule import Context, Rule
 
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
+_RAISE = re.compile(r"\s*raise\b")
+_WORD = re.compile(r"\w+")
 _LAUNCH = re.compile(r"launch(_\w+)?\Z")
 
 
@@ -43,6 +47,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                         severity, message = "info", f"{message}; this machine has no '{top}'"
                 elif absent and not _is_of_workspace(context, absent):
                     severity, message = "info", f"{message}; this machine has no '{absent}'"
+                elif (name := _empty_argument(context, frames, said)) is not None:
+                    severity, message = "info", f"{message}; argument '{name}' is empty"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
@@ -54,6 +60,15 @@ def _is_of_workspace(context: Context, path: str) -> bool:
     """Whether a path is that of something which a package or the workspace has, and not the machine or the robot."""
     folders = context.environment.workspace_folders
     return any(within(path, folder) for folder in folders) or package_around(context.environment, path) is not None
+
+
+def _empty_argument(context: Context, frames: tuple[Location, ...], said: str) -> str | None:
+    """The argument that has to be given: it is empty, and the program itself raises and names it."""
+    document = context.disk.text(frames[-1].file) if frames else None
+    if not isinstance(document, Document) or _RAISE.match(document.text, frames[-1].span.start) is None:
+        return None
+    words = set(_WORD.findall(said))
+    return next((name for name, arg in context.tree.args.items() if arg.value == "" and name in words), None)
 
 
 def _near_file(context: Context, error: str, said: str) -> str | None:
@@ -103,7 +118,8 @@ RULE = Rule(
     what="Checks for the line of a Python launch file that raises an exception. It may raise while it is loaded, in "
     "`generate_launch_description`, in an `OpaqueFunction`, or in an action with invalid arguments. Such files run "
     "in the sandbox if the workspace is trusted. Nothing of what they describe is started. The finding is "
-    "information if the file itself raises because a program, or a file outside of the workspace, is missing.",
+    "information if the file itself raises because a program, or a file outside of the workspace, is missing, or because "
+    "an argument is empty that its message names.",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',

@@ -27,7 +27,7 @@ _BREAKS = "/_-.:,=@[](){}"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
-        for first, span, parts in _glued(launch_file) if path.endswith(".py") else ():
+        for first, span, parts in _glued(launch_file) if launch_file.is_python else ():
             comma = context.location(path, Span(first, first))
             yield rule.finding(
                 f"missing comma: {quoted(parts)} are one string '{shortened(''.join(parts))}'",

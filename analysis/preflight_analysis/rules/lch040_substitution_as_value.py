@@ -18,7 +18,7 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
-        for span, message in _asked(launch_file) if path.endswith(".py") else ():
+        for span, message in _asked(launch_file) if launch_file.is_python else ():
             yield rule.finding(message, context.location(path, span), confidence="likely")
 
 

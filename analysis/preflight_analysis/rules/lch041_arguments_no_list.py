@@ -25,7 +25,7 @@ _TAKE_LISTS = {
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
-        for span, message in _no_lists(launch_file) if path.endswith(".py") else ():
+        for span, message in _no_lists(launch_file) if launch_file.is_python else ():
             yield rule.finding(message, context.location(path, span))
 
 

@@ -34,7 +34,7 @@ class _Lost(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
-        for lost in _lost(launch_file) if path.endswith(".py") else ():
+        for lost in _lost(launch_file) if launch_file.is_python else ():
             message = f"'{lost.name}' is assigned again before its first use: this {lost.kind} is never launched"
             yield rule.finding(
                 f"{message}, the next one is the same" if lost.same else message,

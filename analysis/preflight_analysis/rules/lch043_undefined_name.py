@@ -32,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # Where the run came to it, its exception says it.
     raised = {problem.location.file for problem in problems_of(context, PythonException)}
     for path, launch_file in context.launch_files.items():
-        for name, near, span, called in _undefined(launch_file) if path.endswith(".py") and path not in raised else ():
+        for name, near, span, called in _undefined(launch_file) if launch_file.is_python and path not in raised else ():
             yield rule.finding(
                 f"undefined name '{name}'; this line raises a NameError{did_you_mean(near)}",
                 context.location(path, span),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.installed_paths import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.environment.model import Package
@@ -87,7 +88,7 @@ def _by_share(context: Context, location: Location) -> bool:
     document = context.documents.get(location.file)
     if document is None:
         return False
-    if location.file.endswith(".py"):
+    if is_python(document.path, document.text):
         return "__file__" not in document.text and any(name in document.text for name in _IN_PYTHON)
     return "find-pkg-share" in document.text[location.span.start : location.span.end]
 

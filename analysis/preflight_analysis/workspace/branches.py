@@ -17,6 +17,7 @@ from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.conditions import VARIABLE, named_arguments
 from preflight_analysis.evaluation.inversion import Assignment, assignments
@@ -24,7 +25,6 @@ from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.rules.problems import INCLUDED_HERE
 from preflight_analysis.workspace.index import Root
 
@@ -269,10 +269,12 @@ def _depends(finding: Finding, left_out: NotTaken, documents: Mapping[str, Docum
     the arguments themselves does not."""
     if finding.rule in _OF_ARGUMENTS:
         return False
-    in_python = left_out.origin[-1].file.endswith(PYTHON_SUFFIX)
+    file = left_out.origin[-1].file
+    document = documents.get(file)
+    in_python = is_python(file, document.text if document is not None else "")
     if finding.rule == _OF_VALUES and in_python and not named_arguments(left_out.written):
         return True
-    if finding.location.file == left_out.origin[-1].file and not in_python:
+    if finding.location.file == file and not in_python:
         return _ARGUMENT.search(_text(finding, documents)) is not None
     return any(
         named_arguments(attribute.value)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import replace
 from functools import partial
 
+from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, PYTHON_SUFFIX
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.installed_paths import installed_at, package_around
 from preflight_analysis.environment.model import Package
@@ -16,7 +17,7 @@ from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
-from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_module
+from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_SUFFIXES, is_module
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.observations import Notes

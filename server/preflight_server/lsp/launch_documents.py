@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import re
 
-from preflight_analysis.launch.read import LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX, is_module, is_yaml
+from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, is_python
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES, is_module, is_yaml
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -49,7 +50,7 @@ def _is_launch(text: str) -> bool:
 def is_python_launch_file(document: OpenDocument) -> bool:
     """By its name, or by the function that launch calls. The user's Python language server has it too: we say only
     what is ours to say."""
-    if document.path is None or not document.path.endswith(PYTHON_SUFFIX):
+    if document.path is None or not is_python(document.path, document.text):
         return False
     is_named = document.path.endswith(LAUNCH_SUFFIXES) and not is_module(document.path, document.text)
     return is_named or LAUNCH_FUNCTION.search(document.text) is not None

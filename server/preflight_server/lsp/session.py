@@ -12,11 +12,11 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, TypeVar
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
@@ -232,10 +232,10 @@ class Session:
         return launch_file, analysis
 
     def _newest(self, path: str) -> LaunchFile | Unreadable:
-        if not path.endswith(PYTHON_SUFFIX):
-            return self._sources.launch_file(path)
         text = self._sources.text(path)
-        return text if isinstance(text, Unreadable) else LaunchFile(path, 2, None, text, partial=True)
+        if isinstance(text, Unreadable) or not is_python(path, text.text):
+            return self._sources.launch_file(path)
+        return LaunchFile(path, 2, None, text, partial=True)
 
     @property
     def focus(self) -> str | None:

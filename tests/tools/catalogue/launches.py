@@ -19,6 +19,7 @@ from typing import Any
 
 import yaml
 from preflight_analysis.catalogue.launches import LAUNCHES, CataloguedFile, path_of
+from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, PYTHON_SUFFIX
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.environment.installed_paths import installed_at
@@ -28,7 +29,7 @@ from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_source import PythonSource
-from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_FUNCTION, LAUNCH_SUFFIXES, PYTHON_SUFFIX
+from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_SUFFIXES
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root

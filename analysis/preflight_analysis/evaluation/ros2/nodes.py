@@ -270,7 +270,7 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
     """Pushed parameters first, then those of the node, in the order in which launch passes them."""
     node = to.owner
     for pushed in performer.context.params:
-        to.add(pushed_source(performer, pushed, to))
+        to.add(pushed_source(performer, pushed, to, as_text=not must_exist))
     for child in action.children:
         origin = performer.place.origin(child.head_span)
         if child.kind == "param_dict":

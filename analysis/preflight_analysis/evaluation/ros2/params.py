@@ -135,13 +135,23 @@ def _item(performer: Performer, item: Any, type_name: str | None) -> Any:
     return coerce(result.text, type_name) if result.known else _UNKNOWN
 
 
-def pushed_source(performer: Performer, param: PushedParam, to: Sources) -> ParamSource | None:
-    """What `<set_parameter>` or `<set_parameters_from_file>` give to a node."""
+def pushed_source(performer: Performer, param: PushedParam, to: Sources, *, as_text: bool) -> ParamSource | None:
+    """What `<set_parameter>` or `<set_parameters_from_file>` give to a node. `as_text`: on its command line
+    (`-p name:=value`), where rcl reads a text as YAML again; a component gets values."""
     if param.name is not None:
-        value = Param(param.name, param.value, param.origin, to.owner)
+        given = _reread(param.value) if as_text and isinstance(param.value, str) else param.value
+        value = Param(param.name, given, param.origin, to.owner)
         return ParamSource(None, (value,), param.origin, (EVERY,), pushed=True)
     path = os.path.join(performer.state.cwd, str(param.value))
     return file_source(performer, path, param.origin, to, must_exist=True)
+
+
+def _reread(text: str) -> Any:
+    try:
+        found = loaded(text) if text else text
+    except CONSTRUCTION_ERRORS:
+        return text
+    return found if is_valid(found) else text
 
 
 def file_source(

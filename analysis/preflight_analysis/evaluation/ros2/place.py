@@ -9,14 +9,15 @@ from typing import Any
 
 from preflight_analysis.catalogue.launches import SUFFIX
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.python_text import PYTHON_SUFFIX, is_python
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.tree import Tag
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_source import PythonSource
-from preflight_analysis.launch.read import PYTHON_SUFFIX, YAML_SUFFIXES
+from preflight_analysis.launch.read import YAML_SUFFIXES
 
-_OF_PYTHON = (PYTHON_SUFFIX, PYTHON_SUFFIX + SUFFIX)
-"""Of a program, and of what the catalogue has of one."""
+_CATALOGUED_PYTHON = PYTHON_SUFFIX + SUFFIX
+"""Of what the catalogue has of a program."""
 _SAID_ELSEWHERE = re.compile(r"\*[\w-]|!")
 """In YAML: an alias, or a tag, which a directive may define."""
 
@@ -55,7 +56,7 @@ class Place:
     @property
     def is_python(self) -> bool:
         """Whether its actions were made by a program in Python."""
-        return self.file.endswith(_OF_PYTHON)
+        return self.file.endswith(_CATALOGUED_PYTHON) or is_python(self.file, self.lines.text)
 
     def location(self, span: Span) -> Location:
         """A place in the file."""

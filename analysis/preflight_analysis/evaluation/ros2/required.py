@@ -21,7 +21,6 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.launch.python_classes import NO_CLASSES
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 
 
 def check_required(walk: Walk, launch_file: LaunchFile, passed: list[str], include: Origin | None) -> None:
@@ -76,7 +75,7 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
         return None
-    if found.path.endswith(PYTHON_SUFFIX):
+    if found.is_python:
         # Whether it is executed at all is not known yet: launch keeps to itself what it raises now.
         quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
         quiet.commands, quiet.inputs = state.commands, state.inputs

@@ -37,7 +37,6 @@ from preflight_analysis.evaluation.tree import Condition, NotTaken
 from preflight_analysis.launch.configurations import configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.launch.schema import Tag
 
 _CONDITIONS: tuple[Condition, ...] = ("if", "unless")
@@ -46,7 +45,7 @@ MAX_DEPTH = 150
 MAX_INCLUDES = 2_000
 MAX_DEPTH_OF_PARTS = 24
 """Of includes within each other; what is deeper is evaluated where it is, as Python's stack has an end."""
-_MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml, PYTHON_SUFFIX: MalformedPython}
+_MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml}
 _SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
 """What can be said of a Python launch file that was not run."""
 
@@ -115,7 +114,8 @@ class Walk:
         state.visited.setdefault(place.file)
         self._note_names(launch_file)
         for problem in document.problems:
-            kind = _MALFORMED.get(os.path.splitext(place.file)[1], MalformedXml)
+            other = MalformedPython if place.is_python else MalformedXml
+            kind = _MALFORMED.get(os.path.splitext(place.file)[1], other)
             state.problem(kind(problem.message), place.origin(problem.span))
         for name, span in document.entities:
             state.problem(UnexpandedEntity(name), place.origin(span))
@@ -141,7 +141,7 @@ class Walk:
 
     def as_run(self, launch_file: LaunchFile, chain: Origin) -> tuple[LaunchFile, PythonRun | None]:
         """A Python launch file as its run tells it; any other is itself."""
-        if not launch_file.path.endswith(PYTHON_SUFFIX):
+        if not launch_file.is_python:
             return launch_file, None
         found, run = recorded(self.state, self.context, launch_file, chain)
         self.recorded[launch_file.path] = found

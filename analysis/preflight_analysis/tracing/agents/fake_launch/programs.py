@@ -22,7 +22,8 @@ from .base import OURS, RECORDER, is_own
 
 PRINTED = "preflight_printed"
 """The folder, in the one of temporary files, that has what such programs print."""
-_ERRORS = ("FileNotFoundError", "OSError", "CalledProcessError")
+_ERRORS = ("FileNotFoundError", "OSError")
+_ERRORS_OF_SHELLS = (*_ERRORS, "CalledProcessError")
 _OF_SHELLS = frozenset("|&;<>$`(){}*?~#\n")
 _JOINS = re.compile(r"[|&;\n]+")
 _INTO_FILE = re.compile(r"(?<=\S)\s*(?<![\d&>])>\s*([^\s|&;<>]+)\s*\Z")
@@ -67,7 +68,8 @@ def _is_own_xacro(words: list[str]) -> bool:
 def _is_missing(line: Any, frame: Any) -> bool:
     words = _words(line)
     missing = bool(words) and os.sep not in words[0] and shutil.which(words[0]) is None
-    return (missing or _shell_lacks(line)) and not provided_for(frame, _ERRORS)
+    errors = _ERRORS_OF_SHELLS if isinstance(line, str) else _ERRORS
+    return (missing or _shell_lacks(line)) and not provided_for(frame, errors)
 
 
 def _shell_lacks(line: Any) -> bool:

@@ -173,7 +173,8 @@ def _as_text(value: Any) -> Any:
         return str(value)
     if type(value) not in _PASSED:
         return value
-    return [str(each) if isinstance(each, Anything) else each for each in value]
+    texts = [str(each) if isinstance(each, Anything) else each for each in value]
+    return tuple(texts) if isinstance(value, tuple) else texts
 
 
 def _as_code(text: Any) -> Any:
