@@ -59,6 +59,46 @@ def test_parameters_that_are_written_once_for_several_nodes() -> None:
     """)
 
 
+def test_what_is_written_for_whoever_wants_it() -> None:
+    """A file of the robot has what some node may want; a slip in it is one all the same."""
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="left" name="left"><param from="/robot.yaml"/></node>
+        </launch>
+        //- /robot.yaml
+        /**:
+          ros__parameters:
+            mass_kg: 4.0
+            ^^^^^^^ info[PRM013] parameter 'mass_kg' is not declared by /left; its value is ignored
+            sped: 1.0
+            ^^^^ warning[PRM013] parameter 'sped' is not declared by /left; its value is ignored; did you mean 'speed'?
+        left:
+          ros__parameters:
+            mass: 4.0
+            ^^^^ warning[PRM013] parameter 'mass' is not declared by /left; its value is ignored
+        //- interfaces
+        {"/left": {"params": {"~speed": 6.0}}}
+    """)
+
+
+def test_a_group_that_another_parameter_chooses() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="radio" name="radio">
+            <param name="device" value="near"/>
+            <param name="devices.rocket.host" value="a"/>
+                         ^^^^^^^^^^^^^^^^^^^ info[PRM013] parameter 'devices.rocket.host' is not declared by
+            <param name="devices.rocket.post" value="a"/>
+                         ^^^^^^^^^^^^^^^^^^^ warning[PRM013] parameter 'devices.rocket.post' is not declared by
+          </node>
+        </launch>
+        //- interfaces
+        {"/radio": {"params": {"~device": "near", "~devices.near.host": "b"}}}
+    """)
+
+
 def test_what_a_section_shares_and_what_is_given_besides_is_not_near() -> None:
     found = check("""
         //- /robot.launch.xml

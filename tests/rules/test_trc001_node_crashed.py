@@ -246,6 +246,10 @@ def test_a_crash_for_want_of_what_an_unknown_include_may_set() -> None:
         ("    f'at {rate} Hz)\n    ^\nSyntaxError: unterminated string literal", None),
         ("""    x = f"{a["b"]}"\n    ^\nSyntaxError: f-string: unmatched '['""", ("program", "python3.12")),
         ("""    x = f"\\"{a + "b"}\\""\n    ^\nSyntaxError: f-string: expecting '}'""", ("program", "python3.12")),
+        (
+            """    x = f"{get(f"{a}.b").c} d"\n    ^\nSyntaxError: f-string: unmatched '('""",
+            ("program", "python3.12"),
+        ),
         ("""    x = f"{a" + "b"\n    ^\nSyntaxError: f-string: expecting '}'""", None),
         (
             "    x = f'{'\\n'}'\n    ^\nSyntaxError: f-string expression part cannot include a backslash",

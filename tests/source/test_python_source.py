@@ -281,6 +281,7 @@ def test_syntax_of_newer_pythons(harness: Harness, line: str) -> None:
     ("line", "other"),
     [
         ("""f"{a["b"]}" + f"{c}" """, """f"{a['b']}" + f"{c}" """),
+        ("""f"{a(f"{b}.c").d} e" """, """f"{a(f'{b}.c').d} e" """),
         ("""f'{{"a"}} {", ".join(b)}'""", """f'{{"a"}} {", ".join(b)}'"""),
         ("""f"\\"{a + "b"}\\"" """, """f"\\"{a + 'b'}\\"" """),
         ("""f"{a["it's"]}" """, """f"{a["it's"]}" """),

@@ -49,7 +49,7 @@ _NO_LOADED = re.compile(r"KeyError: '([\w.]+)'")
 _NOT_STARTED = re.compile(r"FileNotFoundError: \[Errno 2\] No such file or directory: '([\w.+-]+)'")
 _NEWER_SYNTAX = (
     re.compile(r"\b[rR]?[fF][rR]?['\"][^'\"\n]*\{[^}'\"\n]*$", re.MULTILINE),
-    re.compile(r"""\b[rR]?[fF][rR]?(["'])(?:\\.|(?!\1)[^\\\n])*\{(?:(?!\1)[^{}\n])*\1[^{}\n]*\1[^{}\n]*\}"""),
+    re.compile(r"""\b[rR]?[fF][rR]?(["'])(?:\\.|(?!\1)[^\\\n])*\{(?:(?!\1)[^{}\n])*\1[^\n]*\1[^{}\n]*\}"""),
     re.compile(r"^SyntaxError: f-string expression part cannot include a backslash", re.MULTILINE),
     re.compile(r"^\s*type \w+(?:\[.*\])? = .*\n[\s^]*\nSyntaxError: invalid syntax", re.MULTILINE),
 )

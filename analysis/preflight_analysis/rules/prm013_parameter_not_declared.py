@@ -4,6 +4,8 @@ import re
 from collections.abc import Collection, Iterable, Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
@@ -60,7 +62,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
             in_full = interface.known_in_full
-            severity: Severity = "warning" if near or in_full else "info"
+            spared = near is None and (_is_for_all(context, node, param) or _is_other_choice(param.name, declared))
+            severity: Severity = "warning" if near or (in_full and not spared) else "info"
             use = declared.get(near) if near is not None else None
             related = [related_node(node)]
             yield rule.finding(
@@ -104,6 +107,34 @@ def _declared(node: LaunchNode, interface: Interface) -> dict[str, ParamUse] | N
     return {use.name.removeprefix("~"): use for use in uses}
 
 
+def _is_for_all(context: Context, node: LaunchNode, param: Param) -> bool:
+    """Whether it is written for whoever wants it: below `/**` in a file that is not the node's own."""
+    path = next(
+        (
+            source.path
+            for source in node.param_sources
+            for key, each in zip(source.keys, source.params, strict=False)
+            if key == EVERY and each.name_location == param.name_location
+        ),
+        None,
+    )
+    if path is None:
+        return False
+    owner = package_around(context.environment, path)
+    return owner is None or owner.name != node.package
+
+
+def _is_other_choice(name: str, declared: Collection[str]) -> bool:
+    """Whether the node declares the same of another group (`devices.left.port` beside `devices.right.port`): another
+    parameter chooses which group counts."""
+    parts = name.split(".")
+    alike = (other for other in (each.split(".") for each in declared) if len(other) == len(parts))
+    return any(
+        parts[-1] == other[-1] and sum(one != another for one, another in zip(parts, other, strict=True)) == 1
+        for other in alike
+    )
+
+
 def _near(name: str, others: Collection[str]) -> str | None:
     """The parameter that was probably meant; what all of a section share says nothing."""
     near = nearest(name, others)
@@ -131,7 +162,8 @@ RULE = Rule(
     what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. The "
     "finding names the nearest declared parameter. Nodes that accept undeclared parameters are checked for a typo "
     "of `use_sim_time` only. Parameters of controllers of ros2_control are not checked. A value that several nodes "
-    "share is not reported if one of them, in any launch, declares it.",
+    "share is not reported if one of them, in any launch, declares it. Without a near name the finding is information "
+    "below `/**` in the file of another package, and for another group of parameters that the node declares.",
     why="The client libraries ignore the value without an error, and the node uses its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',
