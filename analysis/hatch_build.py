@@ -2,8 +2,8 @@
 
 They are files of data that are only used where they fit (`tracing/preload.py`), so a wheel with them may be one for all
 platforms. `ROS_PREFLIGHT_PREBUILT` says what is built: `0` a wheel without them, `1` one with those for all processors,
-a platform tag such as `manylinux_2_28_x86_64` one for that platform with those for it. Where it is not set the wheel has
-those for which there is a compiler.
+a platform tag such as `manylinux_2_28_x86_64` one for that platform with those for it. Where it is not set the wheel
+has those for which there is a compiler.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ export class StatusBar implements Disposable {
     this.badge.name = "ROS Preflight: Workspace Trust";
     this.badge.text = "$(shield) Not trusted: nodes are not run";
     this.badge.tooltip =
-      "Launch files are checked. Nothing of this workspace is executed. Click to manage Workspace Trust.";
+      "Launch files are checked. Nothing from this workspace is executed. Click to manage Workspace Trust.";
     this.badge.backgroundColor = new ThemeColor("statusBarItem.warningBackground");
     this.badge.command = "workbench.trust.manage";
   }

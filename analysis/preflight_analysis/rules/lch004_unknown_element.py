@@ -67,7 +67,7 @@ RULE = Rule(
     severity="warning",
     what="Checks for an element that is not valid in its parent. The finding names the nearest valid element.",
     why="`roslaunch` prints one line among many others and skips the element with its content. The parameter is not "
-    "set, or the node is not started. `ros2 launch` stops and starts nothing of the file. A package with the entry "
+    "set, or the node is not started. `ros2 launch` stops and starts nothing from the file. A package with the entry "
     "point `launch.frontend.launch_extension` can define further tags. The tags of the workspace and of the sourced "
     "ROS are known.",
     example='<node pkg="camera" type="driver" name="camera">\n  <parm name="rate" value="30"/>\n</node>',

@@ -36,7 +36,7 @@ RULE = Rule(
     name="unknown-attribute",
     severity="warning",
     what="Checks for an attribute that the element does not have. The finding names the nearest valid attribute.",
-    why="`roslaunch` prints a warning and ignores the attribute. `ros2 launch` stops and starts nothing of the file.",
+    why="`roslaunch` prints a warning and ignores the attribute. `ros2 launch` stops and starts nothing from the file.",
     example='<node pkg="camera" type="driver" name="camera" respwan="true"/>',
     instead='<node pkg="camera" type="driver" name="camera" respawn="true"/>',
     references=(

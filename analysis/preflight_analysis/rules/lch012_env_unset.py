@@ -33,7 +33,7 @@ RULE = Rule(
     name="environment-variable-unset",
     severity="warning",
     what="Checks for `$(env NAME)`, or `os.environ['NAME']` in a Python launch file, of a variable that is not set. "
-    "Its name is a typo of one that is set. Any other variable may be set on the robot: this is a hint, listed with "
+    "Its name is similar to one that is set. Any other variable may be set on the robot: this is a hint, listed with "
     "what is missing on this machine. The value of `ROS_DISTRO` that a Python launch file gets without a sourced or "
     "installed distribution is such a hint too.",
     why="The launcher stops if the variable is not set.",

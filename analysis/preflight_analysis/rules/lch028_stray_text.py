@@ -47,7 +47,7 @@ RULE = Rule(
     severity="warning",
     what="Checks for text between the tags of a launch file, outside of `<rosparam>`. A remark, or the content of a "
     "`CDATA` section, is a hint.",
-    why="XML_STANDARD allows such text and `roslaunch` ignores it. It may be a tag that has lost its `<`, so that a "
+    why="XML allows such text and `roslaunch` ignores it. It may be a tag that has lost its `<`, so that a "
     "node is never started. It may also be a comment without its marks.",
     example='<launch>\n  node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',
     instead='<launch>\n  <node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',

@@ -117,7 +117,7 @@ RULE = Rule(
     severity="error",
     what="Checks for the line of a Python launch file that raises an exception. It may raise while it is loaded, in "
     "`generate_launch_description`, in an `OpaqueFunction`, or in an action with invalid arguments. Such files run "
-    "in the sandbox if the workspace is trusted. Nothing of what they describe is started. The finding is "
+    "in the sandbox if the workspace is trusted. Nothing that they describe is started. The finding is "
     "information if the file itself raises because a program, or a file outside of the workspace, is missing, or "
     "because an argument is empty that its message names.",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",

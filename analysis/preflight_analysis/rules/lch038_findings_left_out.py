@@ -32,7 +32,7 @@ RULE = Rule(
     why="A faulty program, or an attack on the editor, makes a file with so many findings. Showing them takes "
     "longer than finding them.",
     example="<launch>\n  <!-- ten thousand unknown tags -->\n</launch>",
-    instead="Correct the first findings, and suppress or switch off the rule that speaks most.",
+    instead="Correct the first findings, and suppress or switch off the rule with the most findings.",
     references=(SECURITY,),
     check=_check,
     left_out=_left_out,

@@ -152,8 +152,8 @@ RULE = Rule(
     id="PRM009",
     name="parameter-type",
     severity="warning",
-    what="Checks for a parameter whose value has another kind than the default with which a node reads it. Reported "
-    "are a text for a number, a list or a boolean, and a list for a single value. An integer for a float is valid. "
+    what="Checks for a parameter whose value has another kind than the default with which a node reads it. It "
+    "reports a text for a number, a list or a boolean, and a list for a single value. An integer for a float is valid. "
     'Defaults that mean "not set" (`False`, `0`, an empty text) are not compared.',
     why="Some nodes crash, some use the default, and some read `off` as true. For `roslaunch` the values `1e3`, "
     "`0x10` and `1_000` are texts.",

@@ -73,8 +73,8 @@ RULE = Rule(
     id="PRM016",
     name="parameter-file-refused",
     severity="error",
-    what="Checks for parameter files that are valid YAML and that rcl refuses. Reported are a list of mixed types "
-    "such as `[1, 2.5]` and a list of lists. So are a parameter without a value and a key with a slash below "
+    what="Checks for parameter files that are valid YAML and that rcl refuses. It reports a list of mixed types "
+    "such as `[1, 2.5]` and a list of lists. It reports a parameter without a value and a key with a slash below "
     "another key. `y`, `n`, `on` and `off` are bools, so `[x, y, z]` is a list of mixed types, in a launch file "
     "too. A parameter file of the package that no node of the launch gets is a warning. A program or an argument "
     "may use it.",

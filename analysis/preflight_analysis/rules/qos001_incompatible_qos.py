@@ -77,7 +77,7 @@ RULE = Rule(
     name="incompatible-qos",
     severity="error",
     what="Checks for a publisher and a subscriber of one topic with incompatible QoS: the subscriber requests more "
-    "than the publisher offers. Compared are reliability, durability, liveliness and deadline.",
+    "than the publisher offers. It compares reliability, durability, liveliness and deadline.",
     why="The middleware does not connect them, and no message arrives. At best each side logs a line about "
     "incompatible QoS.",
     example="<!-- the driver publishes /scan as best effort, the filter subscribes to it as reliable -->\n"

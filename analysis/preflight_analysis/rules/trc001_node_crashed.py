@@ -189,8 +189,8 @@ RULE = Rule(
     "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
     "ignores. A module that the program reports as missing, an argument without a value, "
     "a `<test>`, and a program that a signal kills in a shell script, are information too.",
-    why="With these parameters and arguments the node most likely exits on the robot too. Only what it did before "
-    "is known.",
+    why="With these parameters and arguments the node most likely exits on the robot too. What it does "
+    "later is unknown.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
     instead='<param name="model" value="$(find my_package)/config/model.json"/>',
     references=(

@@ -29,7 +29,7 @@ RULE = Rule(
     severity="info",
     what="Checks for a node that exits with code 0 before its event loop.",
     why="Some nodes do their work and exit. If the node should keep running, it lacks its loop or has given up. "
-    "Only what it did before is known.",
+    "What it does later is unknown.",
     example="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)",
     instead="def main():\n    rospy.init_node('listener')\n    rospy.Subscriber('chatter', String, callback)\n"
     "    rospy.spin()",

@@ -38,7 +38,7 @@ RULE = Rule(
     severity="info",
     what="Checks for events in the run of a node in the sandbox: a refused write, no exit on request, too much "
     "output, or a mock reply. An import that is missing on this machine, and replaced by a stand-in, is a hint.",
-    why="Nothing of this reached the machine, but on the robot it does. After a refusal or a mock reply the "
+    why="The sandbox stopped these effects; on the robot they happen. After a refusal or a mock reply the "
     "node may behave differently than on the robot.",
     example="open('/home/me/.calibration', 'w')",
     instead="open(os.path.join(rospkg.get_ros_home(), 'calibration'), 'w')",
