@@ -14,7 +14,17 @@ from support.editor_harness import Harness
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
 
-VERBS = [["check"], ["tree"], ["trace"], ["graph"], ["watch", "--once", "--timeout", "0.1"], ["doctor", "--no-run"]]
+VERBS = [
+    ["check"],
+    ["tree"],
+    ["trace"],
+    ["graph"],
+    ["why", "talker", "listener"],
+    ["where", "rate"],
+    ["snapshot"],
+    ["watch", "--once", "--timeout", "0.1"],
+    ["doctor", "--no-run"],
+]
 BELOW = "launch/talker_listener.launch"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.document import Element, Node, Text
 from preflight_analysis.documents.reading import Unreadable
@@ -10,13 +10,13 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.markdown import code, escaped
-from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
+from preflight_analysis.queries.parameters import parameter
 from preflight_analysis.queries.places import action_at, link, place
 from preflight_analysis.queries.query_context import QueryContext
-from preflight_analysis.queries.symbol_at import NamedSymbol, own_parameter, settings_of, symbol_at
+from preflight_analysis.queries.symbol_at import NamedSymbol, symbol_at
 from preflight_analysis.tracing.interface import ParamUse
 from preflight_analysis.workspace.facts import declaration
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -85,42 +85,28 @@ def _parameters(context: QueryContext, symbol: NamedSymbol) -> Iterator[str]:
 
 
 def _parameter(analysis: Analysis, name: str) -> str | None:
-    settings = [param for full, param in settings_of(analysis.tree) if full == name]
-    uses = [(each.node.name, each.use) for each in _reads(analysis, name)]
-    if not settings and not uses:
+    found = parameter(analysis, name)
+    if found is None:
         return None
-    node, _, own = name.partition(":")
-    title = f"parameter {code(own)} of {code(node)}" if own else f"parameter {code(name)}"
-    declared = next((use for _, use in uses if use.access != "set" and (use.has_default or use.type)), None)
-    kind = default_text(declared) if declared is not None else ""
+    title = f"parameter {code(found.own)} of {code(found.node)}" if found.node else f"parameter {code(name)}"
+    kind = default_text(found.declared) if found.declared is not None else ""
     lines = [f"{title}{f': {kind}' if kind else ''}"]
-    lines += ["", *_settings(analysis, settings)] if settings else ["", "Not set in this launch."]
-    lines += ["", *_users(analysis, uses)]
+    lines += ["", *_settings(analysis, found.settings)] if found.settings else ["", "Not set in this launch."]
+    lines += ["", *_users(analysis, found.uses)]
     return "\n".join(lines)
 
 
-def _reads(analysis: Analysis, name: str) -> Iterator[ParamRead]:
-    graph = analysis.graph
-    for read in graph.param_reads if graph is not None else ():
-        full = own_parameter(read.node, read.use.name) if analysis.tree.ros.own_parameters else read.name
-        if full == name:
-            yield read
-
-
-def _settings(analysis: Analysis, settings: list[Param]) -> Iterator[str]:
-    """The places that set it, the one that counts first, as the last one does."""
-    seen: dict[Location, Param] = {}
-    for param in reversed(settings):
-        seen.setdefault(param.place, param)
-    for number, param in enumerate(list(seen.values())[:_SHOWN]):
+def _settings(analysis: Analysis, settings: Sequence[Param]) -> Iterator[str]:
+    """The places that set it, the one that applies first."""
+    for number, param in enumerate(settings[:_SHOWN]):
         kind = type_text(param.value)
         text = f"{value_text(param.value)}{f' ({kind})' if kind else ''} set at {place(analysis, param.place)}"
         yield f"- **{text}**" if not number else f"- {text}, overridden"
-    if len(seen) > _SHOWN:
-        yield f"- … and {len(seen) - _SHOWN} more"
+    if len(settings) > _SHOWN:
+        yield f"- … and {len(settings) - _SHOWN} more"
 
 
-def _users(analysis: Analysis, uses: list[tuple[str, ParamUse]]) -> Iterator[str]:
+def _users(analysis: Analysis, uses: Sequence[tuple[str, ParamUse]]) -> Iterator[str]:
     seen: dict[tuple[str, str, str | None, int | None], str] = {}
     gets = "Declared by" if analysis.tree.ros.own_parameters else "Read by"
     for node, use in uses:

@@ -18,6 +18,7 @@ VERBS = {
     "check": "find problems in launch files",
     "explain": "explain a rule or one finding",
     "why": "explain why two nodes are connected or not, or why a node starts",
+    "where": "list the places that set a parameter",
     "tree": "list what a launch file starts",
     "graph": "print the communication graph of a launch",
     "trace": "run the nodes of a launch file in the sandbox and print their interfaces",
@@ -31,7 +32,7 @@ VERBS = {
     "lsp": "start the language server on standard input and output",
 }
 """The verbs with their help. The module of one is imported only if the command line has its name."""
-_SEVERAL_FILES = ("check", "diff", "explain", "why")
+_SEVERAL_FILES = ("check", "diff", "explain", "where", "why")
 """The verbs whose positional arguments are files or names too, in `launch_args`."""
 _COMPLETING = "_ARGCOMPLETE"
 """The variable that a shell sets when it asks argcomplete for words."""
