@@ -86,6 +86,9 @@ def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     [
         ('file="$(find old)/config/a.yaml $(find other)/b/c"', ["config/a.yaml"]),
         ('file="$(find-pkg-share old)/config/a.yaml"', ["config/a.yaml"]),
+        ('file="$(find old)/config/$(arg pad).yaml"', ["config/xbox.yaml"]),
+        ('file="$(find old)/config/$(arg other).yaml"', []),
+        ('file="$(find old)/config/robots/a_$(arg other).yaml"', ["config/robots"]),
         ("share = join(get_package_share_directory('old'))\nx = join(share, 'config', 'a.yaml')", ["config/a.yaml"]),
         ("PathJoinSubstitution([FindPackageShare('old'), 'config', 'a.yaml'])", ["config/a.yaml"]),
         ("get_package_share_directory(\"old\") + '/config/a.yaml'", ["config/a.yaml"]),
@@ -94,7 +97,7 @@ def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     ],
 )
 def test_what_a_launch_file_asks_for_below_a_package(text: str, paths: list[str]) -> None:
-    assert list(asked_below(text, "old")) == paths
+    assert list(asked_below(text, "old", {"pad": "xbox", "other": None})) == paths
 
 
 def test_who_uses_several_packages_that_nobody_knows_has_them_elsewhere() -> None:

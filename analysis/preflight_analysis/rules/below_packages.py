@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.model import Package
 from preflight_analysis.rules.rule import Context
 
 _PATH = r"[\w.+-]+(?:/[\w.+-]+)+"
+_ARGUMENT = re.compile(r"\$\((?:arg|var)\s+(\w+)\s*\)")
+_PATH_IN_XML = r"(?:[\w.+/-]|\$\((?:arg|var)\s+\w+\s*\))+"
 _WORDS = r"(?:\s*,\s*['\"][\w./+-]+['\"])+"
 _WORD = re.compile(r"['\"]([\w./+-]+)['\"]")
 _SHARE = r"(?:FindPackageShare|get_package_share_(?:directory|path))\(\s*(?:package(?:_name)?\s*=\s*)?['\"]{}['\"]\s*\)"
@@ -20,7 +22,8 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
     """The one package of the workspace in which all paths are that `file` asks for below package `name`, and the first
     of those paths; None where there is no such package, or no path that is written out."""
     document = context.documents.get(file)
-    paths = sorted(set(asked_below(document.text, name))) if isinstance(document, Document) else []
+    values = {arg.name: arg.value for arg in context.tree.args.values()} if file == context.tree.file else {}
+    paths = sorted(set(asked_below(document.text, name, values))) if isinstance(document, Document) else []
     # A launch file that hands over to another one mostly has its name.
     paths = [path for path in paths if os.path.basename(path) != os.path.basename(file)]
     if not paths:
@@ -36,12 +39,16 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
     return (having[0], paths[0]) if len(having) == 1 else None
 
 
-def asked_below(text: str, name: str) -> Iterator[str]:
-    """Paths of two parts or more: in XML behind the substitution, in Python joined to the share folder, or to a
-    variable that has it."""
+def asked_below(text: str, name: str, values: Mapping[str, str | None]) -> Iterator[str]:
+    """Paths of two parts or more: in XML behind the substitution, with arguments that have one of `values`, in Python
+    joined to the share folder, or to a variable that has it."""
     escaped = re.escape(name)
-    for found in re.finditer(rf"\$\(find(?:-pkg-share)?\s+{escaped}\s*\)/({_PATH})", text):
-        yield found[1]
+    for found in re.finditer(rf"\$\(find(?:-pkg-share)?\s+{escaped}\s*\)/({_PATH_IN_XML})", text):
+        path = _ARGUMENT.sub(lambda argument: values.get(argument[1]) or argument[0], found[1])
+        if "$(" in path:
+            path = path.partition("$(")[0].rpartition("/")[0]
+        if re.fullmatch(_PATH, path):
+            yield path
     share = _SHARE.format(escaped)
     folders = [share]
     for line in re.finditer(rf"^[ \t]*(\w+)[ \t]*=[^\n=]*{share}[ \t)]*$", text, re.MULTILINE):
