@@ -43,6 +43,27 @@ def harness(tmp_path: Path) -> Harness:
     return Harness(tmp_path)
 
 
+def test_what_catkin_simple_builds_and_installs(harness: Harness) -> None:
+    harness.write("include/demo/node.h")
+    harness.write("scripts/run.py")
+    build = harness.build(
+        """
+        find_package(catkin_simple REQUIRED)
+        catkin_simple(ALL_DEPS_REQUIRED)
+        cs_add_library(${PROJECT_NAME} src/core.cpp)
+        cs_add_executable(demo_node src/node.cpp)
+        target_link_libraries(demo_node ${PROJECT_NAME})
+        cs_install_scripts(scripts/run.py)
+        cs_install()
+        cs_export()
+        """
+    )
+    assert harness.sources(build, "demo_node") == ["src/node.cpp", "src/core.cpp"]
+    assert build.include_folders == (str(harness.folder / "include"),)
+    assert list(build.programs) == ["run.py"]
+    assert build.complete
+
+
 def test_executables_and_the_libraries_of_the_package_they_are_linked_with(harness: Harness) -> None:
     build = harness.build(
         """

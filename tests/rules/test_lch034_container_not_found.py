@@ -138,3 +138,49 @@ def test_a_manager_that_other_launch_files_call_differently(tmp_path: Path) -> N
 def test_other_names_than_slips_are_no_news(tmp_path: Path, name: str, others: list[str]) -> None:
     (finding,) = _beside(tmp_path, name, *others)
     assert (finding.severity, finding.fixes) == ("hint", ())
+
+
+def test_a_manager_with_a_word_more_or_less_beside_the_nodelet() -> None:
+    check("""
+        <launch>
+          <group ns="camera">
+            <node pkg="nodelet" type="nodelet" name="left_manager" args="manager"/>
+            <node pkg="nodelet" type="nodelet" name="right_manager" args="manager"/>
+            <node pkg="nodelet" type="nodelet" name="a" args="load p/A left_manager"/>
+            <node pkg="nodelet" type="nodelet" name="b" args="load p/B left_nodelet_manager"/>
+                                                                       ^^^^^^^^^^^^^^^^^^^^ warning[LCH034] '/camera/left_manager'?
+            <node pkg="nodelet" type="nodelet" name="c" args="load p/C right_manager"/>
+          </group>
+          <node pkg="nodelet" type="nodelet" name="d" args="load p/D left_nodelet_manager"/>
+                                                                     ^^^^^^^^^^^^^^^^^^^^ hint[LCH034] is not started by
+        </launch>
+        //- /nodelet/package.xml
+        <package/>
+    """)
+
+
+def test_a_nodelet_is_no_manager() -> None:
+    text = """
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="openni_manager" args="manager"/>
+          <node pkg="nodelet" type="nodelet" name="openni_camera" args="load p/Camera openni_manager"/>
+          <node pkg="nodelet" type="nodelet" name="laser" args="load p/Laser openni_camera"/>
+                                                                             ^^^^^^^^^^^^^ warning[LCH034] did you mean 'openni_manager'?
+        </launch>
+        //- /nodelet/package.xml
+        <package/>
+    """
+    (finding,) = check(text)
+    assert "load p/Laser openni_manager" in apply(text, finding.fixes[0].edits)["/main.launch"]
+
+
+@pytest.mark.silent
+def test_what_loads_by_itself_may_load_others() -> None:
+    check("""
+        <launch>
+          <node pkg="nodelet" type="nodelet" name="camera" args="standalone p/Camera"/>
+          <node pkg="nodelet" type="nodelet" name="laser" args="load p/Laser camera"/>
+        </launch>
+        //- /nodelet/package.xml
+        <package/>
+    """)

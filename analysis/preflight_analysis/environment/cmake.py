@@ -38,7 +38,7 @@ _MAX_PROGRAMS = 1_000
 """Of one folder, and of how many folders, programs are looked for in what is installed."""
 _BRANCHES = ("else", "elseif")
 _INSTALLS_NOTHING = re.compile(
-    r"(?:ament|catkin|check|cmake|cuda|find|get|gtest|include|link|pkg|pluginlib|pybind11|python|qt[456]?"
+    r"(?:ament|catkin|check|cmake|cs|cuda|find|get|gtest|include|link|pkg|pluginlib|pybind11|python|qt[456]?"
     r"|rclcpp|roslaunch|roslint|rosidl|set|target|test|try|xacro)_\w+"
     r"|add_(?:compile|custom|definitions|dependencies|executable|library|link|subdirectory|test)\w*"
     r"|generate_(?:export_header|parameter_library|parameter_module)"
@@ -47,6 +47,8 @@ _INSTALLS_NOTHING = re.compile(
     r"|project|return|separate_arguments|set|string|source_group|unset|while"
 )
 """Commands that are known to install no launch or parameter file, or are followed."""
+_WRAPPER = re.compile(r"\A(?:ament_auto|cs|cuda|qt5|rosbuild)_")
+"""Before commands that do what the one without it does, and more; `cs` is catkin_simple's."""
 _FOLDERS = {
     "CMAKE_INSTALL_PREFIX": "",
     "CMAKE_INSTALL_BINDIR": "bin",
@@ -193,10 +195,7 @@ class _Lists:
         if name in self._macros:
             self._called(self._macros[name], words, variables, depth)
             return
-        match (
-            name.removeprefix("ament_auto_").removeprefix("cuda_").removeprefix("rosbuild_").removeprefix("qt5_"),
-            words,
-        ):
+        match _WRAPPER.sub("", name), words:
             case "project", [project, *_]:
                 variables["PROJECT_NAME"] = project
                 variables["PROJECT_SOURCE_DIR"] = variables[f"{project}_SOURCE_DIR"] = folder
@@ -214,6 +213,10 @@ class _Lists:
                 variables[variable] = joined([variables.get(variable, ""), *values])
             case "file", ["GLOB" | "GLOB_RECURSE" as how, variable, *patterns]:
                 variables[variable] = joined(globbed(self._disk, patterns, folder, how == "GLOB_RECURSE"))
+            case "catkin_simple", _:
+                self._headers(["include"], folder)
+            case "install_scripts", files:  # of catkin_simple
+                self._install(files, folder, relayed=False)
             case "aux_source_directory", [where, variable, *_]:
                 patterns = [os.path.join(where, f"*{ending}") for ending in SOURCES]
                 found = globbed(self._disk, patterns, folder, False)

@@ -13,7 +13,7 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.rules.containers_elsewhere import called_elsewhere
 from preflight_analysis.rules.further_reading import COMPOSITION, NODELET
-from preflight_analysis.rules.nearest import did_you_mean, likeness
+from preflight_analysis.rules.nearest import did_you_mean, has_all_words, likeness, share_words
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -40,8 +40,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     loads = [*_components(context, loading), *_nodelets(context, loading)]
     lost: dict[tuple[str, Location], _Load] = {}
     for load in loads:
-        if not load.node.unknowns and load.full not in nodes:
+        if load.node.unknowns:
+            continue
+        if load.full not in nodes:
             lost.setdefault((load.full, load.location), load)
+        elif nodes[load.full] is not load.node and _is_loaded(nodes[load.full]):
+            yield _into_a_nodelet(rule, context, load, nodes[load.full])
     containers = {name: node for name, node in nodes.items() if node.kind == "container" or _may_load(node)}
     filled = {load.full for load in loads}
     loaded, container = ("components", "container") if tree.ros.ament else ("nodelets", "manager")
@@ -50,6 +54,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = [name for name in containers if names.leaf(name) == leaf]
         if not near:
             near = [name for name in containers if (found := likeness(full, name)) is not None and found[0] == "typo"]
+        if not near:
+            beside = [name for name in containers if names.parent(name) == names.parent(full)]
+            near = [name for name in beside if share_words(leaf, names.leaf(name)) and has_all_words(full, name)]
         if not near and len(containers) == 1:
             near = [name for name in containers if name not in filled]
         near = near[:1] if len(near) == 1 else []
@@ -76,6 +83,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _into_a_nodelet(rule: Rule, context: Context, load: _Load, taken: LaunchNode) -> Finding:
+    manager = _words(taken)[2]
+    return rule.finding(
+        f"'{load.full}' is a nodelet, not a manager, and loads nothing{did_you_mean(manager)}",
+        load.location,
+        confidence="likely",
+        related=(Related("the nodelet of that name", taken.location), *include_chain(load.node.origin)),
+        fixes=rename(context, load.location, load.written, manager),
+    )
+
+
 def _if_loading(node: LaunchNode) -> LaunchNode | None:
     """The node, if it may be one that something else loads, or that has something loaded."""
     return node if (node.kind == "composable" and node.container) or is_nodelet(node) else None
@@ -91,8 +109,8 @@ def _components(context: Context, loading: Iterable[LaunchNode]) -> Iterator[_Lo
 def _nodelets(context: Context, loading: Iterable[LaunchNode]) -> Iterator[_Load]:
     """`nodelet load TYPE MANAGER`: its process asks for the service `MANAGER/load_nodelet`."""
     for node in loading:
-        words = [word for word in split_args(node.args) if not word.startswith("-")] if is_nodelet(node) else []
-        if len(words) > 2 and words[0] == "load":
+        words = _words(node)
+        if _is_loaded(node):
             remaps = {source: target for source, (_, target) in effective_remaps(node, 1).items()}
             service = names.resolve(f"{words[2]}/load_nodelet", node.name)
             full = remaps.get(service, service).removesuffix("/load_nodelet")
@@ -102,6 +120,16 @@ def _nodelets(context: Context, loading: Iterable[LaunchNode]) -> Iterator[_Load
 def is_nodelet(node: LaunchNode) -> bool:
     """Whether it is the program that loads nodelets or manages them (ROS 1)."""
     return node.package == "nodelet" and node.executable == "nodelet"
+
+
+def _words(node: LaunchNode) -> list[str]:
+    """The arguments of a node without its options."""
+    return [word for word in split_args(node.args) if not word.startswith("-")]
+
+
+def _is_loaded(node: LaunchNode) -> bool:
+    """Whether it is a nodelet in the process of a manager (ROS 1)."""
+    return is_nodelet(node) and len(words := _words(node)) > 2 and words[0] == "load"
 
 
 def _word(context: Context, place: Location, word: str) -> Location:
@@ -140,9 +168,9 @@ RULE = Rule(
     name="container-not-found",
     severity="warning",
     what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is not a node of the launch (ROS "
-    "2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager. The finding is a warning in three "
-    "cases: a container of that name is in another namespace, a container has a similar name, or a single container "
-    "has no components. It is information if two or more other launch files of the package load into a container of "
+    "2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager. The finding is a warning in "
+    "four cases: a container of that name is in another namespace, a container has a similar name, a single container "
+    "has no components, or the target is a nodelet itself. It is information if two or more other launch files of the package load into a container of "
     "a similar name. Otherwise it is a hint, because another launch may start the container.",
     why="The loader waits for the service of the container without end, and loads nothing.",
     example='<push_ros_namespace namespace="robot"/>\n'
