@@ -61,6 +61,14 @@ def test_an_executable_that_is_still_to_be_built(launch: Path) -> None:
     assert finding.severity == "hint"
 
 
+def test_a_library_is_no_executable(launch: Path) -> None:
+    cmake = launch.parent / "CMakeLists.txt"
+    cmake.write_text("add_library(${PROJECT_NAME} src/core.cpp)\nadd_executable(demo_node src/node.cpp)\n")
+    (finding,) = judge(launch, "demo")
+    assert finding.severity == "error"
+    assert finding.message.endswith("did you mean 'demo_node'?")
+
+
 def test_what_an_executable_that_is_not_built_is_made_of(launch: Path) -> None:
     (launch.parent / "CMakeLists.txt").write_text(
         """

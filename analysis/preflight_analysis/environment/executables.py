@@ -44,12 +44,16 @@ class ExecutableIndex:
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether a `CMakeLists.txt` of the package names the executable: it is there once the workspace is built.
 
-        Where the file is not understood a word of it is taken for its word; `${PROJECT_NAME}` is the package.
+        Where the file is not understood a word of it is taken for its word; `${PROJECT_NAME}` is the package. A library
+        is no executable.
         """
         if package not in self._environment.packages:
             return False
-        if self.made_of(package, name) is not None:
+        build = _build(self._db, self._environment, package)
+        if build.made_of(name) is not None:
             return True
+        if build.complete and build.library(name) is not None:
+            return False
         return name in _words_of_lists(self._db, self._environment, package)
 
     def made_of(self, package: str, name: str) -> Made | None:

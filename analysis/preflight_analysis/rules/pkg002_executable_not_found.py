@@ -76,12 +76,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         holder = _other_package(context, executables, node)
         programs = [name for name in names if not name.endswith(_NO_PROGRAMS)]
         near = nearest(node.executable, programs) or nearest(node.executable, programs, key=_stem)
+        near = near or next((name for name in programs if _plain(name) == _plain(node.executable)), None)
         if holder is not None:
             hint = f"; package '{holder}' has it"
             fixes = rename(context, attribute_location(context, node, "pkg"), node.package, holder)
         else:
             hint = did_you_mean(near)
-            slip = near is not None and (is_slip(node.executable, near) or is_slip(_stem(node.executable), _stem(near)))
+            slip = near is not None and any(is_slip(key(node.executable), key(near)) for key in (str, _stem, _plain))
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
         placeholder = node.executable.startswith("/dev/") or says_not_set(node.executable)
         if placeholder:
@@ -148,6 +149,11 @@ def _is_own(context: Context, package: Package) -> bool:
 
 def _stem(name: str) -> str:
     return PurePath(name).stem
+
+
+def _plain(name: str) -> str:
+    """Without the word that many executables end with."""
+    return _stem(name).lower().removesuffix("_node")
 
 
 RULE = Rule(
