@@ -64,6 +64,35 @@ def test_the_namespace_of_a_composable_node() -> None:
     """)
 
 
+def test_a_remap_that_rcl_refuses() -> None:
+    check("""
+        //- /a.launch.xml
+        <launch>
+          <node pkg="p" exec="e" name="a">
+            <remap from="~/in" to=" state)"/>
+                                   ^^^^^^^ warning[LCH009] invalid remap name ' state)': a name is made of letters
+            <remap from="a-b" to="c"/>
+                         ^^^ warning[LCH009] invalid remap name 'a-b'
+          </node>
+        </launch>
+    """)
+
+
+@pytest.mark.silent
+def test_remaps_as_rcl_reads_them() -> None:
+    check("""
+        //- /a.launch.xml
+        <launch>
+          <arg name="empty" default=""/>
+          <node pkg="p" exec="e" name="a">
+            <remap from="a:~/in" to="/robot_1/in"/>
+            <remap from="__ns" to="/x"/>
+            <remap from="rostopic://out" to="$(var empty)"/>
+          </node>
+        </launch>
+    """)
+
+
 @pytest.mark.silent
 def test_names_with_digits_underscores_and_substitutions() -> None:
     check("""

@@ -148,7 +148,7 @@ def test_a_manager_with_a_word_more_or_less_beside_the_nodelet() -> None:
             <node pkg="nodelet" type="nodelet" name="right_manager" args="manager"/>
             <node pkg="nodelet" type="nodelet" name="a" args="load p/A left_manager"/>
             <node pkg="nodelet" type="nodelet" name="b" args="load p/B left_nodelet_manager"/>
-                                                                       ^^^^^^^^^^^^^^^^^^^^ warning[LCH034] '/camera/left_manager'?
+                                                                       ^^^^^^^^^^^^^^^^^^^^ warning[LCH034] is not
             <node pkg="nodelet" type="nodelet" name="c" args="load p/C right_manager"/>
           </group>
           <node pkg="nodelet" type="nodelet" name="d" args="load p/D left_nodelet_manager"/>
@@ -164,8 +164,8 @@ def test_a_nodelet_is_no_manager() -> None:
         <launch>
           <node pkg="nodelet" type="nodelet" name="openni_manager" args="manager"/>
           <node pkg="nodelet" type="nodelet" name="openni_camera" args="load p/Camera openni_manager"/>
-          <node pkg="nodelet" type="nodelet" name="laser" args="load p/Laser openni_camera"/>
-                                                                             ^^^^^^^^^^^^^ warning[LCH034] did you mean 'openni_manager'?
+          <node pkg="nodelet" type="nodelet" name="a" args="load p/Laser openni_camera"/>
+                                                                         ^^^^^^^^^^^^^ warning[LCH034] openni
         </launch>
         //- /nodelet/package.xml
         <package/>

@@ -168,10 +168,11 @@ RULE = Rule(
     name="container-not-found",
     severity="warning",
     what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is not a node of the launch (ROS "
-    "2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager. The finding is a warning in "
-    "four cases: a container of that name is in another namespace, a container has a similar name, a single container "
-    "has no components, or the target is a nodelet itself. It is information if two or more other launch files of the package load into a container of "
-    "a similar name. Otherwise it is a hint, because another launch may start the container.",
+    "2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager. The finding is a warning in four "
+    "cases: a container of that name is in another namespace, a container has a similar name, a single container has "
+    "no components, or the target is a nodelet itself. It is information if two or more other launch files of the "
+    "package load into a container of a similar name. Otherwise it is a hint, because another launch may start the "
+    "container.",
     why="The loader waits for the service of the container without end, and loads nothing.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'

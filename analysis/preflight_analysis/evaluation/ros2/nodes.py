@@ -23,6 +23,7 @@ from preflight_analysis.evaluation.ros2.params import (
 )
 from preflight_analysis.evaluation.ros2.processes import OUTPUTS
 from preflight_analysis.evaluation.ros2.python_params import dict_params, named_params
+from preflight_analysis.evaluation.ros2.remaps import is_rule_part
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource, Remap, Unknown, Use
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
@@ -316,6 +317,10 @@ def _remaps(performer: Performer, action: Action, node: str) -> list[Remap]:
         found, given = performer.value(source), performer.value(target)
         origin = place.origin(child.head_span)
         at = place.location(source.span), place.location(target.span)
+        for end, value in ((found, source), (given, target)):
+            if end.known and not is_rule_part(end.text):
+                reason = "a name is made of letters, digits, _ and /; the node does not start"
+                performer.state.problem(InvalidName(end.text, "remap", reason), place.origin(value.span), fatal=False)
         remaps.append(Remap(found.text, given.text, origin, *at, True))
     return remaps
 

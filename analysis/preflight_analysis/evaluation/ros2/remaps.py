@@ -12,6 +12,7 @@ from typing import Any
 from preflight_analysis.evaluation import names
 
 _FOR_ONE = re.compile(r"([A-Za-z_]\w*):(?!//)(.+)\Z")
+_PART = re.compile(r"[\w/~:*\\{}]*\Z", re.ASCII)
 _OF_NODES = ("__node", "__name", "__ns")
 _QOS = "qos_overrides."
 
@@ -25,6 +26,12 @@ def source_for(source: str, node: str) -> str | None:
     """The name that a remap from this moves of the node of this full name; None where it is for others."""
     only, plain = _split(source)
     return plain if only in (None, node.rpartition("/")[2]) else None
+
+
+def is_rule_part(text: str) -> bool:
+    """Whether one side of a remap has only characters that rcl's parser knows (`rcl/src/rcl/lexer.c`). For others it
+    refuses the whole rule, and with it the node."""
+    return _PART.match(text) is not None
 
 
 def overrides_qos(param: str) -> bool:
