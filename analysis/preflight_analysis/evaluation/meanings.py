@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.knowledge.load import knowledge_of
@@ -19,11 +20,14 @@ from preflight_analysis.knowledge.model import Entry, EntryKind, Knowledge, Mean
 
 _NUMBER = "{N}"
 _LISTED = re.compile(r"\{(\w[\w.]*)\}")
+_PACKAGE = re.compile(r"(\w+)(?:::|/)")
 _OTHER = "$"
 """Before the name of a parameter whose value is meant."""
 _KEPT = 4096
 _MOST = 256
 """Items of a list."""
+_MAX_DEPTH = 3
+"""Plugins that load plugins."""
 
 
 class Known(NamedTuple):
@@ -48,6 +52,25 @@ class KnownMeanings:
         """What is known of a node; None where nothing is."""
         package, kind, name = _place(node)
         return self.of(package, kind, name)
+
+    def within(self, node: LaunchNode, process: LaunchNode) -> Known | None:
+        """What is known of a node that the process of another one makes beside it: a costmap, or a controller, whose
+        type the other one has as a parameter."""
+        type_ = next((p.value for p in process.params if p.name == f"{names.leaf(node.name)}.type"), None)
+        if isinstance(type_, str):
+            return self.plugin(type_, "controllers")
+        outer = self.of_node(process)
+        below = node.name.removeprefix(names.parent(process.name))
+        class_ = outer.entry.within.get(below) if outer is not None else None
+        return self.plugin(class_, "components") if class_ is not None else None
+
+    def plugin(self, type_: str, kind: EntryKind = "plugins") -> Known | None:
+        """What is known of a plugin, a controller or a component, by its type: `package::Name` or `package/Name`."""
+        package = _PACKAGE.match(type_)
+        return self.of(package[1], kind, type_) or self._other_spelling(package[1], kind, type_) if package else None
+
+    def _other_spelling(self, package: str, kind: EntryKind, type_: str) -> Known | None:
+        return self.of(package, kind, type_.replace("/", "::") if "/" in type_ else type_.replace("::", "/"))
 
     def of(self, package: str, kind: EntryKind, name: str) -> Known | None:
         """What is known of an executable, a component, ... of a package."""
@@ -81,20 +104,26 @@ def _place(node: LaunchNode) -> tuple[str, EntryKind, str]:
 
 class Meant(NamedTuple):
     """A value and what it stands for. `parameter` is the name as the node asks for it (`odom0`, `scan.topic`); `param`
-    is what sets it, None of a default. The items of a list come one by one."""
+    is what sets it, None of a default. The items of a list come one by one. `type` is that of a topic, service or
+    action, `package/Name`, None where it is not known."""
 
     meaning: Meaning
     known: Known
     parameter: str
     value: Any
     param: Param | None
+    type: str | None = None
 
     def type_of(self, settings: Settings) -> str | None:
         """The type of a topic, service or action, `package/Name`; None where that is not known."""
         for parameter, types in self.meaning.type_by.items():
             value = str(settings.value(parameter, self.parameter)).lower()
             return types.get(value)
-        return self.meaning.type
+        type_ = self.meaning.type
+        if type_ is None or not type_.startswith(_OTHER):
+            return type_
+        found = settings.value(type_.removeprefix(_OTHER), self.parameter)
+        return found if isinstance(found, str) else None
 
 
 class Settings:
@@ -132,16 +161,20 @@ class Settings:
             return not self._is(value, wanted[1:])
         if isinstance(wanted, str) and wanted.startswith(_OTHER):
             wanted = self.value(wanted.removeprefix(_OTHER))
+        if isinstance(value, (int, float)) and isinstance(wanted, (int, float)):
+            return value == wanted
         return str(value).lower() == str(wanted).lower()
 
 
 def known_of_nodes(tree: LaunchTree, known: KnownMeanings, kept: Kept) -> Sequence[Known | None]:
-    """What is known of each node of a launch, those that a simulator makes last."""
-    return kept.each(_of_node, tree.nodes_and_simulated, known)
+    """What is known of each node of a launch or of a graph, those that a simulator makes last."""
+    nodes = tree.nodes_and_simulated
+    by_name = {node.name: node for node in nodes} if any(node.within for node in nodes) else {}
+    return kept.each_row(_of_node, (nodes, [by_name.get(node.within or "") for node in nodes]), known)
 
 
-def _of_node(node: LaunchNode, known: KnownMeanings) -> Known | None:
-    return known.of_node(node)
+def _of_node(node: LaunchNode, process: LaunchNode | None, known: KnownMeanings) -> Known | None:
+    return known.within(node, process) if process is not None else known.of_node(node)
 
 
 _BY_NAME = attrgetter("name")
@@ -178,15 +211,26 @@ def own_params(node: LaunchNode, given: Sequence[Param]) -> tuple[tuple[str, Par
     return tuple((param.name.removeprefix(below).replace("/", "."), param) for param in given)
 
 
-def meant_by(known: Known, params: Sequence[tuple[str, Param]]) -> tuple[Meant, ...]:
-    """All values that mean something, in the order of what is known; defaults among them."""
+def meant_by(
+    known: Known, params: Sequence[tuple[str, Param]], every: KnownMeanings, prefix: str = ""
+) -> tuple[Meant, ...]:
+    """All values that mean something, in the order of what is known, defaults among them; behind each plugin what its
+    own parameters mean, which stand below its name. `prefix` is that name, with a dot."""
     settings = Settings(known, params)
-    return tuple(
-        each
-        for meaning in known.entry.meanings
-        for each in _of_meaning(meaning, settings)
-        if settings.holds(meaning.when, each.parameter)
-    )
+    found: list[Meant] = []
+    for meaning in known.entry.meanings:
+        for each in _of_meaning(meaning, settings):
+            if not settings.holds(meaning.when, each.parameter):
+                continue
+            type_ = each.type_of(settings) if meaning.type or meaning.type_by else None
+            found.append(each._replace(parameter=f"{prefix}{each.parameter}", type=type_))
+            if meaning.kind == "plugin" and isinstance(each.value, str) and prefix.count(".") < _MAX_DEPTH:
+                name, dot, _ = each.parameter.rpartition(".")
+                plugin = every.plugin(each.value) if dot else None
+                if plugin is not None:
+                    below = [(key[len(name) + 1 :], p) for key, p in params if key.startswith(f"{name}.")]
+                    found += meant_by(plugin, below, every, f"{prefix}{name}.")
+    return tuple(found)
 
 
 def _of_meaning(meaning: Meaning, settings: Settings) -> Iterator[Meant]:
@@ -206,6 +250,10 @@ def _expanded(pattern: str, settings: Settings) -> tuple[str, ...]:
     if listed is None:
         return (pattern,)
     before, _, _ = pattern[: listed.start()].rpartition(".")
+    if "*" in before:
+        fits, rest = _compiled(f"{before}.{listed[1]}"), pattern[len(before) :]
+        found = [name.removesuffix(f".{listed[1]}") for name in settings.params if fits.fullmatch(name)]
+        return tuple(name for each in found for name in _expanded(f"{each}{rest}", settings))
     names = (f"{before}.{listed[1]}", listed[1]) if before else (listed[1],)
     value = next((found for name in names if (found := settings.value(name)) is not None), None)
     items = dict.fromkeys(items_of(value))

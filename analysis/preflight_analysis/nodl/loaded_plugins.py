@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
@@ -23,7 +24,7 @@ from preflight_analysis.nodl.plugins import package_of
 from preflight_analysis.rules.plugin_params import KIND, LISTED
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy
 
 _NAME = "{}"
 _OWN = ""
@@ -65,15 +66,17 @@ class LoadedPlugins:
         return whole
 
     def _ends(self, node: LaunchNode, host: _Host, documents: Mapping[str, Document]) -> Iterator[Endpoint]:
-        given = {p.name: p.value for p in node.params} if host.name == _OWN else _given(node, host.name, documents)
+        given, places = _own(node) if host.name == _OWN else _given(node, host.name, documents)
         values = {**host.defaults, **given}
         listed = {item for name, value in values.items() if not name.endswith(KIND) for item in _items(value)}
         for name, type_ in [*_types(values, listed)][:_MOST]:
             below = {key[len(name) + 1 :]: value for key, value in values.items() if key.startswith(f"{name}.")}
-            for end in self._ends_of(name, type_, below):
+            for end in self._ends_of(name, type_, below, places):
                 yield end if host.name == _OWN else replace(end, name=names.resolve(end.name, host.name))
 
-    def _ends_of(self, name: str, type_: str, below: Mapping[str, Any]) -> Iterator[Endpoint]:
+    def _ends_of(
+        self, name: str, type_: str, below: Mapping[str, Any], places: Mapping[str, Location]
+    ) -> Iterator[Endpoint]:
         package = package_of(type_)
         here = self._environment.packages.get(package)
         if here is not None and here.is_within(self._environment.workspace):
@@ -89,7 +92,7 @@ class LoadedPlugins:
         distro = distribution_of(2, self._environment.distro)
         found = catalogued(package, "plugins", type_, distro, is_used=self._environment.distro == distro)
         if found is not None:
-            yield from _as_loaded(name, found, below)
+            yield from _as_loaded(name, found, below, places)
 
 
 def _hosts(interface: Interface) -> tuple[_Host, ...]:
@@ -108,16 +111,26 @@ def _is_kind(param: str) -> bool:
     return param.endswith(KIND)
 
 
-def _given(node: LaunchNode, host: str, documents: Mapping[str, Document]) -> Mapping[str, Any]:
+_Given = tuple[Mapping[str, Any], Mapping[str, Location]]
+"""Parameters of a node with their values, and where they are written."""
+
+
+def _own(node: LaunchNode) -> _Given:
+    return {param.name: param.value for param in node.params}, {param.name: param.place for param in node.params}
+
+
+def _given(node: LaunchNode, host: str, documents: Mapping[str, Document]) -> _Given:
     """What the files of a node have for one within it."""
     paths = dict.fromkeys(source.path for source in node.param_sources if source.path is not None)
-    return {
-        param.name: param.value
+    found = [
+        (param, document)
         for document in map(documents.get, paths)
         if document is not None
         for section in read_param_file(document).reaching(host)
         for param in section.params
-    }
+    ]
+    values = {param.name: param.value for param, _ in found}
+    return values, {param.name: document.location(param.name_span) for param, document in found}
 
 
 def _types(values: Mapping[str, Any], listed: set[str]) -> Iterator[tuple[str, str]]:
@@ -134,7 +147,9 @@ def _items(value: Any) -> Sequence[str]:
     return [each for each in items if isinstance(each, str)][:_MOST]
 
 
-def _as_loaded(name: str, found: Catalogued, below: Mapping[str, Any]) -> Iterator[Endpoint]:
+def _as_loaded(
+    name: str, found: Catalogued, below: Mapping[str, Any], places: Mapping[str, Location]
+) -> Iterator[Endpoint]:
     """With the name that the plugin is loaded by, once for each item of what it has lists of."""
     named = {id(end): param for param, end in found.by_parameter}
     typed = {id(end): (param, types) for end, param, types in found.typed}
@@ -150,4 +165,6 @@ def _as_loaded(name: str, found: Catalogued, below: Mapping[str, Any]) -> Iterat
             called = called if isinstance(called, str) and called else made(end.name)
             type_ = types.get(str(below.get(made(kind))).lower(), end.type) if kind else end.type
             if called and names.is_legal(called):
-                yield replace(end, name=called, type=type_)
+                param = f"{name}.{made(by)}"
+                named_by = NamedBy(param, places[param]) if by and param in places else None
+                yield replace(end, name=called, type=type_, named_by=named_by)

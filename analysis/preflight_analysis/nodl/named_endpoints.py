@@ -15,7 +15,6 @@ from preflight_analysis.evaluation.meanings import (
     Known,
     KnownMeanings,
     Meant,
-    Settings,
     known_of_nodes,
     meant_by,
     own_params,
@@ -45,23 +44,28 @@ def with_named_endpoints(
     name."""
     said = known_of_nodes(tree, known, kept)
     columns = tree.nodes_and_simulated, interfaces, said, params_of_nodes(tree, said, kept)
-    return kept.each_row(_with_named, columns, tree.ros.kinds_in_types)
+    return kept.each_row(_with_named, columns, known, tree.ros.kinds_in_types)
 
 
 def _with_named(
-    node: LaunchNode, interface: Interface, known: Known | None, given: Sequence[Param], kinds_in_types: bool
+    node: LaunchNode,
+    interface: Interface,
+    known: Known | None,
+    given: Sequence[Param],
+    every: KnownMeanings,
+    kinds_in_types: bool,
 ) -> Interface:
-    if not given or interface.pending:
+    if interface.pending or (known is None and not given):
         return interface
     params = own_params(node, given)
-    meant = meant_by(known, params) if known is not None else ()
-    settings = Settings(known, params) if known is not None else None
+    meant = meant_by(known, params, every) if known is not None else ()
     by_name = {(end.role, end.name): at for at, end in enumerate(interface.endpoints)}
     found: dict[int, NamedBy] = {}
+    confirmed: dict[int, str] = {}
     more: dict[tuple[str, str], Endpoint] = {}
     for each in meant:
         role = _ROLES.get((each.meaning.kind, each.meaning.role))
-        if role is None or settings is None or not isinstance(each.value, str) or not names.is_legal(each.value):
+        if role is None or not isinstance(each.value, str) or not names.is_legal(each.value):
             continue
         name = f"{each.value}{each.meaning.append}"
         named_by = NamedBy(each.param.name, each.param.place) if each.param is not None else None
@@ -69,21 +73,23 @@ def _with_named(
         if at is not None:
             if named_by is not None:
                 found.setdefault(at, named_by)
+            if interface.endpoints[at].of_other_distribution and each.known.is_used:
+                confirmed[at] = each.known.evidence
         elif name and not (interface.known_in_full or interface.declared):
-            more[role, name] = _endpoint(role, name, each, settings, named_by, kinds_in_types)
+            more[role, name] = _endpoint(role, name, each, named_by, kinds_in_types)
     for at, named_by in _by_their_names(interface, params):
         found.setdefault(at, named_by)
-    if not found and not more:
+    if not found and not confirmed and not more:
         return interface
-    ends = tuple(replace(end, named_by=found[at]) if at in found else end for at, end in enumerate(interface.endpoints))
+    ends = [replace(end, named_by=found[at]) if at in found else end for at, end in enumerate(interface.endpoints)]
+    for at, evidence in confirmed.items():
+        ends[at] = replace(ends[at], catalogued=evidence, of_other_distribution=False)
     source = interface.source if interface.known else "catalogue"
     return replace(interface, source=source, endpoints=(*ends, *more.values()))
 
 
-def _endpoint(
-    role: Role, name: str, meant: Meant, settings: Settings, named_by: NamedBy | None, kinds_in_types: bool
-) -> Endpoint:
-    type_ = meant.type_of(settings)
+def _endpoint(role: Role, name: str, meant: Meant, named_by: NamedBy | None, kinds_in_types: bool) -> Endpoint:
+    type_ = meant.type
     if type_ is not None and type_ != "*" and kinds_in_types:
         package, _, rest = type_.partition("/")
         type_ = f"{package}/{_KINDS[meant.meaning.kind]}/{rest.rpartition('/')[2]}"

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from preflight_analysis.evaluation.meanings import Known, Meant, known_of_nodes, meant_by, own_params, params_of_nodes
+from preflight_analysis.evaluation.meanings import (
+    Known,
+    KnownMeanings,
+    Meant,
+    known_of_nodes,
+    meant_by,
+    own_params,
+    params_of_nodes,
+)
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.rules.rule import Context
 
@@ -13,12 +21,13 @@ NodeMeant = tuple[LaunchNode, tuple[Meant, ...]]
 
 
 def meant_values(context: Context) -> tuple[NodeMeant, ...]:
-    """Those of all nodes of which something is known; ask through `context.once`."""
-    tree, kept = context.tree, context.kept
+    """Those of all nodes of which something is known, in a graph of those within processes, too; ask through
+    `context.once`."""
+    tree, kept = context.graph.tree if context.graph is not None else context.tree, context.kept
     known = known_of_nodes(tree, context.known, kept)
     columns = tree.nodes_and_simulated, known, params_of_nodes(tree, known, kept)
-    return tuple(each for each in kept.each_row(_of_node, columns) if each is not None)
+    return tuple(each for each in kept.each_row(_of_node, columns, context.known) if each is not None)
 
 
-def _of_node(node: LaunchNode, known: Known | None, given: Sequence[Param]) -> NodeMeant | None:
-    return (node, meant_by(known, own_params(node, given))) if known is not None else None
+def _of_node(node: LaunchNode, known: Known | None, given: Sequence[Param], every: KnownMeanings) -> NodeMeant | None:
+    return (node, meant_by(known, own_params(node, given), every)) if known is not None else None
