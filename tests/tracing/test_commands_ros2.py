@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.workspace import Analysis
 from support.python_launch_harness import MANIFEST, PythonHarness
 from support.ros2_harness import ros2_prefix
@@ -103,3 +106,18 @@ def test_a_package_of_the_prefixes_is_found(tmp_path: Path, variables: dict[str,
     path = harness.write(f"launch/{name}", FORMS[name])
     analysis = harness.launch(path, variables={**variables, "AMENT_PREFIX_PATH": str(prefix)})
     assert described(analysis) == {"robot_description": "<robot>arm</robot>\n"}
+
+
+def test_of_packages_of_one_name_xacro_finds_that_of_its_own_workspace(tmp_path: Path) -> None:
+    include = '<robot xmlns:xacro="http://x"><xacro:include filename="$(find arm)/urdf/part.xacro"/></robot>'
+    for name in ("one", "two"):
+        package = tmp_path / name / "src" / "arm"
+        (package / "urdf").mkdir(parents=True)
+        (package / "package.xml").write_text(MANIFEST.format("arm"))
+        (package / "urdf" / "robot.xacro").write_text(include)
+        (package / "urdf" / "part.xacro").write_text(f'<robot><link name="{name}"/></robot>')
+    environment = detect_environment(str(tmp_path), {"ROS_VERSION": "2"}, (str(tmp_path),), root=str(tmp_path))
+    runner = CommandRunner(environment, str(tmp_path), None)
+    for name in ("one", "two"):
+        found = runner.run(f"xacro {tmp_path}/{name}/src/arm/urdf/robot.xacro", threading.Event())
+        assert f'<link name="{name}"/>' in found.output

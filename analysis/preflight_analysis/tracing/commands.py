@@ -28,7 +28,7 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.own_programs import OWN_PROGRAMS
-from preflight_analysis.environment.view import of_generation
+from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
@@ -208,7 +208,9 @@ class CommandRunner:
         path = _VARIABLES[self.environment.generation](self.environment, ())["PATH"]
         executable = shutil.which(program, path=path)
         if executable is None and words[0] in OWN_PROGRAMS:
-            return self._asked(own_xacro.make(self.environment, words[1:], self.cwd), *_files_of(words[1:], self.cwd))
+            files = tuple(_files_of(words[1:], self.cwd))
+            means = meaning(self.environment, meant_by(self.environment, files[0])) if files else self.environment
+            return self._asked(own_xacro.make(means, words[1:], self.cwd), *files)
         if executable is None:
             return CommandResult("missing", reason=f"there is no program {words[0]}")
         python = self.environment.interpreter(self.environment.generation)
