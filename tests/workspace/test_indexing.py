@@ -159,6 +159,10 @@ def test_python_files_that_make_a_launch_description_are_launch_files(harness: H
         "p/launch/hello-launch.py": PYTHON,
         "p/launch/robots/bringup_all.py": PYTHON,
         "p/launch/helper.py": "def generate(): pass\n",
+        "p/launch/arms_launch.py": "def make_arms(): return []\n",
+        "p/launch/legs.launch.py": "def generate_legs_description(): return []\n",
+        "p/launch/wrong.launch.py": "def generate_launch_descripton(): return []\n",
+        "p/launch/loads.py": "import runpy, arms_launch\nrunpy.run_path('legs.launch.py')\n",
         "p/bringup/installed.py": PYTHON,
         "p/p/module.py": PYTHON,
         "p/p/gen_launch.py": "from launch import LaunchDescription\n\ndef gen_launch(): return LaunchDescription([])\n",
@@ -171,13 +175,15 @@ def test_python_files_that_make_a_launch_description_are_launch_files(harness: H
         harness.write(name, text)
     harness.workspace = Workspace(detect(str(harness.folder), package_path=(str(harness.folder),)), Sources())
     assert paths(tuple(harness.build().entries)) == [
-        *("bringup_all.py", "hello-launch.py", "installed.py", "wrong_launch.py")
+        *("bringup_all.py", "hello-launch.py", "installed.py", "wrong.launch.py", "wrong_launch.py")
     ]
     whole = harness.write(
         "whole.launch.xml", f'<launch><include file="{harness.folder}/p/launch/hello-launch.py"/></launch>'
     )
     index = harness.build(changed=[whole])
-    assert paths(tuple(index.entries)) == [*("bringup_all.py", "installed.py", "whole.launch.xml", "wrong_launch.py")]
+    assert paths(tuple(index.entries)) == [
+        *("bringup_all.py", "installed.py", "whole.launch.xml", "wrong.launch.py", "wrong_launch.py")
+    ]
 
 
 INCLUDING = """\

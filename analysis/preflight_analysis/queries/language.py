@@ -165,7 +165,7 @@ def attribute_doc(attribute: Attribute) -> str:
 def described(launch_file: LaunchFile, offset: int) -> tuple[str, Span] | None:
     """The description, as Markdown, of the tag, attribute or substitution whose name is at `offset`, and where that
     name is. None in Python, which has a language server of its own."""
-    if launch_file.path.endswith(PYTHON_SUFFIX):
+    if launch_file.is_python:
         return None
     substitution = _substitution_at(launch_file, offset)
     if substitution is not None:

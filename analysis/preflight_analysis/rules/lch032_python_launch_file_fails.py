@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.loaded_modules import is_loaded_module
 from preflight_analysis.environment.reach import within
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
@@ -36,6 +37,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 lack = _lack(context, failed)
                 severity, confidence = ("warning", "likely") if there else ("info", "possible")
                 message = _import(context, failed, problem.location.file, has_ros=there)
+            case PythonException("InvalidPythonLaunchFileError") if is_loaded_module(
+                context.disk, problem.location.file
+            ):
+                continue
             case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near = _near_file(context, error, said)

@@ -12,6 +12,7 @@ from functools import partial
 from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, PYTHON_SUFFIX
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.installed_paths import installed_at, package_around
+from preflight_analysis.environment.loaded_modules import is_loaded_module
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
@@ -288,6 +289,7 @@ def launch_files(folder: str, workspace: Workspace) -> list[str]:
             if name.endswith(LAUNCH_SUFFIXES):
                 is_one = not (ignored and _is_of_ament(path, workspace.sources))
                 is_one = is_one and (in_launch_folder or not _is_of_other(path, workspace.sources))
+                is_one = is_one and not is_loaded_module(workspace.sources, path)
             else:
                 placed = name.endswith(PYTHON_SUFFIX) and (in_launch_folder or _is_shared(workspace, path))
                 is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
