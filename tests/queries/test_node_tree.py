@@ -181,3 +181,14 @@ def test_a_line_of_python_that_includes_twice_has_the_nodes_of_each(tmp_path: Pa
         "  include /src/p/launch/deep.launch.xml 1 node",
         "include /src/p/launch/inner.launch.xml 1 node  ns:=c",
     ]
+
+
+def test_frames(tmp_path: Path) -> None:
+    node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{}" args="0 0 0 0 0 0 {} {}"/>'
+    nodes = node.format("s", "map", "odom") + node.format("t", "odom", "base")
+    workspace = create_workspace(tmp_path, f"$0<launch>{nodes}</launch>")
+    section = treed(workspace, workspace.context.analyses[0])[-1]
+    assert (section.kind, section.label, section.detail) == ("section", "Frames", "3")
+    (root,) = section.children
+    assert (root.kind, root.label, [each.label for each in root.children]) == ("frame", "map", ["odom"])
+    assert root.children[0].detail == "/s"

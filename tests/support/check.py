@@ -48,7 +48,17 @@ from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, MadeNode, Outcome, ParamUse, Range, Role
+from preflight_analysis.tracing.interface import (
+    NOT_RUN,
+    Endpoint,
+    Frame,
+    Interface,
+    MadeNode,
+    Outcome,
+    ParamUse,
+    Range,
+    Role,
+)
 from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
 
@@ -254,9 +264,9 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
-    `answers`, `lacks`; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`; `made` `{name: [file, line]}`; `builtin`,
-    `speculative`, `on_demand` and `similar`, lists of names; `nodes`, those that the process makes, with the fields of
-    `MadeNode`.
+    `answers`, `lacks`; `frames`, a list of parent and child; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`;
+    `made` `{name: [file, line]}`; `builtin`, `speculative`, `on_demand` and `similar`, lists of names; `nodes`, those
+    that the process makes, with the fields of `MadeNode`.
     """
     made = data.get("made", {})
     endpoints = [
@@ -301,6 +311,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         tuple(endpoints),
         tuple(params),
         notes=tuple(data.get("notes", ())),
+        frames=tuple(Frame(*each) for each in data.get("frames", ())),
         nodes=nodes,
         stand_ins=tuple(data.get("stand_ins", ())),
     )

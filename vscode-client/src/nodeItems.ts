@@ -3,7 +3,16 @@ import { clock, type Difference, type LiveState } from "./live";
 
 /** A line of the tree of nodes, in the server's own words (`rosPreflight/tree`). */
 export interface NodeItem {
-  readonly kind: "namespace" | "node" | "param" | "remap" | "section" | "include" | "not-taken" | "difference";
+  readonly kind:
+    | "namespace"
+    | "node"
+    | "param"
+    | "remap"
+    | "section"
+    | "include"
+    | "not-taken"
+    | "frame"
+    | "difference";
   readonly label: string;
   readonly detail: string;
   /** The full name of a node or namespace. */
@@ -111,12 +120,16 @@ export function iconOf(item: NodeItem, live: LiveState | undefined): string {
       return "arrow-swap";
     case "include":
       return "file-code";
+    case "frame":
+      return "type-hierarchy-sub";
     case "difference":
       return item.severity === 3 ? "info" : "warning";
     case "not-taken":
       return "circle-slash";
     case "section":
-      return { Includes: "files", "Not started": "debug-pause" }[item.label] ?? "list-unordered";
+      return (
+        { Includes: "files", "Not started": "debug-pause", Frames: "type-hierarchy" }[item.label] ?? "list-unordered"
+      );
   }
 }
 

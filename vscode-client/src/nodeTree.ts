@@ -253,7 +253,7 @@ function fold(item: NodeItem, differs: boolean): TreeItemCollapsibleState {
     item.kind === "namespace" ||
     item.kind === "not-taken" ||
     item.kind === "include" ||
-    (item.kind === "section" && item.label !== "Shared parameters");
+    (item.kind === "section" && item.label !== "Shared parameters" && !item.label.startsWith("Frames"));
   return unfolded ? TreeItemCollapsibleState.Expanded : TreeItemCollapsibleState.Collapsed;
 }
 

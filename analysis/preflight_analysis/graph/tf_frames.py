@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import shlex
+from collections.abc import Sequence
 
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing.interface import Frame, Interface
@@ -10,27 +12,50 @@ from preflight_analysis.tracing.interface import Frame, Interface
 _PACKAGES = ("tf", "tf2_ros")
 _NUMBERS = (6, 7)
 """How many numbers stand before the frames: a translation, and Euler angles or a quaternion."""
+_PARENT, _CHILD = "--frame-id", "--child-frame-id"
+_PARENT_PARAM, _CHILD_PARAM = "frame_id", "child_frame_id"
 
 
 def frames_of(node: LaunchNode, interface: Interface) -> tuple[Frame, ...]:
     """Those that a run saw, and for `static_transform_publisher` what its arguments say."""
-    given = _given(node)
+    given = frame_in_arguments(node)
     if given is None:
         return interface.frames
     return tuple(sorted({given, *(f for f in interface.frames if (f.parent, f.child) != (given.parent, given.child))}))
 
 
-def _given(node: LaunchNode) -> Frame | None:
-    """`x y z yaw pitch roll frame_id child_frame_id`, with a period at the end for tf's, which is not static."""
-    if node.executable != "static_transform_publisher" or node.package not in _PACKAGES or node.unknowns:
+def frame_in_arguments(node: LaunchNode) -> Frame | None:
+    """What the arguments of a static transform publisher say: `x y z yaw pitch roll frame_id child_frame_id`, with a
+    period at the end for tf's, which is not static; in ROS 2 also by options, and by parameters of the component."""
+    if node.package not in _PACKAGES or node.unknowns:
+        return None
+    if node.plugin is not None:
+        values = {param.name: param.value for param in node.params}
+        parent, child = values.get(_PARENT_PARAM), values.get(_CHILD_PARAM)
+        named = (
+            isinstance(parent, str)
+            and isinstance(child, str)
+            and node.plugin.endswith("StaticTransformBroadcasterNode")
+        )
+        return Frame(str(parent), str(child), True) if named else None
+    if node.executable != "static_transform_publisher":
         return None
     try:
         words = shlex.split(node.args)
     except ValueError:
         return None
+    # What follows is for the client library.
+    words = [*itertools.takewhile(lambda word: word != "--ros-args" and ":=" not in word, words)]
+    if _PARENT in words or _CHILD in words:
+        parent, child = _option(words, _PARENT), _option(words, _CHILD)
+        return Frame(parent, child, True) if parent and child else None
     static = node.package == "tf2_ros"
     if not static:
         words = words[:-1]
     if len(words) - 2 not in _NUMBERS:
         return None
     return Frame(words[-2], words[-1], static)
+
+
+def _option(words: Sequence[str], name: str) -> str:
+    return next((value for word, value in itertools.pairwise(words) if word == name), "")

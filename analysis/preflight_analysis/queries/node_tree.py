@@ -14,12 +14,15 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.evaluation.tree import CommandValue, Include, LaunchNode, LaunchTree, NotTaken, Param
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
+from preflight_analysis.frames.forest import Branch, forest
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.places import shown_path
+from preflight_analysis.rules.frames import frames_of, place_of_edge
+from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
 
-Kind = Literal["namespace", "node", "param", "remap", "section", "include", "not-taken"]
+Kind = Literal["namespace", "node", "param", "remap", "section", "include", "not-taken", "frame"]
 
 _LENGTH = 60
 """Characters of a value: the rest is seen on hover."""
@@ -86,6 +89,7 @@ def node_tree(analysis: Analysis, findings: Mapping[str, Sequence[Finding]]) -> 
     if not_started:
         left_out = tuple(_not_taken(analysis, each, each.value or "") for each in not_started)
         items.append(Item("section", "Not started", str(len(left_out)), children=left_out))
+    items += _frames(analysis.context)
     return NodeTree(tree.files, len(tree.nodes), tuple(items))
 
 
@@ -246,6 +250,31 @@ def _includes(analysis: Analysis) -> Iterator[Item]:
 
 def _is_within(include: Include, outer: Include) -> bool:
     return len(include.origin) > len(outer.origin) and include.origin[: len(outer.origin)] == outer.origin
+
+
+# Frames
+
+
+def _frames(context: Context) -> Iterator[Item]:
+    frames = frames_of(context)
+    for space in frames.spaces:
+        label = f"Frames of {space}/tf" if space else "Frames"
+        note = "; ".join(("may be incomplete", *frames.gaps)) if frames.gaps else ""
+        trees = tuple(_frame(context, each) for each in forest(frames, space))
+        yield Item("section", label, str(len(frames.names(space))), note=note, children=trees)
+
+
+def _frame(context: Context, branch: Branch) -> Item:
+    place = place_of_edge(context, branch.edges[0]) if branch.edges else None
+    return Item(
+        "frame",
+        branch.frame,
+        ", ".join(edge.by for edge in branch.edges),
+        location=place,
+        file=place.file if place is not None else None,
+        note="" if all(edge.sure for edge in branch.edges) else "possible",
+        children=tuple(_frame(context, each) for each in branch.children),
+    )
 
 
 # What a condition leaves out

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from functools import lru_cache
 
 from preflight_analysis.dataclass import dataclass
@@ -28,6 +29,9 @@ _BANNER_REACH = 2000
 """Characters at the start of a text among which the comment is."""
 _FIND = re.compile(r"\$\(find ([^\s()]+)\)|package://([^/\s]+)")
 _UNKNOWN = re.compile(r"\$\{[^}]*\}|\$\([^)]*\)")
+_CONSTANT = re.compile(r"\$\{ *(\w+) *\}|\$\(arg +(\w+) *\)")
+_CONSTANTS = {"xacro:property": "value", "xacro:arg": "default"}
+"""The elements that name constants, each with the attribute that has the value."""
 _MOST_FILES = 100
 _AROUND = ("ros2_control", "transmission", "gazebo")
 """Elements whose parts are other things than those of the robot itself."""
@@ -70,6 +74,8 @@ class SourceFile:
     written: tuple[Written, ...]
     includes: tuple[str, ...]
     """As written."""
+    constants: Mapping[str, str]
+    """The values of properties, and the defaults of arguments."""
 
 
 def files_of(robot: Robot, disk: Disk, environment: Environment) -> tuple[SourceFile, ...]:
@@ -149,7 +155,7 @@ def _same_file(db: Database, environment: Environment, text: str) -> str | None:
 
 @query
 def _files(db: Database, environment: Environment, top: str) -> tuple[SourceFile, ...]:
-    disk, found = Disk(db), dict[str, SourceFile]()
+    disk, found, constants = Disk(db), dict[str, SourceFile](), dict[str, str]()
     waiting = [top]
     while waiting and len(found) < _MOST_FILES:
         path = waiting.pop(0)
@@ -157,7 +163,8 @@ def _files(db: Database, environment: Environment, top: str) -> tuple[SourceFile
         if file is None:
             continue
         found[path] = file
-        waiting += filter(None, (_included(disk, environment, path, each) for each in file.includes))
+        constants |= file.constants
+        waiting += filter(None, (_included(disk, environment, path, each, constants) for each in file.includes))
     return tuple(found.values())
 
 
@@ -170,6 +177,7 @@ def source_file(db: Database, path: str) -> SourceFile | None:
     document = parse_xml(path, text.text, text.encoding, text.lines)
     written: list[Written] = []
     includes: list[str] = []
+    constants: dict[str, str] = {}
     waiting: list[tuple[Element, str]] = [(document.root, "")] if document.root is not None else []
     while waiting:
         element, within = waiting.pop()
@@ -177,6 +185,10 @@ def source_file(db: Database, path: str) -> SourceFile | None:
         if tag.endswith(":include") or tag == "include":
             name = element.get("filename")
             includes += [name.value.text] if name is not None else []
+        elif tag in _CONSTANTS:
+            name, value = element.get("name"), element.get(_CONSTANTS[tag])
+            if name is not None and value is not None:
+                constants[name.value.text] = value.value.text
         written += (
             Written(within, tag, each.name, each.value.text, each.value.span)
             for each in element.attributes
@@ -184,17 +196,22 @@ def source_file(db: Database, path: str) -> SourceFile | None:
         )
         inside = within or (tag if tag in _AROUND else "")
         waiting += ((child, inside) for child in reversed(list(element.elements)))
-    return SourceFile(document, tuple(written), tuple(includes))
+    return SourceFile(document, tuple(written), tuple(includes), constants)
 
 
-def _included(disk: Disk, environment: Environment, path: str, written: str) -> str | None:
-    """The file that an include names; None where that is computed, or it is not there."""
+def _included(
+    disk: Disk, environment: Environment, path: str, written: str, constants: Mapping[str, str]
+) -> str | None:
+    """The file that an include names; None where that is computed of more than constants, or it is not there."""
+
+    def constant(match: re.Match[str]) -> str:
+        return constants.get(match[1] or match[2], match[0])
 
     def share(match: re.Match[str]) -> str:
         package = environment.packages.get(match[1] or match[2])
         return package.share if package is not None else match[0]
 
-    name = _FIND.sub(share, written.strip())
+    name = _FIND.sub(share, _CONSTANT.sub(constant, written.strip()))
     if "$" in name or "://" in name or not name:
         return None
     found = os.path.normpath(os.path.join(os.path.dirname(path), name))

@@ -21,6 +21,7 @@ VERBS = {
     "where": "list the places that set a parameter",
     "tree": "list what a launch file starts",
     "graph": "print the communication graph of a launch",
+    "frames": "print the coordinate frames of a launch",
     "trace": "run the nodes of a launch file in the sandbox and print their interfaces",
     "snapshot": "write the expected graph to a file",
     "diff": "compare two launch configurations",

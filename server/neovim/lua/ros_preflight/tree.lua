@@ -8,7 +8,7 @@ local M = {}
 local FILE_COLOURS = 6
 local SEVERITIES = { 'error', 'warning', 'info' } -- as LSP counts
 
-local KIND_COLOURS = { namespace = 'Namespace', param = 'Param', remap = 'Remap', section = 'Section' }
+local KIND_COLOURS = { namespace = 'Namespace', param = 'Param', frame = 'Param', remap = 'Remap', section = 'Section' }
 
 local function colour_of(item)
   if item.kind == 'not-taken' then
@@ -40,7 +40,8 @@ local function badge(item, folded)
 end
 
 local function usually_folded(item)
-  return item.kind == 'node' or (item.kind == 'section' and item.label == 'Shared parameters')
+  local closed = item.label == 'Shared parameters' or vim.startswith(item.label, 'Frames')
+  return item.kind == 'node' or (item.kind == 'section' and closed)
 end
 
 local function add(shown, rows, items, parent, depth, not_run)

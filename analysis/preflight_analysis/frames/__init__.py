@@ -1,0 +1,1 @@
+"""The coordinate frames of a launch: who broadcasts which, and who asks for which."""

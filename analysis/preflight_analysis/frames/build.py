@@ -1,0 +1,106 @@
+"""All frames of a launch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import Known, KnownMeanings, known_of_nodes, params_of_nodes
+from preflight_analysis.evaluation.ros2.spawners import SPAWN
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.frames.edges import (
+    edges_of_node,
+    edges_of_plugins,
+    edges_of_robot,
+    is_state_publisher,
+    prefix_of,
+    space_of,
+)
+from preflight_analysis.frames.model import Edge, Frames
+from preflight_analysis.frames.uses import fixed_frame, mentions_of_node, uses_of_node
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.robot.of_launch import Robot, robots_of
+from preflight_analysis.tracing.interface import Interface
+
+_TF = ("tf", "tf_static")
+_SIMULATORS = ("gazebo_ros", "ros_gz_sim", "ros_ign_gazebo", "webots_ros2_driver", "stage_ros", "mujoco_ros")
+_SHOWN = 3
+
+
+def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings, disk: Disk, kept: Kept) -> Frames:
+    """The frames of a launch as far as they are known. `graph` has what is known of the nodes, None before the runs."""
+    tree = graph.tree if graph is not None else tree
+    nodes, generation = tree.nodes_and_simulated, tree.generation
+    interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else (None,) * len(nodes)
+    known = known_of_nodes(tree, meanings, kept)
+    params = params_of_nodes(tree, known, kept)
+    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation)
+    uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation)
+    mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
+    shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
+    return Frames(
+        (*_of_robots(tree), *chain.from_iterable(edges)),
+        (*chain.from_iterable(uses), *shown),
+        tuple(chain.from_iterable(mentions)),
+        tuple(_gaps(tree, nodes, interfaces, known, edges)),
+    )
+
+
+def _of_robots(tree: LaunchTree) -> Iterator[Edge]:
+    published: set[int] = set()
+    for node in tree.nodes:
+        robot = _robot_of(tree, node) if is_state_publisher(node) else None
+        if robot is not None:
+            published.add(id(robot))
+            space = space_of(node, tree.generation)
+            yield from edges_of_robot(robot, node, prefix_of(node, tree), space)
+            yield from edges_of_plugins(robot, node, space)
+    for robot in robots_of(tree):
+        if id(robot) not in published and not published:
+            yield from edges_of_robot(robot, None, "", "")
+
+
+def _robot_of(tree: LaunchTree, publisher: LaunchNode) -> Robot | None:
+    """The robot whose description a robot_state_publisher has: in ROS 1 it searches upwards for it."""
+    robots = [robot for robot in robots_of(tree) if any(node is publisher for node in robot.nodes)]
+    return max(robots, key=lambda robot: len(names.parent(robot.param.name)), default=None)
+
+
+def _gaps(
+    tree: LaunchTree,
+    nodes: Sequence[LaunchNode],
+    interfaces: Sequence[Interface | None],
+    known: Sequence[Known | None],
+    edges: Sequence[tuple[Edge, ...]],
+) -> Iterator[str]:
+    """Why there may be more frames than are known."""
+    if not tree.complete:
+        yield "parts of the launch are unresolved"
+    unread, unseen, unclear = list[str](), list[str](), list[str]()
+    for node, interface, about, found in zip(nodes, interfaces, known, edges, strict=True):
+        if is_state_publisher(node):
+            unread += [node.name] if _robot_of(tree, node) is None else []
+        elif found or (about is not None and about.is_used):
+            continue
+        elif interface is None or not interface.known:
+            unseen.append(node.name)
+        elif any(end.role == "publisher" and names.leaf(end.name) in _TF for end in interface.endpoints):
+            unclear.append(node.name)
+        elif interface.source in ("trace", "similar") and not interface.likely_complete:
+            unseen.append(node.name)
+    if unread:
+        yield f"the robot description of {_some(unread)} is not known"
+    if unclear:
+        yield f"the frames that {_some(unclear)} broadcasts are not known"
+    if unseen:
+        yield f"{len(unseen)} of {len(nodes)} nodes are not analysed: {_some(unseen)}"
+    simulates = any(node.package in _SIMULATORS or (node.package, node.executable) in SPAWN for node in nodes)
+    if simulates:
+        yield "a simulator may broadcast more"
+
+
+def _some(found: Sequence[str]) -> str:
+    return ", ".join(found[:_SHOWN]) + (f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else "")

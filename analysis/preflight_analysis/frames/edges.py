@@ -1,0 +1,142 @@
+"""The transforms that a node broadcasts, by all that is known of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import Known, Settings, own_params
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.frames.model import Edge
+from preflight_analysis.graph.build import effective_remaps
+from preflight_analysis.graph.tf_frames import frame_in_arguments
+from preflight_analysis.robot.model import GazeboPlugin
+from preflight_analysis.robot.of_launch import Robot
+from preflight_analysis.tracing.interface import Interface
+
+_STATE_PUBLISHERS = ("robot_state_publisher", "state_publisher")
+_FIXED = "="
+"""In what is known of a package: before a frame that no parameter names."""
+_DRIVES = ("diff_drive", "diff-drive", "skid_steer", "planar_move", "ackermann", "mecanum", "tricycle", "odometry-pub")
+"""In the names of Gazebo's plugins that broadcast odometry."""
+_ODOMETRY = ("odometry_frame", "odometryFrame", "odom_frame", "frame_id")
+_BASE = ("robot_base_frame", "robotBaseFrame", "base_frame", "child_frame_id")
+_SAYS_NOT = ("publish_odom_tf", "publishOdomTF", "publishTf", "publish_tf", "broadcastTF")
+_NO = ("false", "0")
+
+
+def plain(frame: str) -> str:
+    """A frame without leading slashes: tf takes them off where it is broadcast, in both generations."""
+    return frame.lstrip("/")
+
+
+def space_of(node: LaunchNode, generation: int) -> str:
+    """The namespace of the topic that a node has for `/tf`: "" for that itself, `/robot1` where it is remapped."""
+    if not node.remaps:
+        return ""
+    remap = effective_remaps(node, generation).get("/tf")
+    return remap[1].removesuffix("/tf") if remap is not None else ""
+
+
+def is_state_publisher(node: LaunchNode) -> bool:
+    """Whether it publishes the frames of a robot description."""
+    if node.package != "robot_state_publisher":
+        return False
+    return node.plugin is not None or node.executable in _STATE_PUBLISHERS
+
+
+def edges_of_node(
+    node: LaunchNode, interface: Interface | None, known: Known | None, given: Sequence[Param], generation: int
+) -> tuple[Edge, ...]:
+    """What a node broadcasts beside the frames of a robot description: by its arguments, its run, its parameters."""
+    space = space_of(node, generation)
+    found: dict[tuple[str, str], Edge] = {}
+
+    def add(edge: Edge) -> None:
+        if edge.parent and edge.child:
+            found.setdefault((edge.parent, edge.child), edge)
+
+    arguments = frame_in_arguments(node)
+    if arguments is not None:
+        parent, child = plain(arguments.parent), plain(arguments.child)
+        add(Edge(parent, child, arguments.static, "arguments", node, node.location, space))
+    for frame in interface.frames if interface is not None else ():
+        parent, child = plain(frame.parent), plain(frame.child)
+        add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
+    for edge in _of_knowledge(node, known, given, space):
+        add(edge)
+    return tuple(found.values())
+
+
+def _of_knowledge(node: LaunchNode, known: Known | None, given: Sequence[Param], space: str) -> Iterator[Edge]:
+    if known is None or not known.entry.frames:
+        return
+    settings = Settings(known, own_params(node, given))
+    for each in known.entry.frames:
+        parent, child = _frame(settings, each.parent), _frame(settings, each.child)
+        if not (parent and child) or not settings.holds(each.when):
+            continue
+        place = next((p.place for name in (each.child, each.parent) if (p := settings.params.get(name))), node.location)
+        detail = " -> ".join(name for name in (each.parent, each.child) if not name.startswith(_FIXED))
+        yield Edge(parent, child, each.static, "knowledge", node, place, space, known.is_used, detail)
+
+
+def _frame(settings: Settings, name: str) -> str:
+    value = name.removeprefix(_FIXED) if name.startswith(_FIXED) else settings.value(name)
+    return plain(value) if isinstance(value, str) else ""
+
+
+def edges_of_robot(robot: Robot, publisher: LaunchNode | None, prefix: str, space: str) -> tuple[Edge, ...]:
+    """The frames of a robot description, as a node publishes them with a prefix."""
+    links = frozenset(robot.description.links)
+    return tuple(
+        Edge(
+            prefix + joint.parent,
+            prefix + joint.child,
+            joint.type == "fixed",
+            "urdf",
+            publisher,
+            robot.param.place,
+            space,
+            publisher is not None,
+            f"joint {joint.name}",
+            robot,
+        )
+        for joint in robot.description.joints
+        if joint.parent in links and joint.child in links
+    )
+
+
+def edges_of_plugins(robot: Robot, node: LaunchNode | None, space: str) -> Iterator[Edge]:
+    """The odometry that plugins of a simulator broadcast, which may be another robot's than the description's."""
+    for plugin in robot.description.plugins:
+        if not any(word in plugin.filename for word in _DRIVES):
+            continue
+        if any(plugin.params.get(name, "").lower() in _NO for name in _SAYS_NOT):
+            continue
+        parent, child = _first(plugin, _ODOMETRY), _first(plugin, _BASE)
+        if parent and child:
+            place = robot.param.place
+            yield Edge(plain(parent), plain(child), False, "gazebo", node, place, space, False, plugin.name, robot)
+
+
+def _first(plugin: GazeboPlugin, tags: Sequence[str]) -> str:
+    return next((plugin.params[tag] for tag in tags if plugin.params.get(tag)), "")
+
+
+def prefix_of(node: LaunchNode, tree: LaunchTree) -> str:
+    """What a robot_state_publisher puts before the names of links: `frame_prefix` as it is given (ROS 2), `tf_prefix`
+    of the closest namespace and a slash (ROS 1, `JointStateListener`)."""
+    if tree.ros.own_parameters:
+        return plain(_text({param.name: param for param in node.params}, "frame_prefix"))
+    space = node.name
+    while True:
+        prefix = plain(_text(tree.params, names.join(space, "tf_prefix") if space != "/" else "/tf_prefix"))
+        if prefix or space == "/":
+            return f"{prefix}/" if prefix else ""
+        space = names.parent(space).rstrip("/") or "/"
+
+
+def _text(params: Mapping[str, Param], name: str) -> str:
+    found = params.get(name)
+    return found.value if found is not None and isinstance(found.value, str) else ""

@@ -1,0 +1,134 @@
+"""Frames of a launch as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.incremental.once import Once
+from preflight_analysis.robot.of_launch import Robot
+
+How = Literal["urdf", "arguments", "run", "knowledge", "gazebo"]
+"""How a transform is known: from the joint of a robot description, the arguments of a static transform publisher, a run
+of the node, what is known of its package, or a plugin of Gazebo in the description."""
+MOST_STEPS = 1000
+"""From a frame up to its root."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A transform from `parent` to `child`, names without a leading slash, that is broadcast in `space`: the namespace
+    of its topics, "" where these are `/tf` and `/tf_static`. `node` broadcasts it; None for a joint whose robot
+    description no node of the launch publishes. `sure`: it is known of this node in this version."""
+
+    parent: str
+    child: str
+    static: bool
+    how: How
+    node: LaunchNode | None
+    location: Location
+    space: str = ""
+    sure: bool = True
+    detail: str = ""
+    """The joint, the parameters, the plugin or the words in which it is known."""
+    robot: Robot | None = None
+
+    @property
+    def by(self) -> str:
+        """Who broadcasts it, for the user."""
+        if self.node is None:
+            return "robot_description (no robot_state_publisher in this launch)"
+        return f"{self.node.name} ({self.detail})" if self.detail else self.node.name
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A frame that a node names. `written` is as given, `frame` without a leading slash. `looked_up`: it asks for the
+    transform, and does not only write the name into its messages. `what` says how: `parameter 'base_frame'`; `param` is
+    that parameter, None for its default, or where no parameter names the frame."""
+
+    frame: str
+    written: str
+    node: LaunchNode
+    what: str
+    param: Param | None = None
+    space: str = ""
+    looked_up: bool = True
+    sure: bool = True
+
+    @property
+    def location(self) -> Location:
+        """Where the parameter is set, else the node."""
+        return self.param.place if self.param is not None else self.node.location
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """A frame that a parameter names of a node of which is not known what it does with that: it may broadcast it."""
+
+    frame: str
+    node: LaunchNode
+    parameter: str
+    param: Param
+    space: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Frames(Once):
+    """All frames of a launch. `gaps` says why there may be more, a sentence each."""
+
+    edges: tuple[Edge, ...] = ()
+    uses: tuple[Use, ...] = ()
+    mentions: tuple[Mention, ...] = ()
+    gaps: tuple[str, ...] = ()
+
+    def names(self, space: str) -> frozenset[str]:
+        """The frames that are broadcast in a space."""
+        return self.once(_names).get(space, frozenset())
+
+    def parents(self, space: str) -> Mapping[str, tuple[Edge, ...]]:
+        """The transforms of a space by their child."""
+        return self.once(_parents).get(space, {})
+
+    @property
+    def spaces(self) -> tuple[str, ...]:
+        """Those in which something is broadcast, the plain one first."""
+        return tuple(sorted(self.once(_names)))
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing speaks for more frames."""
+        return not self.gaps
+
+    def path(self, space: str, frame: str) -> tuple[Edge, ...]:
+        """The transforms from a frame up to its root, the first one that is known at each step."""
+        parents, found, met = self.parents(space), list[Edge](), {frame}
+        while len(found) < MOST_STEPS and (edges := parents.get(frame)):
+            frame = edges[0].parent
+            found.append(edges[0])
+            if frame in met:
+                break
+            met.add(frame)
+        return tuple(found)
+
+    def root(self, space: str, frame: str) -> str:
+        """The root of the tree that a frame is in."""
+        path = self.path(space, frame)
+        return path[-1].parent if path else frame
+
+
+def _names(frames: Frames) -> Mapping[str, frozenset[str]]:
+    found: dict[str, set[str]] = {}
+    for edge in frames.edges:
+        found.setdefault(edge.space, set()).update((edge.parent, edge.child))
+    return {space: frozenset(names) for space, names in found.items()}
+
+
+def _parents(frames: Frames) -> Mapping[str, Mapping[str, tuple[Edge, ...]]]:
+    found: dict[str, dict[str, list[Edge]]] = {}
+    for edge in frames.edges:
+        found.setdefault(edge.space, {}).setdefault(edge.child, []).append(edge)
+    return {space: {child: tuple(edges) for child, edges in of.items()} for space, of in found.items()}

@@ -1,0 +1,89 @@
+"""The frames that a node names: in its parameters, in what a run saw it ask for, in the configuration of RViz."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import re
+from collections.abc import Iterator, Sequence
+
+from preflight_analysis.documents.disk import Disk, text_of
+from preflight_analysis.documents.reading import Text
+from preflight_analysis.evaluation.meanings import Known, meant_by, own_params
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.frames.edges import plain, space_of
+from preflight_analysis.frames.model import Mention, Use
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import split_args
+
+_LEGAL = re.compile(r"/*[A-Za-z_][\w/.-]*\Z")
+_NAMES_A_FRAME = re.compile(r"(?:^|[._/])(?:\w*_)?frame(?:_?id|_?name)?$|[a-z]Frame(?:Id|ID|Name)?$")
+"""The last part of the name of a parameter that has a frame for its value, whatever node has it."""
+_ASKED = re.compile(r"transform (\S+) <- (\S+?)(?: again and again)?, and was given")
+_FIXED_FRAME = re.compile(r"^ +Fixed Frame: *[\"']?([^\"'\s#]+)", re.MULTILINE)
+_RVIZ = (("rviz2", "rviz2"), ("rviz", "rviz"))
+_CONFIG = ("-d", "--display-config")
+
+
+def uses_of_node(
+    node: LaunchNode, interface: Interface | None, known: Known | None, given: Sequence[Param], generation: int
+) -> tuple[Use, ...]:
+    """What a node names as far as it is known what it does with that."""
+    space = space_of(node, generation)
+    found = [] if known is None else list(_of_knowledge(node, known, given, space))
+    for answer in interface.outcome.answers if interface is not None else ():
+        if (asked := _ASKED.search(answer)) is not None:
+            what = f"transform {asked[1]} <- {asked[2]}"
+            found += (Use(plain(frame), frame, node, what, None, space) for frame in asked.groups() if is_frame(frame))
+    return tuple(found)
+
+
+def _of_knowledge(node: LaunchNode, known: Known, given: Sequence[Param], space: str) -> Iterator[Use]:
+    for each in meant_by(known, own_params(node, given)):
+        meaning, value = each.meaning, each.value
+        if meaning.kind != "frame" or meaning.role not in ("used", "named") or not is_frame(value):
+            continue
+        what = f"parameter '{each.parameter}'" + ("" if each.param is not None else " by default")
+        yield Use(plain(value), value, node, what, each.param, space, meaning.role == "used", known.is_used)
+
+
+def mentions_of_node(
+    node: LaunchNode, known: Known | None, given: Sequence[Param], generation: int
+) -> tuple[Mention, ...]:
+    """The frames in the parameters of a node of which is not known what it does with them."""
+    if known is not None or not given:
+        return ()
+    space = space_of(node, generation)
+    return tuple(
+        Mention(plain(param.value), node, name, param, space)
+        for name, param in own_params(node, given)
+        if _NAMES_A_FRAME.search(name) and is_frame(param.value)
+    )
+
+
+def is_frame(value: object) -> bool:
+    """Whether a value can be the name of a frame."""
+    return isinstance(value, str) and _LEGAL.match(value) is not None
+
+
+def fixed_frame(node: LaunchNode, disk: Disk, generation: int) -> Use | None:
+    """The fixed frame of the configuration that RViz is started with."""
+    if (node.package, node.executable) not in _RVIZ or node.unknowns:
+        return None
+    words = split_args(node.args)
+    path = next((value for word, value in itertools.pairwise(words) if word in _CONFIG), None)
+    if path is None or not os.path.isabs(path):
+        return None
+    frame = _fixed_frame(disk.db, path)
+    if frame is None or not is_frame(frame):
+        return None
+    return Use(plain(frame), frame, node, f"Fixed Frame of {os.path.basename(path)}", None, space_of(node, generation))
+
+
+@query
+def _fixed_frame(db: Database, path: str) -> str | None:
+    text = text_of(db, path)
+    found = _FIXED_FRAME.search(text.text) if isinstance(text, Text) else None
+    return found[1] if found is not None else None

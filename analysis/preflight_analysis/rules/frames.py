@@ -1,0 +1,35 @@
+"""The frames of a launch, as rules and queries ask for them."""
+
+from __future__ import annotations
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.value_places import value_place
+from preflight_analysis.frames.build import build_frames
+from preflight_analysis.frames.model import Edge, Frames, Use
+from preflight_analysis.robot.sources import place_of
+from preflight_analysis.rules.rule import Context
+
+
+def frames_of(context: Context) -> Frames:
+    """All frames that are known; the same object each time."""
+    return context.once(_frames)
+
+
+def _frames(context: Context) -> Frames:
+    return build_frames(context.tree, context.graph, context.known, context.disk, context.kept)
+
+
+def place_of_edge(context: Context, edge: Edge) -> Location:
+    """Where a transform comes from: the joint in the URDF or xacro file, else the node or parameter that says it."""
+    joint = edge.detail.removeprefix("joint ") if edge.how == "urdf" else ""
+    if edge.robot is not None and joint:
+        return place_of(edge.robot, context.disk, context.environment, "joint", "name", joint) or edge.location
+    return edge.location
+
+
+def place_of_use(context: Context, use: Use) -> Location:
+    """Where a frame is named: the value of the parameter, else the node."""
+    if use.param is None:
+        return use.node.location
+    place = use.param.place
+    return value_place(place, use.written, context.documents.get(place.file)) or place
