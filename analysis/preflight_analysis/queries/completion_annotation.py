@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.hash_comments import HASH_SUFFIXES
+from preflight_analysis.documents.hash_comments import has_hash_comments
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -64,7 +64,9 @@ def annotation_place(launch_file: LaunchFile, offset: int) -> AnnotationPlace | 
         return None
     opened = groups[-1]
     inside = before[opened.end() :]
-    if _ENDS.search(inside) or (launch_file.path.endswith(HASH_SUFFIXES) and not _is_comment(inside)):
+    if _ENDS.search(inside) or (
+        has_hash_comments(launch_file.path, launch_file.document.text) and not _is_comment(inside)
+    ):
         return None
     group: str = opened[2]
     item = _ITEM.search(inside)
@@ -150,7 +152,7 @@ def _nodes(analysis: Analysis, launch_file: LaunchFile, offset: int) -> list[tup
     """The nodes of the tag that is annotated, as far as the analysis knows it."""
     tree, graph = analysis.tree, analysis.graph
     nodes = list(nodes_around(tree, launch_file.path, offset))
-    if not nodes and launch_file.path.endswith(HASH_SUFFIXES):
+    if not nodes and has_hash_comments(launch_file.path, launch_file.document.text):
         below = [n for n in tree.nodes if n.location.file == launch_file.path and n.action.span.start >= offset]
         first = min((node.action.span.start for node in below), default=None)
         nodes = [node for node in below if node.action.span.start == first]

@@ -12,7 +12,6 @@ from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
-from preflight_analysis.launch.read import PYTHON_SUFFIX
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
@@ -127,7 +126,7 @@ def _tag_at(analysis: Analysis, file: str, offset: int) -> Action | None:
     """The innermost tag around `offset`. Of a Python file that was run the nodes are known better than by its text."""
     launch_file = analysis.launch_files.get(file)
     action = action_at(launch_file, offset) if launch_file else None
-    if file.endswith(PYTHON_SUFFIX):
+    if launch_file is not None and launch_file.is_python:
         made = [node.action for node in nodes_around(analysis.tree, file, offset)]
         return min(filter(None, (action, *made)), key=lambda each: each.span.end - each.span.start, default=None)
     return action
@@ -135,7 +134,8 @@ def _tag_at(analysis: Analysis, file: str, offset: int) -> Action | None:
 
 def _remap_in_python(analysis: Analysis, file: str, offset: int) -> Hover | None:
     """Of a remap in a Python file, which has no tag."""
-    if not file.endswith(PYTHON_SUFFIX):
+    launch_file = analysis.launch_files.get(file)
+    if launch_file is None or not launch_file.is_python:
         return None
     for node in analysis.tree.nodes:
         for remap in node.remaps:
