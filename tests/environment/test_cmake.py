@@ -266,6 +266,18 @@ def test_programs_in_folders_and_lists_of_files(harness: Harness) -> None:
     assert harness.build("project(demo)\ninstall(DIRECTORY / ../.. DESTINATION lib/demo)").programs == {}
 
 
+def test_scripts_that_get_the_permission_to_be_executed(harness: Harness) -> None:
+    for name in ("a.py", "deep/b.sh", "data.txt"):
+        harness.write(f"scripts/{name}")
+    share = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
+    installed = f'install(DIRECTORY scripts/ DESTINATION {share} FILES_MATCHING PATTERN "*" PERMISSIONS OWNER_EXECUTE)'
+    build = harness.build(f"{installed}\ninstall(DIRECTORY / DESTINATION {share} PERMISSIONS OWNER_EXECUTE)")
+    assert set(build.programs) == {"a.py", "b.sh"}
+    assert build.made_of("a.py") == Made(str(harness.folder / "scripts/a.py"), False)
+    build = harness.build(f"install(FILES tool.py a.txt DESTINATION {share} PERMISSIONS OWNER_READ WORLD_EXECUTE)")
+    assert set(build.programs) == {"tool.py"}
+
+
 def test_an_executable_of_several_files_is_told_by_the_one_with_its_name(harness: Harness) -> None:
     build = harness.build(
         "add_executable(Driver a.cpp driver.cpp)\nadd_executable(b a.cpp main.cpp)\nadd_executable(c)"

@@ -61,6 +61,27 @@ def test_a_remap_and_the_users_word_count(tmp_path: Path) -> None:
     assert topics_of(tmp_path, node) == ({"/out"}, {"/laser"})
 
 
+@pytest.mark.parametrize(
+    ("args", "published", "subscribed"),
+    [
+        ("raw compressed", "/image/compressed", "/image"),
+        ("compressed raw", "/image", "/image/compressed"),
+        ("compressed", "/image", "/image/compressed"),
+    ],
+)
+def test_images_that_are_published_in_another_transport(
+    tmp_path: Path, args: str, published: str, subscribed: str
+) -> None:
+    remaps = '<remap from="in" to="/image"/><remap from="out" to="/image"/>'
+    node = f'<node pkg="image_transport" type="republish" name="n" ns="r" args="{args}">{remaps}</node>'
+    analysis = package_elsewhere.analysed(tmp_path, f"<launch>{node}</launch>", "a.launch", "noetic")
+    assert analysis.graph is not None
+    assert "TOP004" not in {finding.rule for finding in analysis.findings}
+    topics = {name: each for name, each in analysis.graph.topics.items() if name.startswith(("/image", "/r/"))}
+    assert {name for name, each in topics.items() if each.providers} == {published}
+    assert {name for name, each in topics.items() if each.consumers} == {subscribed}
+
+
 BRIDGES = """
 - {ros_topic_name: odom, gz_topic_name: /model/odom, ros_type_name: nav_msgs/msg/Odometry, direction: GZ_TO_ROS}
 - {topic_name: /cmd_vel, ros_type_name: geometry_msgs/msg/Twist, direction: ROS_TO_GZ}

@@ -1,6 +1,7 @@
 """LCH013: an include of a file that is not there."""
 
 from pathlib import Path
+from textwrap import dedent
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
@@ -22,6 +23,19 @@ def test_an_included_file_that_is_not_there() -> None:
 
 def test_a_file_outside_of_any_package_that_is_not_there() -> None:
     assert [f.rule for f in findings_of('<launch><include file="/nowhere/at_all.launch"/></launch>')] == ["LCH013"]
+
+
+def test_a_file_that_a_program_writes_which_gets_the_launch_file() -> None:
+    text = """
+        <launch>
+          <arg name="parse" default="false"/>
+          <include unless="$(arg parse)" file="$(find p)/main_spawner.launch"/>
+                                               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {}[LCH013] included file
+          <node if="$(arg parse)" pkg="p" type="parse.py" name="parse" args="$(find p)/{}"/>
+        </launch>
+    """
+    check(f"//- /p/main.launch\n{dedent(text).format('info', 'main.launch')}")
+    check(f"//- /p/main.launch\n{dedent(text).format('error', 'other.launch')}")
 
 
 @pytest.mark.silent

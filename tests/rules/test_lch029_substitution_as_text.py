@@ -1,5 +1,7 @@
 """LCH029: a substitution that is none."""
 
+from pathlib import Path
+
 import pytest
 from support.check import apply, check, findings_of
 
@@ -99,6 +101,34 @@ def test_substitutions_in_a_parameter_file_of_ros2() -> None:
             mesh: $(find-pkg-share p)/arm.dae
                   ^^^^^^^^^^^^^^^^^^^ warning[LCH029] '$(find-pkg-share p)' is treated as literal text; substitutions
     """)
+
+
+@pytest.mark.silent
+def test_a_value_that_the_launch_file_sets_again() -> None:
+    found = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <rosparam>{file: $(find elsewhere)/a.yaml}</rosparam>
+            <param name="file" value="$(find elsewhere)/a.yaml"/>
+          </node>
+        </launch>
+    """)
+    assert "LCH029" not in {finding.rule for finding in found}
+
+
+@pytest.mark.parametrize(
+    ("source", "severity"), [(r"re.compile('\$\(find (.*)\)')", "info"), ("# $(find p)", "warning")]
+)
+def test_a_node_that_looks_for_substitutions_itself(tmp_path: Path, source: str, severity: str) -> None:
+    (tmp_path / "node.py").write_text(source)
+    (tmp_path / "main.launch").touch()
+    found = findings_of(f"""
+        //- {tmp_path}/main.launch
+        <launch><node pkg="q" type="t" name="n"><rosparam>{{file: $(find q)/a.yaml}}</rosparam></node></launch>
+        //- {tmp_path}/package.xml
+        <package><name>q</name></package>
+    """)
+    assert [each.severity for each in found if each.rule == "LCH029"] == [severity]
 
 
 @pytest.mark.silent

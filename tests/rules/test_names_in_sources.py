@@ -46,6 +46,15 @@ def test_a_service_that_a_node_of_another_launch_offers(tmp_path: Path) -> None:
     assert "did you mean 'topological_localisation/tagged'" in message
 
 
+def test_a_name_that_launch_files_give_is_no_slip(tmp_path: Path) -> None:
+    sources = {"a.cpp": 'nh.advertise<nav_msgs::OccupancyGrid>("map", 1);'}
+    for severity, written in (("warning", "/pmap0"), ("hint", "/pmap")):
+        (tmp_path / "a.launch").write_text(f'<launch><remap from="map" to="{written}"/></launch>')
+        (tmp_path / "b.launch").write_text(f'<launch><param name="map_in_topic" value="{written}"/></launch>')
+        ((_, found, _),) = _told(tmp_path, sources, "subscribers", "/pmap", "nav_msgs/OccupancyGrid")
+        assert found == severity
+
+
 def test_what_several_others_subscribe_to(tmp_path: Path) -> None:
     other = 'nh.subscribe<sensor_msgs::JointState>("joint_states", 1, f);'
     sources = {"a.cpp": other, "own.cpp": 'nh.subscribe<sensor_msgs::JointState>("joint_state", 1, f);'}

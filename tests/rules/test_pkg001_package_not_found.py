@@ -81,6 +81,24 @@ def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     assert (meant in findings[0].message) == (severity == "warning")
 
 
+@pytest.mark.parametrize(("program", "severity"), [("base.py", "warning"), ("pid_control", "hint")])
+def test_a_package_that_has_the_files_and_not_the_programs(tmp_path: Path, program: str, severity: str) -> None:
+    for name in ("robot", "beside"):
+        (tmp_path / "src" / name / "config").mkdir(parents=True)
+        (tmp_path / "src" / name / "package.xml").write_text(manifest(name, "catkin"))
+    (tmp_path / "src" / "robot" / "config" / "base.yaml").write_text("rate: 1")
+    (tmp_path / "src" / "robot" / "base.py").write_text("#!/usr/bin/env python3\n")
+    (tmp_path / "src" / "robot" / "base.py").chmod(0o755)
+    launch = tmp_path / "src" / "robot" / "main.launch"
+    launch.write_text(
+        '<launch><rosparam command="load" file="$(find vortex)/config/base.yaml"/>'
+        f'<node pkg="vortex" type="{program}" name="n"/><node pkg="stranger" type="t" name="m"/></launch>'
+    )
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = [f for f in workspace.static(str(launch), {}).findings if "'vortex'" in f.message and f.rule == "PKG001"]
+    assert {f.severity for f in findings} == {severity}
+
+
 @pytest.mark.parametrize(
     ("text", "paths"),
     [

@@ -1,6 +1,7 @@
 """PKG002: an executable that its package does not have."""
 
 from pathlib import Path
+from shutil import rmtree
 
 import pytest
 from preflight_analysis.environment.model import Environment, Package
@@ -39,6 +40,16 @@ def test_a_file_that_only_the_installed_package_may_execute(launch: Path) -> Non
     (finding,) = judge(launch, "plain.py")
     assert "start it from the install space" in finding.message
     assert (finding.severity, finding.confidence) == ("warning", "likely")
+
+
+def test_a_package_whose_build_file_git_ignores(launch: Path) -> None:
+    launch.parent.joinpath(".gitignore").write_text("CMakeLists.txt\n")
+    rmtree(launch.parent / "nodes")
+    (finding,) = judge(launch, "exported")
+    assert (finding.rule, finding.severity, finding.fixes) == ("PKG002", "info", ())
+    launch.parent.joinpath(".gitignore").write_text("other\n")
+    (finding,) = judge(launch, "exported")
+    assert finding.severity == "error"
 
 
 @pytest.mark.silent

@@ -85,6 +85,8 @@ def test_a_file_that_is_there_or_need_not_be() -> None:
           <param name="here" value="$(dirname)/p/a.yaml"/>
           <rosparam file="/p/a.yaml"/>
           <param name="output_file" value="$(find p)/new.yaml"/>
+          <arg name="autom_gen_path" default="$(find p)/problem.pddl"/>
+          <param name="problem_path" value="$(arg autom_gen_path)"/>
           <param name="trajectory" value="$(find p)/logs/new.csv"/>
           <param name="images" value="$(find p)/left_%04d.png"/>
           <param name="camera" value="package://p/${NAME}.yaml"/>

@@ -1,5 +1,7 @@
 """PRM010: a node reads a parameter without a default, and nothing sets it."""
 
+from pathlib import Path
+
 import pytest
 from support.check import apply, check, findings_of
 
@@ -15,6 +17,21 @@ def test_a_node_that_died_of_a_missing_parameter() -> None:
         {"/n": {"params": {"~rate": null}, "status": "crashed", "exit_code": 1, "stderr": ["KeyError: '~rate'"]}}
     """)
     assert finding.confidence == "likely"
+
+
+@pytest.mark.parametrize(("name", "severity"), [("rate", "info"), ("~rate", "warning")])
+def test_what_a_launch_file_nearby_sets(tmp_path: Path, name: str, severity: str) -> None:
+    (tmp_path / "main.launch").touch()
+    (tmp_path / "params.launch").write_text('<launch><param name="rate" value="1"/></launch>')
+    found = findings_of(f"""
+        //- {tmp_path}/main.launch
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {{"/n": {{"params": {{"{name}": null}}, "status": "crashed", "exit_code": 1, "stderr": ["KeyError: 'rate'"]}}}}
+        //- {tmp_path}/package.xml
+        <package><name>p</name></package>
+    """)
+    assert [each.severity for each in found if each.rule == "PRM010"] == [severity]
 
 
 def test_a_node_that_goes_on_gets_one_hint() -> None:

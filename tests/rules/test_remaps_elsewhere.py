@@ -68,6 +68,26 @@ def test_others_than_slips_in_the_same_place_are_no_news(tmp_path: Path, name: s
     assert "did you mean" not in finding.message
 
 
+@pytest.mark.parametrize(("written", "severity"), [("/pmap", "info"), ("/other", "warning")])
+def test_a_topic_that_several_launch_files_write_is_no_slip(tmp_path: Path, written: str, severity: str) -> None:
+    (tmp_path / "a.launch").write_text(f"<launch><remap from='map' to='{written}'/></launch>")
+    (tmp_path / "b.launch").write_text(f"<launch><node args='play'><remap from='{written}' to='/x'/></node></launch>")
+    (tmp_path / "main.launch").touch()
+    check(f"""
+        //- {tmp_path}/main.launch
+        <launch>
+          <node pkg="p" type="t" name="slam"/>
+          <node pkg="p" type="t" name="merge"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TOP001] '/pmap' has no publisher (subscriber: /merge)
+        </launch>
+        //- interfaces
+        {{"/slam": {{"publishers": {{"/map": "nav_msgs/OccupancyGrid"}}}},
+         "/merge": {{"subscribers": {{"/pmap": "nav_msgs/OccupancyGrid"}}}}}}
+        //- {tmp_path}/package.xml
+        <package><name>p</name></package>
+    """)
+
+
 def test_files_of_blanks_take_no_time(tmp_path: Path) -> None:
     blanks = ["\n" * 200_000, " \t" * 100_000, "- " * 100_000, "(" * 200_000, "<remap to='" * 20_000]
     for at, text in enumerate(blanks):

@@ -1,5 +1,7 @@
 """TOP005: two nodes publish a topic that is meant for one."""
 
+from pathlib import Path
+
 import pytest
 from support.check import check, findings_of
 
@@ -48,6 +50,23 @@ def test_several_publishers_are_fine_where_many_are_meant() -> None:
                                "state": "x/S"}, "latched": ["m", "/tf_static"]},
          "/c": {"subscribers": {"m": "visualization_msgs/Marker", "cmd": "x/T", "state": "x/S"}}}
     """)
+
+
+@pytest.mark.parametrize(("line", "severity"), [(1, "info"), (3, "warning")])
+def test_a_module_that_several_programs_import(tmp_path: Path, line: int, severity: str) -> None:
+    module = tmp_path / "measure.py"
+    module.write_text("pub = Publisher('/cropped', Image)\nclass Camera:\n    pub = Publisher('/cropped', Image)\n")
+    end = f'{{"publishers": {{"/cropped": "sensor_msgs/Image"}}, "made": {{"/cropped": ["{module}", {line}]}}}}'
+    for second, found in (("debug.py", severity), ("detect.py", "warning")):
+        text = f"""
+            <launch>
+              <node pkg="p" type="detect.py" name="detect"/>
+              <node pkg="p" type="{second}" name="other"/>
+            </launch>
+            //- interfaces
+            {{"/detect": {end}, "/other": {end}}}
+        """
+        assert [f.severity for f in findings_of(text) if f.rule == "TOP005"] == [found]
 
 
 def test_two_cameras_on_one_topic() -> None:

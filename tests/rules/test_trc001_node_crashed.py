@@ -335,6 +335,7 @@ def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None
         ("[ERROR] failed to open /sim_ws/src/map.pgm", "info"),
         ("Error opening file: drive.bag", "info"),
         ("Error reading from file: drive.bag", "warning"),
+        ("Error reading version line", "info"),
         ("Error opening file: /home/somebody/Datasets/drive.bag", "info"),
         ("Error writing: Error opening file: /mnt/recordings/drive.bag.active", "info"),
         ("Invalid target directory '/home/somebody/Documents/Data'.", "info"),

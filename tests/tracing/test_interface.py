@@ -196,6 +196,12 @@ def test_a_crash_in_an_import(tmp_path: Path) -> None:
     assert found.outcome.reason.startswith("it ended with exit code 1: ImportError: cannot import name 'foo' from 'os'")
 
 
+def test_a_package_that_a_node_does_not_find(tmp_path: Path) -> None:
+    said = "raise type('ResourceNotFound', (Exception,), {'__module__': 'rospkg.common'})"
+    interface = trace(write_node(tmp_path, f"{said}('smach_ros\\nROS path [0]=/usr/share')\n"))
+    assert interface.outcome.reason == "it ended with exit code 1: rospkg.common.ResourceNotFound: smach_ros"
+
+
 def test_a_signal_is_named(tmp_path: Path) -> None:
     found = trace(write_node(tmp_path, "import os\nos.kill(os.getpid(), 11)\n"))
     assert (found.outcome.status, found.outcome.signal) == ("crashed", "SIGSEGV")

@@ -35,6 +35,8 @@ def lacks(*said: str, status: str = "crashed", wrote: tuple[str, ...] = ()) -> s
         ("OSError: [Errno 101] Network is unreachable", "network"),
         ("socket.gaierror: [Errno -3] Temporary failure in name resolution", "network"),
         ("serial.SerialException: could not open port /dev/ttyUSB0: No such file", "the device /dev/ttyUSB0"),
+        ("/ws/bin/httpd: error while loading shared libraries: libssl.so.1.0.0: cannot open", "shared library"),
+        ("EOFError: EOF when reading a line", "a terminal"),
         ("ERROR: Wrong input topic (or topic field): /imu", "publish a topic"),
     ],
 )

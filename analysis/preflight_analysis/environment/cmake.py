@@ -61,6 +61,8 @@ _FOLDERS = {
 _AT_BUILD = re.compile(r"\A\$<BUILD_INTERFACE:([^<>]*)>\Z")
 """A folder that only counts where the package is built, not where it is installed."""
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
+_MAY_EXECUTE = frozenset(("OWNER_EXECUTE", "GROUP_EXECUTE", "WORLD_EXECUTE"))
+_SCRIPTS = (".py", ".sh", ".bash")
 _PLACES = frozenset(
     re.findall(
         r"\w+",
@@ -243,6 +245,8 @@ class _Lists:
             case "install", [("DIRECTORY" | "FILES") as kind, *rest] if "DESTINATION" in rest[:-1]:
                 self._data(rest, folder, whole=kind == "DIRECTORY")
                 self._programs_of(rest, folder, f"lib/{variables['PROJECT_NAME']}")
+                if not _MAY_EXECUTE.isdisjoint(rest):
+                    self._made_executable(rest, folder)
             case "install", ["TARGETS" | "EXPORT", *_]:
                 pass
             case "package", [*_] if "INSTALL_TO_SHARE" in words:  # ament_auto_package
@@ -347,6 +351,18 @@ class _Lists:
                 self._disk.names(place)  # it is made again as something in it comes or goes
                 self._add_programs(os.path.join(place, name) for name in names[:_MAX_PROGRAMS])
             self._add_programs((path,))
+
+    def _made_executable(self, words: Sequence[str], folder: str) -> None:
+        """The scripts among the files, or below the folders, that get the permission to be executed where they are
+        installed."""
+        for word in itertools.takewhile(lambda word: word not in _PLACES, words):
+            path = os.path.normpath(os.path.join(folder, word))
+            inside = f"{path}/".startswith(f"{self._top}/")
+            patterns = [os.path.join(path, f"*{ending}") for ending in _SCRIPTS] if inside else ()
+            below = globbed(self._disk, patterns, folder, deep=True) if self._disk.is_folder(path) else [path]
+            for file in below[:_MAX_PROGRAMS]:
+                if file.endswith(_SCRIPTS):
+                    self._programs.setdefault(os.path.basename(file), Program(file, False))
 
     def _add_programs(self, paths: Iterable[str]) -> None:
         for path in filter(self._disk.is_program, paths):

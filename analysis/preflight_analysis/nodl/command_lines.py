@@ -1,8 +1,9 @@
-"""Topics that nodes are given by their command lines: those of topic_tools, of bridges to Gazebo, and rostopic's.
+"""Topics that nodes are given by their command lines: those of topic_tools, of bridges to Gazebo, rostopic's, and
+image_transport's.
 
 http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools, http://wiki.ros.org/rostopic,
-https://docs.ros.org/en/jazzy/p/ros_gz_image/. Such a node takes any type, and its source
-does not say which topics: the command line does, where the node was not run.
+https://docs.ros.org/en/jazzy/p/ros_gz_image/, http://wiki.ros.org/image_transport. Such a node takes any type, and its
+source does not say which topics: the command line does, where the node was not run.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import replace
 from itertools import compress
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.bridges import config_file_of, is_bridge
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
@@ -23,6 +25,14 @@ from preflight_analysis.tracing.request import split_args
 
 _TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
 _ANY = "*"
+_IMAGES = "image_transport"
+_ENDS = ("in", "out")
+_TRANSPORTED = {
+    "raw": "sensor_msgs/Image",
+    "compressed": "sensor_msgs/CompressedImage",
+    "compressedDepth": "sensor_msgs/CompressedImage",
+    "theora": "theora_image_transport/Packet",
+}
 
 
 def with_command_lines(
@@ -38,7 +48,11 @@ def with_command_lines(
         # A run tells what is made on demand, and an annotation is the user's word for all of it.
         if not whole[at].complete and read_annotation(tree.nodes[at].action)[0] is None:
             source = whole[at].source if whole[at].known else "source"
-            whole[at] = replace(whole[at].with_more(source, endpoints, ()), whole=True)
+            if tree.nodes[at].package == _IMAGES:
+                others = tuple(end for end in whole[at].endpoints if end.name not in _ENDS)
+                whole[at] = replace(whole[at], endpoints=(*others, *endpoints), source=source)
+            else:
+                whole[at] = replace(whole[at].with_more(source, endpoints, ()), whole=True)
     return whole
 
 
@@ -79,6 +93,19 @@ def _of_images(node: LaunchNode, words: list[str], kinds_in_types: bool) -> _Mad
             yield "publisher", name, "sensor_msgs/msg/Image" if kinds_in_types else "sensor_msgs/Image"
 
 
+def _of_republish(node: LaunchNode, words: list[str], kinds_in_types: bool) -> _Made:
+    """`republish IN_TRANSPORT [OUT_TRANSPORT]`: the topics `in` and `out` are those of a transport, whose name comes
+    behind the remapped one. Without the second all transports are published."""
+    if kinds_in_types or node.executable != "republish" or not words:
+        return
+    remapped = names.resolve_remaps(tuple((remap.source, remap.target) for remap in node.remaps), node.name)
+    roles: tuple[Role, Role] = ("subscriber", "publisher")
+    for role, name, transport in zip(roles, _ENDS, (words[0], (*words[1:], "raw")[0]), strict=True):
+        resolved = names.resolve(name, node.name, remapped)
+        topic = name if transport == "raw" else f"{resolved}/{transport}"
+        yield role, topic, _TRANSPORTED.get(transport, _ANY)
+
+
 def _of_topic_tools(node: LaunchNode, words: list[str], _: bool) -> _Made:
     for role, name in _of_tool(node, words):
         yield role, name, _ANY
@@ -87,6 +114,7 @@ def _of_topic_tools(node: LaunchNode, words: list[str], _: bool) -> _Made:
 _MAKING: Mapping[str, Callable[[LaunchNode, list[str], bool], _Made]] = {
     "topic_tools": _of_topic_tools,
     "rostopic": _of_rostopic,
+    _IMAGES: _of_republish,
     **dict.fromkeys(("ros_gz_image", "ros_ign_image"), _of_images),
 }
 _WITH_VALUE = ("-r", "--rate", "-f", "--file", "-s", "--substitute")

@@ -14,20 +14,25 @@ _PATH = r"[\w.+-]+(?:/[\w.+-]+)+"
 _ARGUMENT = re.compile(r"\$\((?:arg|var)\s+(\w+)\s*\)")
 _PATH_IN_XML = r"(?:[\w.+/-]|\$\((?:arg|var)\s+\w+\s*\))+"
 _WORDS = r"(?:\s*,\s*['\"][\w./+-]+['\"])+"
+_NODE = re.compile(r"<node\b[^<>]*")
+_PROGRAM = re.compile(r"""\b(?:type|exec)\s*=\s*["']([^"']+)["']""")
 _WORD = re.compile(r"['\"]([\w./+-]+)['\"]")
 _SHARE = r"(?:FindPackageShare|get_package_share_(?:directory|path))\(\s*(?:package(?:_name)?\s*=\s*)?['\"]{}['\"]\s*\)"
 
 
 def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Package, str] | None:
-    """The one package of the workspace in which all paths are that `file` asks for below package `name`, and the first
-    of those paths; None where there is no such package, or no path that is written out."""
+    """The one package of the workspace in which all paths and programs are that `file` asks for of package `name`, and
+    the first of those paths; None where there is no such package, or no path that is written out."""
     document = context.documents.get(file)
+    if not isinstance(document, Document):
+        return None
     values = {arg.name: arg.value for arg in context.tree.args.values()} if file == context.tree.file else {}
-    paths = sorted(set(asked_below(document.text, name, values))) if isinstance(document, Document) else []
+    paths = sorted(set(asked_below(document.text, name, values)))
     # A launch file that hands over to another one mostly has its name.
     paths = [path for path in paths if os.path.basename(path) != os.path.basename(file)]
     if not paths:
         return None
+    programs = _started_of(document.text, name)
     environment = context.environment
     installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     having = [
@@ -35,8 +40,21 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
         for package in environment.packages.values()
         if not package.share.startswith(installed)
         and all(context.disk.exists(os.path.join(package.share, path)) for path in paths)
+        and all(_has_program(context, package.name, program) for program in programs)
     ]
     return (having[0], paths[0]) if len(having) == 1 else None
+
+
+def _started_of(text: str, name: str) -> set[str]:
+    """The programs of the package that tags start, but for those that are not written out."""
+    of_package = re.compile(rf"""\bpkg\s*=\s*["']{re.escape(name)}["']""")
+    tags = (tag[0] for tag in _NODE.finditer(text) if of_package.search(tag[0]))
+    return {program[1] for tag in tags if (program := _PROGRAM.search(tag)) is not None and "$" not in program[1]}
+
+
+def _has_program(context: Context, package: str, program: str) -> bool:
+    executables = context.executables
+    return executables.is_build_target(package, program) or program in executables.names(package)
 
 
 def asked_below(text: str, name: str, values: Mapping[str, str | None]) -> Iterator[str]:

@@ -19,6 +19,8 @@ _OF_OTHERS = re.compile(r"(/(?:home|Users|mnt|media)/[\w.+-]+)(?=/)")
 _SCRIPT = re.compile(r"(?<!\S)/[^\s:]+: (?=(?:line )?\d+: )")
 """How a shell begins what it says: with the script, which is there."""
 _RECORDING = re.compile(r"[\w+-]\.(?:bag|db3|mcap)(?:\.active)?\b")
+_NO_RECORDING = "Error reading version line"
+"""What rosbag says of a file that is none, as Git LFS leaves it where it has not fetched the recording."""
 _WORKING_FOLDER = re.compile(r"\bPWD\b|\bgetcwd\(|\bcwd\(\)")
 
 
@@ -49,7 +51,7 @@ def paths_said(said: str) -> tuple[str, ...]:
 
 def lacks_recording(said: str) -> bool:
     """Whether a program says that it did not find a recording, which nobody keeps with the sources."""
-    return _MISSING.search(said) is not None and _RECORDING.search(said) is not None
+    return _NO_RECORDING in said or (_MISSING.search(said) is not None and _RECORDING.search(said) is not None)
 
 
 def depends_on_working_folder(context: Context, location: Location) -> bool:

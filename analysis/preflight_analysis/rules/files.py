@@ -55,6 +55,8 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
             elif near is None and depends_on_working_folder(context, problem.location):
                 severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
+            elif near is None and (maker := _maker_of(context, path, problem.location)) is not None:
+                severity, message = "info", f"{message}; '{maker}' gets this launch file and may create it"
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
@@ -71,6 +73,26 @@ def _in_namesake(context: Context, path: str) -> str | None:
     named = (each for each, package in context.environment.packages.items() if package.share == str(share))
     others = chain.from_iterable(context.environment.shadowed.get(each, ()) for each in named)
     return next((each.share for each in others if context.disk.exists(os.path.join(each.share, below))), None)
+
+
+def _maker_of(context: Context, path: str, place: Location) -> str | None:
+    """The program that gets the launch file itself as an argument, where a file is missing whose name begins with that
+    of the launch file: it writes the one that the launch file includes another time (`parse:=true`)."""
+    folder, name = os.path.split(place.file)
+    launch_file = context.launch_files.get(place.file)
+    if launch_file is None or launch_file.root is None or os.path.dirname(path) != folder:
+        return None
+    if not os.path.basename(path).startswith(_stem(name)):
+        return None
+    itself = re.compile(rf"(?<![\w.-]){re.escape(name)}(?![\w.])")
+    pending = [launch_file.root]
+    while pending:
+        action = pending.pop()
+        pending += action.children
+        args, program = action.value("args"), action.value("type")
+        if args is not None and program is not None and itself.search(args.text):
+            return program.text
+    return None
 
 
 def _empty_arguments(context: Context, path: str, place: Location, near: str | None) -> str:

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from itertools import chain
 
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.findings.insertion import insert_attribute
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.problems import SubstitutionAsText
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ROSPARAM
+from preflight_analysis.rules.installed import is_installed
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -25,6 +32,10 @@ _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
 _ARG = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
 _ARGUMENT = re.compile(r"[\s\"',]+")
 _LONGEST = 4096
+_SOURCES = (".py", ".cpp", ".cc", ".h", ".hpp")
+_MOST_SOURCES = 400
+_LOOKED_FOR = r"\$\(find"
+"""How a regular expression begins that looks for `$(find package)`."""
 _FAR = 2000
 """How far behind its key a value is looked for."""
 
@@ -40,8 +51,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     of_tree = context.kept.each(_left_in, context.tree.all_params)
     of_nodes = context.kept.each(_left_in_node, context.tree.nodes)
     tags = Tags(context.launch_files)
+    lost = {unknown.param for unknown in context.tree.unknowns if unknown.param is not None}
     for param, text in (*filter(None, of_tree), *chain.from_iterable(of_nodes)):
-        yield from _not_made(rule, context, tags, param, text)
+        if param.name not in lost:  # a `<param>` sets it again, to what is not known here
+            yield from _not_made(rule, context, tags, param, text)
 
 
 def _left_in_node(node: LaunchNode) -> tuple[tuple[Param, str], ...]:
@@ -83,12 +96,15 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
         fixes = (Fix(f'Add {attribute}="true" to the tag', (edit,), True),)
     needed = f"ParameterFile(..., {attribute}=True)" if python else f'<{tag_name} {attribute}="true">'
     place = _place(context, param, text)
+    idle = _is_of_idle_controller(context, param)
+    own = None if idle or ament else _program_that_replaces(context, param)
     related = (Related("the file is loaded here", where),) if place.file != where.file else ()
     yield rule.finding(
         f"'{text}' is treated as literal text; substitutions in YAML need {needed}"
-        + ("; the launch file does not declare the argument" if unknown else ""),
+        + ("; the launch file does not declare the argument" if unknown else "")
+        + (f"; '{own}' of the package looks for such text itself" if own is not None else ""),
         place,
-        severity="info" if _is_of_idle_controller(context, param) else None,
+        severity="info" if idle or own is not None else None,
         confidence="likely",
         related=(*related, *include_chain((*param.origin[:-1], place))),
         fixes=fixes,
@@ -109,6 +125,27 @@ def _is_of_idle_controller(context: Context, param: Param) -> bool:
     return False
 
 
+def _program_that_replaces(context: Context, param: Param) -> str | None:
+    """A source of the package of the node that gets the parameter which looks for substitutions itself, with an
+    expression for them."""
+    node = next((node for node in context.tree.nodes if param.name.startswith(f"{node.name}/")), None)
+    package = context.environment.packages.get(node.package) if node is not None else None
+    if package is None or is_installed(context, package):
+        return None
+    return _source_with(context.disk.db, package.share)
+
+
+@query
+def _source_with(db: Database, folder: str) -> str | None:
+    disk = Disk(db)
+    sources = [path for path in files_in(disk, folder, deep=True) if path.endswith(_SOURCES)]
+    for path in sources[:_MOST_SOURCES]:
+        document = disk.text(path)
+        if isinstance(document, Document) and _LOOKED_FOR in document.text:
+            return os.path.basename(path)
+    return None
+
+
 def _place(context: Context, param: Param, text: str) -> Location:
     """The substitution itself, which stands near the key; else the key."""
     key = param.place
@@ -124,7 +161,8 @@ RULE = Rule(
     what="Checks for text that looks like a substitution and is none, because of a missing end or other brackets. "
     "It also checks substitutions in the YAML of a `<rosparam>` without `subst_value` (ROS 1). In ROS 2 it checks "
     "those in a parameter file of a node without `allow_substs`. In the section of a controller that no node of the "
-    "launch starts, the finding is information.",
+    "launch starts, the finding is information. It is so too if a source of the node's package looks for `$(find ...)` "
+    "itself.",
     why="`roslaunch` replaces only the form `$(arg name)` and treats everything else as literal text. The topic or "
     "file is then named `$(arg name`. In YAML both launchers replace substitutions only on request.",
     example='<param name="port" value="${arg port}"/>\n<rosparam>rate: $(arg rate)</rosparam>',

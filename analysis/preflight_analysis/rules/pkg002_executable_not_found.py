@@ -5,7 +5,8 @@ from os.path import relpath
 from pathlib import PurePath
 from typing import NamedTuple
 
-from preflight_analysis.environment.build import Made
+from preflight_analysis.environment.build import LISTS, Made
+from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
@@ -84,17 +85,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             hint = did_you_mean(near)
             slip = near is not None and any(is_slip(key(node.executable), key(near)) for key in (str, _stem, _plain))
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
-        placeholder = node.executable.startswith("/dev/") or says_not_set(node.executable)
-        if placeholder:
+        doubtful = node.executable.startswith("/dev/") or says_not_set(node.executable)
+        if doubtful:
             hint = "; set the argument that names it"
+        elif not names and is_ignored(context.disk, f"{found.package_path}/{LISTS}"):
+            doubtful, hint = True, f"; git ignores {LISTS} of the package, so each machine may create it"
         yield rule.finding(
             f"executable '{node.executable}' not found in package '{node.package}' ({len(names)} executables in "
             f"{found.package_path} and the {_SPACES[context.tree.generation]}){hint}",
             location,
-            severity="info" if placeholder else None,
+            severity="info" if doubtful else None,
             confidence="likely" if node.unknowns else "certain",
             related=chain,
-            fixes=() if placeholder else fixes,
+            fixes=() if doubtful else fixes,
         )
 
 
@@ -162,10 +165,10 @@ RULE = Rule(
     severity="error",
     what="Checks for a node whose `type` (ROS 2: `exec`) is not an executable file of its package. The finding names "
     "the nearest executable, or the package of the launch that has it. It also checks for a file without the "
-    "permission to execute it: a warning, if `install(PROGRAMS)` installs the file with it. An executable that a "
-    "`CMakeLists.txt` of the package names is not built yet: this is a hint. For a common package that is not "
-    "installed, the catalogue knows its executables. A typo of those is a warning if the catalogue has the "
-    "distribution in use, otherwise a hint.",
+    "permission to execute it: a warning, if `install()` installs the file with it. An executable that a "
+    "`CMakeLists.txt` of the package names is not built yet: this is a hint. It is information if git ignores that "
+    "file. For a common package that is not installed, the catalogue knows its executables. A typo of those is a "
+    "warning if the catalogue has the distribution in use, otherwise a hint.",
     why="`roslaunch` prints an error among the output of the other nodes and continues without this one. `ros2 "
     "launch` stops.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',

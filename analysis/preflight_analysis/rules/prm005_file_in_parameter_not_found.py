@@ -46,6 +46,8 @@ _WRITTEN = frozenset(
     )
 )
 """Words in the name of a parameter, option, node or folder that say: this file is made when the node runs."""
+_GENERATED = re.compile(r"(?:\A|_)gen(?:_|\Z)")
+"""Likewise in the name of an argument that hands the path on."""
 _MADE_WHEN_RUN = (".bag", ".log", ".db", ".pid", ".sock", ".sqlite", ".tmp")
 _FETCHED = frozenset(
     re.findall(
@@ -80,7 +82,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for path in _missing(named.text, context):
             values = _argument_uses(context.tree) if values is None else values
             given = named.location()
-            location = _where_written(context, given, path, values)
+            location, arguments = _where_written(context, given, path, values)
+            if any(_made_when_run(name) or _GENERATED.search(name) for name in arguments):
+                continue
             related = include_chain((*named.origin[:-1], location))
             if location != given:
                 related = (Related(f"{named.what} is set here", given), *related)
@@ -263,25 +267,29 @@ def _argument_uses(tree: LaunchTree) -> Mapping[Location, list[Use]]:
     return found
 
 
-def _where_written(context: Context, at: Location, path: str, uses: Mapping[Location, list[Use]]) -> Location:
-    """The place that has the file's name, or makes it: from `at` back over the arguments that gave the value."""
+def _where_written(
+    context: Context, at: Location, path: str, uses: Mapping[Location, list[Use]]
+) -> tuple[Location, tuple[str, ...]]:
+    """The place that has the file's name, or makes it: from `at` back over the arguments that gave the value, with
+    their names."""
     name = os.path.basename(path)
     place, seen = at, set[Location]()
+    arguments: tuple[str, ...] = ()
     while place not in seen and len(seen) < _MOST_STEPS:
         seen.add(place)
         document = context.documents.get(place.file)
         if document is None or name in document.text[place.span.start : place.span.end]:
-            return place
+            return place, arguments
         use = next((u for u in uses.get(place, ()) if u.origin and u.value is not None and name in u.value), None)
         launch_file = context.launch_files.get(use.origin[-1].file) if use is not None else None
         if use is None or launch_file is None:
-            return place
+            return place, arguments
         action = action_at(launch_file, use.origin[-1].span.start)
         value = (action.value("value") or action.value("default")) if action is not None else None
         if value is None:
-            return place
-        place = launch_file.document.location(value.span)
-    return at
+            return place, arguments
+        place, arguments = launch_file.document.location(value.span), (*arguments, use.name)
+    return at, arguments
 
 
 RULE = Rule(
@@ -291,7 +299,7 @@ RULE = Rule(
     what="Checks for a file that does not exist in the value of a parameter, the arguments of a node or a command. "
     "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. The "
     "finding names the nearest file. Names of files that are written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are not reported. If no similar file exists, some files are information. These "
+    "files that the package builds are not reported. The name may be that of an argument, too. If no similar file exists, some files are information. These "
     "are a model or recording, a file that git ignores, a file in `$(env PWD)`, and the calibration of a camera. "
     "The same applies to a file that several packages name for the same argument and lack.",
     why="The launcher does not check the value. The node exits when it opens the file, or continues without it: a "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
@@ -19,9 +20,11 @@ from preflight_analysis.rules.places import related_param_read
 from preflight_analysis.rules.problems import include_chain, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import unread_params
+from preflight_analysis.rules.written_elsewhere import around
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _UNREAD = (ParameterFileNotFound, UnreadableParameterFile, BadYaml)
+_SET = (re.compile(r"""<param\b[^<>]*?\bname\s*=\s*["'](?:[^"'<>]*/)?(\w+)["']"""),)
 _WITH_ZEROS = ("dashing", "eloquent", "foxy")
 """Distributions in which a parameter that is declared by its type alone begins with a zero of it."""
 
@@ -160,9 +163,14 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
     reads = "reads it without a default" if read.use.mandatory else "reads it"
     message = f"required parameter '{read.name}' is not set; {node.name} {reads} and exits: {died}"
     if meant is None:
+        setters = 0 if read.use.name.startswith("~") else around(context, _SET).get(names.leaf(read.name), 0)
+        if setters:
+            files = f"{setters} launch files nearby set" if setters > 1 else "a launch file nearby sets"
+            message += f"; {files} a parameter of that name"
         return rule.finding(
             message,
             node.location,
+            severity="info" if setters else None,
             confidence="likely",
             related=(related_param_read(read), *include_chain(node.origin)),
         )
@@ -183,6 +191,7 @@ RULE = Rule(
     "finding is an error if the node was run and exited because of it. It is a warning if the C++ source declares "
     "the parameter by type only, in a line without a condition. In ROS 1 it is a warning if the node exited because "
     "of it. That warning is at the intended parameter if one of a similar name, or in an outer namespace, is set. "
+    "It is information if a launch file nearby sets one of that name, as the launches may be started together. "
     "Otherwise it is a hint, because the node may handle the missing value. If the node continues and an unused "
     "parameter was intended, PRM001 reports it.",
     why="rospy raises a KeyError; in roscpp the variable keeps its old value. rclcpp throws an exception for a "

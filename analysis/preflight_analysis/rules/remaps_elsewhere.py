@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -23,6 +23,12 @@ _TARGETS = (
     re.compile(r"""^[ \t]*(?:-[ \t]*)?to[ \t]*:[ \t]*["']?([\w/~]+)["']?[ \t]*$""", re.MULTILINE),
 )
 """In XML, Python and YAML; only names that are written out."""
+_IN_USE = (
+    re.compile(r"""<remap\b[^<>]*?\bfrom\s*=\s*["'](/[\w/]+)["']"""),
+    re.compile(r"""<remap\b[^<>]*?\bto\s*=\s*["'](/[\w/]+)["']"""),
+    re.compile(r"""<(?:param|arg)\b[^<>]*?\b(?:value|default)\s*=\s*["'](/[\w/]+)["']"""),
+)
+"""Absolute names that tags of ROS 1 and 2 give or take, or that parameters hand to nodes."""
 _ENOUGH = 2
 """Files that have to agree on a name."""
 
@@ -37,14 +43,25 @@ class Elsewhere:
     """Whether it is the sources of nodes that have the name, and not launch files."""
 
 
+def in_use_around(context: Context, connections: Sequence[Connection]) -> list[bool]:
+    """Whether several launch files around write the name of each end: it is no slip, whoever is to be at its other
+    end."""
+    if not connections:
+        return []
+    known = around(context, _IN_USE)
+    return [known.get(connection.name, 0) >= _ENOUGH for connection in connections]
+
+
 def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     """For ends of topics and services without another one, by id, the name that their remaps were most likely to give:
     theirs is a slip of it, several launch files around have it, and no other one has theirs. Likewise, of consumers
     without a remap, what the sources of the workspace offer. Ask through `context.once`."""
     consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
+    slips = [each for each in consumers if meant_in_sources(context, each) is not None]
+    slips = [each for each, in_use in zip(slips, in_use_around(context, slips), strict=True) if not in_use]
     by_source = {
         id(each): Elsewhere(*meant, in_source=True)
-        for each in consumers
+        for each in slips
         if (meant := meant_in_sources(context, each)) is not None
     }
     lone = [each for each in (*consumers, *context.once(dangling_topic_providers)) if each.remap is not None]

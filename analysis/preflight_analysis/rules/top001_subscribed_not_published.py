@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
@@ -12,7 +12,7 @@ from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import Verbs, related_endpoint
-from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_elsewhere
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, in_use_around, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
@@ -28,7 +28,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
     unknown = not_analysed(graph)
-    columns = (near, *documents_of(context, near))
+    in_use = in_use_around(context, [pair.consumer for pair in near])
+    columns = (near, in_use, *documents_of(context, near))
     yield from context.kept.each_row(_near, columns, rule, unknown, graph.complete, graph.likely_complete)
     if graph.blind:
         return
@@ -48,6 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _near(
     pair: NearMiss,
+    in_use: bool,
     consumers: Document | None,
     providers: Document | None,
     rule: Rule,
@@ -55,7 +57,8 @@ def _near(
     complete: bool,
     likely_complete: bool,
 ) -> Finding:
-    weighed = weight(pair, complete, likely_complete)
+    severity, confidence = weight(pair, complete, likely_complete)
+    weighed: tuple[Severity, Confidence] = ("info" if in_use and severity == "warning" else severity, confidence)
     return near_miss_finding(
         rule, pair, _near_message(unknown, pair), _VERBS, fixes(pair, consumers, providers), weighed
     )
@@ -92,11 +95,11 @@ RULE = Rule(
     severity="warning",
     what="Checks for a subscriber whose topic has no publisher in the launch. The finding is a warning if a node "
     "publishes a topic of the same type and a similar name. The names may also differ by a leading slash or a "
-    "namespace. It names both and is at the remap that set the name, if there is one. It is information if the "
-    "remap is a typo of one in several launch files nearby, and a warning if the topic is a typo of one that sources "
-    "of the workspace use with the same type. Otherwise it is a hint, because another launch may "
-    "start the publisher. There is no finding if a node exited before its event loop, because it may be the "
-    "publisher.",
+    "namespace. It names both and is at the remap that set the name, if there is one. It is information if several "
+    "launch files nearby write the topic, or if the remap is a typo of one in several of them. It is a warning if the "
+    "topic is a typo of one that sources of the workspace use with the same type. Otherwise it is a hint, because "
+    "another launch may start the publisher. There is no finding if a node exited before its event loop, because it "
+    "may be the publisher.",
     why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',

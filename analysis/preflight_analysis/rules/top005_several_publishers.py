@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
+from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
@@ -28,8 +31,11 @@ _SHARED = ("visualization_msgs/", "diagnostic_msgs/", "actionlib_msgs/", "dynami
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    channels = context.graph.topics.values() if context.graph is not None else ()
-    yield from filter(None, context.kept.each(_of_channel, channels, rule))
+    channels = [*context.graph.topics.values()] if context.graph is not None else []
+    for channel, finding in zip(channels, context.kept.each(_of_channel, channels, rule), strict=True):
+        if finding is not None:
+            module = _imported_by_all(context, channel)
+            yield finding if module is None else _of_module(finding, module)
 
 
 def _of_channel(channel: Channel, rule: Rule) -> Finding | None:
@@ -81,6 +87,23 @@ def _finding(
     )
 
 
+def _imported_by_all(context: Context, channel: Channel) -> str | None:
+    """The Python module that makes the publishers of different programs as they import it: some may never use it."""
+    places = {(each.endpoint.source_file, each.endpoint.source_line) for each in channel.providers}
+    programs = {(each.node.package, each.node.executable) for each in channel.providers}
+    file, line = places.pop()
+    if places or len(programs) == 1 or file is None or line is None or not file.endswith(".py"):
+        return None
+    document = context.disk.text(file)
+    lines = document.text.splitlines() if isinstance(document, Document) else []
+    return file if 0 < line <= len(lines) and not lines[line - 1].startswith((" ", "\t")) else None
+
+
+def _of_module(finding: Finding, module: str) -> Finding:
+    message = f"{finding.message}, if both use it: '{os.path.basename(module)}' makes it on import"
+    return replace(finding, severity="info", message=message)
+
+
 RULE = Rule(
     id="TOP005",
     name="several-publishers",
@@ -88,7 +111,8 @@ RULE = Rule(
     what="Checks for several publishers of a topic that should have one: `/clock`, latched topics and sensor data. "
     "The finding is a warning for latched maps, and for images and their calibration. It is information for other "
     "latched topics, scans, inertial measurements and odometry. Transforms, markers and diagnostics name their "
-    "source in each message, and are not reported.",
+    "source in each message, and are not reported. It is information if a module makes the publisher in each program "
+    "that imports it.",
     why="Subscribers treat a latched message as the state of the world. With two publishers the state depends on "
     "the order of arrival.",
     example='<node pkg="map_server" type="map_server" name="map_server"/> <!-- both publish /map -->\n'

@@ -28,7 +28,7 @@ PENDING = "its run has not ended yet"
 REASON_COLUMNS = 200
 """How much of a line of a node's output stands in the reason of an outcome."""
 _STAMP = re.compile(r"\A\[ *[A-Z]+\] \[[\d., ]+\]: ")
-_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault)\b(: .*)?\Z")
+_EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault|NotFound)\b(: .*)?\Z")
 _THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
 _WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
 Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "catalogue", "none"]
