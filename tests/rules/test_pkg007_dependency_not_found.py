@@ -65,6 +65,16 @@ def test_a_family_of_packages_that_is_not_here() -> None:
 
 
 @pytest.mark.silent
+def test_a_family_whose_name_is_near_to_a_package_of_the_system() -> None:
+    check("""
+        //- /skills/launch/all.launch
+        <launch/>
+        //- /skills/package.xml
+        <package format="2"><name>skills</name><depend>ed_python</depend><depend>ed_navigation_msgs</depend></package>
+    """)
+
+
+@pytest.mark.silent
 def test_a_package_of_another_repository_of_the_same_project() -> None:
     check("""
         //- /smarc_scenarios/tutorial/launch/all.launch

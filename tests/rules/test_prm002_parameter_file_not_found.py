@@ -48,6 +48,20 @@ def test_a_file_that_another_package_of_the_same_name_has(tmp_path: Path) -> Non
     assert "no.yaml" in said["error"]
 
 
+def test_a_relative_path_beside_the_launch_file(tmp_path: Path) -> None:
+    """It is there for those who start the launch in that folder."""
+    share = tmp_path / "p"
+    share.mkdir()
+    (share / "arm.urdf").write_text("<robot/>")
+    launch = share / "main.launch"
+    launch.write_text('<launch><param name="a" textfile="arm.urdf"/><param name="b" textfile="leg.urdf"/></launch>')
+    environment = Environment(1, "noetic", {}, (str(tmp_path),), {}, {}, (), (), None, str(tmp_path))
+    findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    said = {finding.severity: finding.message for finding in findings if finding.rule == "PRM002"}
+    assert said["info"].endswith("the path depends on the folder where the launch is started")
+    assert "leg.urdf" in said["error"]
+
+
 def test_a_name_that_says_that_it_has_to_be_given() -> None:
     check("""
         <launch>

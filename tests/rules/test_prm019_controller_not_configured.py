@@ -144,3 +144,24 @@ def test_a_controller_of_ros_1(args: str, more: str, said: str | None) -> None:
     told = [each for each in findings_of(_ROS1 % (args, more)) if each.rule == "PRM019"]
     assert [each.severity for each in told] == (["warning"] if said else [])
     assert all(said is not None and said in each.message for each in told)
+
+
+@pytest.mark.parametrize(("file", "severity"), [("$(arg robot)", "info"), ("arm6", "warning")])
+def test_a_branch_that_goes_with_another_file_of_parameters(file: str, severity: str) -> None:
+    check(
+        f"""
+        <launch>
+          <arg name="robot" default="arm6"/>
+          <arg name="is7dof" default="false"/>
+          <param name="robot" value="$(arg robot)"/>
+          <rosparam file="/{file}.yaml"/>
+          <node if="$(arg is7dof)" pkg="controller_manager" type="spawner" name="s" args="joint_7"/>
+          {"^" * 90} {severity}[PRM019] '/joint_7/type'
+        </launch>
+        //- /arm6.yaml
+        joint_6: {{type: position_controllers/JointPositionController}}
+        //- /controller_manager/package.xml
+        <package><name>controller_manager</name></package>
+        """,
+        branches=True,
+    )

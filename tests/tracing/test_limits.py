@@ -37,6 +37,7 @@ def lacks(*said: str, status: str = "crashed", wrote: tuple[str, ...] = ()) -> s
         ("serial.SerialException: could not open port /dev/ttyUSB0: No such file", "the device /dev/ttyUSB0"),
         ("/ws/bin/httpd: error while loading shared libraries: libssl.so.1.0.0: cannot open", "shared library"),
         ("EOFError: EOF when reading a line", "a terminal"),
+        ("termios.error: (25, 'Inappropriate ioctl for device')", "a terminal"),
         ("ERROR: Wrong input topic (or topic field): /imu", "publish a topic"),
     ],
 )

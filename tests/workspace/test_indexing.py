@@ -146,6 +146,13 @@ def test_what_eclipse_starts_programs_with_is_no_launch_file(harness: Harness) -
     assert paths(tuple(harness.build().entries)) == ["robot.launch"]
 
 
+def test_tests_of_other_tools_are_no_launch_files(harness: Harness) -> None:
+    harness.write("fuzzer.test", "RUN: %cpp_compiler %S/Fuzzer.cpp -o %t && %t\nCHECK: Done\n")
+    harness.write("broken.test", "half a line\n<launch>")
+    harness.write("node.test", LEAF)
+    assert paths(tuple(harness.build().entries)) == ["broken.test", "node.test"]
+
+
 PYTHON = """
 from launch import LaunchDescription
 

@@ -13,7 +13,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
-from preflight_analysis.evaluation.problems import UnreadablePath
+from preflight_analysis.evaluation.problems import ParameterFileNotFound, UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.rules.elsewhere import absent_top, depends_on_working_folder
@@ -53,7 +53,9 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 severity, message = "info", f"{message}; set {empty}"
             elif (absent := _absent_top(context, path)) is not None:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
-            elif near is None and depends_on_working_folder(context, problem.location):
+            elif _is_beside(context, problem.kind, problem.location) or (
+                near is None and depends_on_working_folder(context, problem.location)
+            ):
                 severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
             elif near is None and (maker := _maker_of(context, path, problem.location)) is not None:
                 severity, message = "info", f"{message}; '{maker}' gets this launch file and may create it"
@@ -73,6 +75,18 @@ def _in_namesake(context: Context, path: str) -> str | None:
     named = (each for each, package in context.environment.packages.items() if package.share == str(share))
     others = chain.from_iterable(context.environment.shadowed.get(each, ()) for each in named)
     return next((each.share for each in others if context.disk.exists(os.path.join(each.share, below))), None)
+
+
+def _is_beside(context: Context, kind: UnreadablePath, place: Location) -> bool:
+    """Whether a parameter file with a relative path is there for those who start the launch in the folder of its launch
+    file."""
+    workspace = context.environment.workspace
+    if workspace is None or not isinstance(kind, ParameterFileNotFound):
+        return False
+    if package_folder(kind.path, context.environment) is not None:
+        return False
+    below = os.path.relpath(kind.path, workspace)
+    return not below.startswith("..") and context.disk.exists(os.path.join(os.path.dirname(place.file), below))
 
 
 def _maker_of(context: Context, path: str, place: Location) -> str | None:

@@ -14,7 +14,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
-from preflight_analysis.rules.installed import is_installed, near_package
+from preflight_analysis.rules.installed import is_installed, is_of_family, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -27,7 +27,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if manifest is None or not package.manifest.endswith(f"/{MANIFEST}"):
             continue
         for span, name in context.kept.get(_unknown, package.manifest, manifest, context.environment):
-            near = near_package(context, name) or _near_key(name)
+            near = near_package(context, name)
+            if near is None and (key := _near_key(name)) is not None and not is_of_family(context, name, key):
+                near = key
             if near is None:
                 continue  # a private package, as most that nobody has released
             location = manifest.location(span)

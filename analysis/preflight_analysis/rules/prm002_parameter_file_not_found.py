@@ -12,7 +12,7 @@ RULE = Rule(
     what="Checks for a parameter file that does not exist: `<rosparam file=...>`, `<param textfile=...>`, `<param "
     "binfile=...>` or `<param from=...>`. The finding names the nearest file of the folder or package. A file in a "
     "top folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder "
-    "where the launch is started (`$(env PWD)`).",
+    "where the launch is started (`$(env PWD)`), and a relative path to one beside the launch file.",
     why="`roslaunch` stops and starts nothing. `ros2 launch` stops if the file is for a component. Other nodes "
     "start without the file, with their defaults: then it is a warning.",
     example='<rosparam command="load" file="$(find camera)/config/camrea.yaml"/>',

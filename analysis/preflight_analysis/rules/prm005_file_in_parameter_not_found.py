@@ -299,9 +299,10 @@ RULE = Rule(
     what="Checks for a file that does not exist in the value of a parameter, the arguments of a node or a command. "
     "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. The "
     "finding names the nearest file. Names of files that are written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are not reported. The name may be that of an argument, too. If no similar file exists, some files are information. These "
-    "are a model or recording, a file that git ignores, a file in `$(env PWD)`, and the calibration of a camera. "
-    "The same applies to a file that several packages name for the same argument and lack.",
+    "files that the package builds are not reported. The name may be that of an argument, too. If no similar file "
+    "exists, some files are information. These are a model or recording, a file that git ignores, a file in "
+    "`$(env PWD)`, and the calibration of a camera. The same applies to a file that several packages name for the "
+    "same argument and lack.",
     why="The launcher does not check the value. The node exits when it opens the file, or continues without it: a "
     "planner without its limits.",
     example='<param name="limits_file" value="$(find arm)/config/limits.yaml"/>',

@@ -7,13 +7,16 @@ http://wiki.ros.org/controller_manager#Helper_scripts
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.conditions import named_arguments
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_spawner, words_of
-from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -37,18 +40,28 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
         if node.package != PACKAGE or node.executable not in _LOADING or node.unknowns:
             continue
         namespace, controllers = _loaded_by(node)
-        known = [
-            name.removeprefix(f"{namespace}/").removesuffix("/type")
+        types = [
+            param
             for name, param in params.items()
             if name.startswith(f"{namespace}/") and name.endswith("/type") and _is_plugin(param.value)
         ]
+        known = [param.name.removeprefix(f"{namespace}/").removesuffix("/type") for param in types]
         for controller in controllers if known else ():
             full = names.resolve(controller, f"{namespace}/{PACKAGE}")
             if f"{full}/type" in params:
                 continue
             if context.tree.complete or nearest(controller, known) is not None:
                 missing = f"parameter '{full}/type' is not set, and the controller manager reads it"
-                yield _finding(rule, node, missing, controller, known)
+                found = _finding(rule, node, missing, controller, known)
+                yield replace(found, confidence="possible") if _is_of_one_variant(context, types) else found
+
+
+def _is_of_one_variant(context: Context, params: Iterable[Param]) -> bool:
+    """Whether an argument names a file that gives the parameters: other values of it go with other controllers."""
+    places = {at for param in params for at in param.origin if at.file in context.launch_files}
+    tags = (action_at(context.launch_files[at.file], at.span.start) for at in places)
+    files = (tag.value("file") for tag in tags if tag is not None and tag.kind.lower() == "rosparam")
+    return any(named_arguments(file) for file in files if file is not None)
 
 
 def _loaded_by(node: LaunchNode) -> tuple[str, list[str]]:
@@ -128,7 +141,7 @@ RULE = Rule(
     "description starts in Gazebo. There is no finding if the parameters of the manager are not all known, or if "
     "the spawner has its own parameters. In ROS 1 the rule checks for `NAME/type` in the namespace of the manager, if "
     "the launch sets the type of another controller there. If the launch is not known completely, only a misspelled "
-    "controller is reported.",
+    "controller is reported. Under a condition, the finding is information if an argument names the parameter file.",
     why="The manager refuses to load the controller: `The 'type' param was not defined`. The spawner exits and the "
     "controller does not run.",
     example="arguments=['streaming_controller']  # the manager's file has twist_controller",

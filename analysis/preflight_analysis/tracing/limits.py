@@ -36,7 +36,7 @@ _SIGNS = (
     ),
     (r"Namespace \w+ not available", "a library of GObject introspection that is not installed here"),
     (r"error while loading shared libraries", "a shared library that is not installed here"),
-    (r"EOFError: EOF when reading a line", "a terminal, from which it reads"),
+    (r"EOFError: EOF when reading a line|Inappropriate ioctl for device", "a terminal, from which it reads"),
     (r"not a git repository", "the git repository, which the sandbox hides"),
     (r"Wrong input topic|does not appear to be published yet", "another node to publish a topic when it starts"),
 )

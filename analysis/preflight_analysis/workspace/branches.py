@@ -38,6 +38,9 @@ _OF_ARGUMENTS = ("ARG001", "ARG002", "ARG004", "ARG006", "ARG007")
 """Rules that ask whether arguments are there, and not what they are."""
 _OF_TWO = "ARG005"
 """A rule that speaks of two tags, which mostly exclude each other: what is assumed is taken beside all the others."""
+_OF_VARIANTS = "PRM019"
+"""Where it is unsure, an argument names the file that it compares with: one that a condition asks for together with its
+own."""
 _OF_VALUES = "ARG009"
 """A rule that speaks of a value: Python may have made it of the same as a condition that names no argument."""
 _ARGUMENT = re.compile(r"\$\((?:arg|var|eval)\b")
@@ -187,6 +190,8 @@ class _Search:
         for finding in found:
             key = (finding.rule, finding.location)
             if key not in self._findings:
+                if finding.rule == _OF_VARIANTS and finding.confidence == "possible":
+                    finding = _doubted(finding)  # noqa: PLW2901
                 self._findings[key] = _under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}

@@ -310,12 +310,15 @@ def _makes_launch_description(path: str, sources: Sources) -> bool:
 
 
 def _is_of_other(path: str, sources: Sources) -> bool:
-    """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program, or a Python
-    file a module that helps to make launch files."""
-    found = sources.text(path) if path.endswith((".launch", PYTHON_SUFFIX)) else None
+    """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program, a `.test` is
+    no XML (LLVM's are command lines), or a Python file a module that helps to make launch files."""
+    found = sources.text(path) if path.endswith((".launch", ".test", PYTHON_SUFFIX)) else None
     if found is None or isinstance(found, Unreadable):
         return False
-    return is_module(path, found.text) if path.endswith(PYTHON_SUFFIX) else _ECLIPSE in found.text[:_HEAD]
+    if path.endswith(PYTHON_SUFFIX):
+        return is_module(path, found.text)
+    is_text = bool(found.text.strip()) and not found.text.lstrip().startswith("<") and "<launch" not in found.text
+    return is_text or _ECLIPSE in found.text[:_HEAD]
 
 
 def _is_of_ament(path: str, sources: Sources) -> bool:
