@@ -38,7 +38,7 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     known = known_of_nodes(tree, meanings, kept)
     params = params_of_nodes(tree, known, kept)
     edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation)
-    uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation)
+    uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
     shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
     return Frames(

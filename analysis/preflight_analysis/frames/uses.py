@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.disk import Disk, text_of
 from preflight_analysis.documents.reading import Text
-from preflight_analysis.evaluation.meanings import Known, meant_by, own_params
+from preflight_analysis.evaluation.meanings import Known, KnownMeanings, meant_by, own_params
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.frames.edges import plain, space_of
 from preflight_analysis.frames.model import Mention, Use
@@ -28,11 +28,16 @@ _CONFIG = ("-d", "--display-config")
 
 
 def uses_of_node(
-    node: LaunchNode, interface: Interface | None, known: Known | None, given: Sequence[Param], generation: int
+    node: LaunchNode,
+    interface: Interface | None,
+    known: Known | None,
+    given: Sequence[Param],
+    generation: int,
+    every: KnownMeanings,
 ) -> tuple[Use, ...]:
     """What a node names as far as it is known what it does with that."""
     space = space_of(node, generation)
-    found = [] if known is None else list(_of_knowledge(node, known, given, space))
+    found = [] if known is None else list(_of_knowledge(node, known, given, space, every))
     for answer in interface.outcome.answers if interface is not None else ():
         if (asked := _ASKED.search(answer)) is not None:
             what = f"transform {asked[1]} <- {asked[2]}"
@@ -40,8 +45,10 @@ def uses_of_node(
     return tuple(found)
 
 
-def _of_knowledge(node: LaunchNode, known: Known, given: Sequence[Param], space: str) -> Iterator[Use]:
-    for each in meant_by(known, own_params(node, given)):
+def _of_knowledge(
+    node: LaunchNode, known: Known, given: Sequence[Param], space: str, every: KnownMeanings
+) -> Iterator[Use]:
+    for each in meant_by(known, own_params(node, given), every):
         meaning, value = each.meaning, each.value
         if meaning.kind != "frame" or meaning.role not in ("used", "named") or not is_frame(value):
             continue

@@ -7,7 +7,6 @@ from dataclasses import field
 
 from preflight_analysis import generation
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.python_text import PYTHON_SUFFIX
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.findings.markdown import code
