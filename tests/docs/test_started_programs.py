@@ -14,6 +14,7 @@ _STARTING = re.compile(
     r"subprocess\.(run|Popen|call|check_call|check_output|getoutput|getstatusoutput)|pty\.\w+|multiprocessing\b.*"
     r"|os\.(system|popen|startfile|fork|forkpty|exec\w+|spawn\w+|posix_spawn\w*)"
     r"|asyncio\.(subprocess\.)?create_subprocess_\w+|concurrent\.futures\.ProcessPoolExecutor"
+    r"|anyio\.(run_process|open_process)"
 )
 
 
@@ -80,6 +81,7 @@ def test_ways_to_start_a_program_are_seen() -> None:
         "import os\nstart = os.posix_spawnp",
         "import asyncio\nasync def f(): await asyncio.create_subprocess_exec('x')",
         "import multiprocessing.pool",
+        "import anyio\nasync def f(): await anyio.run_process(['x'])",
     ):
         assert starts(source), source
     assert not starts("import subprocess\nexcept_ = subprocess.TimeoutExpired\nimport os\nos.path.join('a')")

@@ -31,6 +31,7 @@ VERBS = {
     "completion": "print the completion script of a shell",
     "doctor": "report the ROS environment, the sandbox and missing packages",
     "lsp": "start the language server on standard input and output",
+    "mcp": "start a server of the Model Context Protocol, for tools and agents",
 }
 """The verbs with their help. The module of one is imported only if the command line has its name."""
 _SEVERAL_FILES = ("check", "diff", "explain", "where", "why")

@@ -1,0 +1,230 @@
+"""The server of the Model Context Protocol, asked by the SDK's own client over standard input and output."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any, Literal
+
+import pytest
+from mcp import Client, StdioServerParameters
+from mcp_types import CallToolResult, TextContent
+from preflight_server.cli import mcp as verb
+from preflight_server.mcp.results import MOST_BYTES, bounded, summary
+from preflight_server.mcp.tools import TOOLS, BadArgumentError, inside
+from support.command import run_command
+from support.editor_harness import ROOT, Harness, create_harness
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+pytestmark = pytest.mark.ros
+FILE = "launch/talker_listener.launch"
+CALLS: dict[str, dict[str, Any]] = {
+    "check": {"files": [FILE]},
+    "tree": {"file": FILE},
+    "graph": {"file": FILE},
+    "why": {"file": FILE, "node": "talker", "other": "listener"},
+    "where": {"file": FILE, "parameter": "talker/rate"},
+    "frames": {"file": FILE},
+    "explain": {"what": "TOP001"},
+    "diff": {"before": FILE, "after": "launch/fixed.launch"},
+}
+
+
+@pytest.fixture
+def harness(tmp_path: Path) -> Harness:
+    return create_harness(tmp_path, "workspace", server_on_path=True)
+
+
+@asynccontextmanager
+async def connected(
+    harness: Harness, *options: str, mode: Literal["auto", "legacy"] = "auto"
+) -> AsyncIterator[Callable[..., Any]]:
+    """A client, as a function from a tool and its arguments to the result."""
+    parameters = StdioServerParameters(
+        command=str(harness.server), args=["mcp", str(harness.workspace), *options], env=dict(harness.environment)
+    )
+    async with Client(parameters, read_timeout_seconds=120, mode=mode) as client:
+        yield client.call_tool
+
+
+def text(result: CallToolResult) -> str:
+    (content,) = result.content
+    assert isinstance(content, TextContent)
+    return content.text
+
+
+def content_of(folder: Path) -> dict[str, bytes]:
+    return {str(path): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize("mode", ["auto", "legacy"])
+async def test_the_tools_are_listed(harness: Harness, mode: Literal["auto", "legacy"]) -> None:
+    parameters = StdioServerParameters(
+        command=str(harness.server), args=["mcp"], env=dict(harness.environment), cwd=harness.workspace
+    )
+    async with Client(parameters, mode=mode) as client:
+        tools = (await client.list_tools()).tools
+        assert client.instructions is not None
+        assert "Nothing is executed" in client.instructions
+    assert [tool.name for tool in tools] == [*CALLS]
+    assert all(tool.annotations is not None and tool.annotations.read_only_hint for tool in tools)
+
+
+async def test_each_tool_answers_as_its_verb_does_and_runs_nothing(harness: Harness) -> None:
+    before = content_of(harness.workspace)
+    async with connected(harness) as call:
+        results = {tool: await call(tool, given) for tool, given in CALLS.items()}
+    for tool, result in results.items():
+        assert not result.is_error, (tool, text(result))
+        assert result.structured_content["schema"] == f"ros-preflight/{tool}/1"
+        assert text(result)
+    command = ("check", FILE, "--no-run", "--format", "json", "--paths", "relative")
+    done = run_command(harness.server, *command, environment=harness.environment, cwd=harness.workspace)
+    assert results["check"].structured_content == done.json
+    assert "/talker -> /listener: not connected" in text(results["why"])
+    assert "TOP001 subscribed-not-published" in text(results["explain"])
+    assert harness.sandbox_starts() == 0
+    assert content_of(harness.workspace) == before
+
+
+async def test_nodes_run_only_with_the_flag(harness: Harness) -> None:
+    async with connected(harness, "--run") as call:
+        result = await call("graph", {"file": FILE})
+    assert {node["interface_source"] for node in result.structured_content["nodes"]} == {"trace"}
+    assert harness.sandbox_starts() > 0
+
+
+BAD_CALLS: list[tuple[str, dict[str, Any], str]] = [
+    ("tree", {"file": "../../etc/passwd"}, "outside of the workspace"),
+    ("tree", {"file": "/etc/passwd"}, "outside of the workspace"),
+    ("tree", {"file": "link.launch"}, "outside of the workspace"),
+    ("tree", {"file": "a\0b"}, "is not a path"),
+    ("tree", {"file": "missing.launch"}, "does not exist"),
+    ("tree", {"file": "launch"}, "is a folder"),
+    ("tree", {"file": 3}, "file: 3 is not of type 'string'"),
+    ("tree", {}, "'file' is a required property"),
+    ("tree", {"file": FILE, "batch": "x"}, "Additional properties are not allowed"),
+    ("tree", {"file": FILE, "arguments": {"--batch=/etc/passwd": "1"}}, "is not the name of an argument"),
+    ("check", {"files": ["--write-baseline=/tmp/x"]}, "does not exist"),
+    ("check", {"arguments": {"a": "1"}}, "need one launch file"),
+    ("why", {"file": FILE, "node": "--no-run"}, "is not a name"),
+    ("why", {"file": FILE, "node": "talkr"}, "did you mean /talker?"),
+    ("why", {"file": FILE, "node": "talker", "channel": "/c"}, "needs 'other'"),
+    ("where", {"file": FILE, "parameter": "rat"}, "did you mean /talker/rate?"),
+    ("explain", {"what": "--help"}, "neither a rule"),
+    ("explain", {"what": "/etc/passwd:1"}, "outside of the workspace"),
+    ("diff", {"before": "main:../x.launch", "after": FILE}, "outside of the workspace"),
+    ("diff", {"before": "main:x.launch", "after": FILE}, "main:x.launch"),
+    ("delete", {}, "no tool 'delete'"),
+]
+
+
+async def test_bad_calls(harness: Harness) -> None:
+    (harness.workspace / "link.launch").symlink_to("/etc/passwd")
+    async with connected(harness) as call:
+        results = [await call(tool, given) for tool, given, _ in BAD_CALLS]
+    for (tool, given, why), result in zip(BAD_CALLS, results, strict=True):
+        assert result.is_error, (tool, given)
+        assert why in text(result), (tool, given)
+        assert "Traceback" not in text(result)
+
+
+async def test_a_broken_file_has_findings(harness: Harness) -> None:
+    (harness.workspace / "launch/broken.launch").write_text('<launch><node pkg="p" type="t" name="n"')
+    async with connected(harness) as call:
+        result = await call("check", {"files": ["launch/broken.launch"]})
+    assert not result.is_error
+    assert "LCH001" in text(result)
+
+
+async def test_a_long_result_is_cut(harness: Harness) -> None:
+    nodes = "".join(f'<node pkg="preflight_demo" type="talker.py" name="n{number}"/>' for number in range(150))
+    (harness.workspace / "launch/long.launch").write_text(f"<launch>{nodes}</launch>")
+    async with connected(harness) as call:
+        whole = await call("tree", {"file": "launch/long.launch", "limit": 1000})
+        cut = await call("tree", {"file": "launch/long.launch"})
+    assert len(whole.structured_content["nodes"]) == 150
+    assert "cut" not in whole.structured_content
+    assert len(cut.structured_content["nodes"]) == 100
+    assert cut.structured_content["cut"]["nodes"] == 150
+    assert "The result is cut: 150 nodes" in text(cut)
+
+
+async def test_an_answer_that_takes_too_long(harness: Harness) -> None:
+    async with connected(harness, "--timeout", "0.01") as call:
+        result = await call("tree", {"file": FILE})
+    assert result.is_error
+    assert text(result) == "no answer after 0.01 s"
+
+
+async def test_modules_of_the_workspace_are_not_imported(harness: Harness) -> None:
+    for name in ("json", "yaml", "preflight_server", "argparse"):
+        (harness.workspace / f"{name}.py").write_text("raise SystemExit('the workspace was imported')\n")
+    async with connected(harness) as call:
+        result = await call("tree", {"file": FILE})
+    assert not result.is_error, text(result)
+
+
+def test_without_the_sdk_the_command_says_how_to_install_it(harness: Harness, tmp_path: Path) -> None:
+    (tmp_path / "mcp_types.py").write_text("raise ModuleNotFoundError('no mcp')\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "preflight_server", "mcp", str(harness.workspace)],
+        env={**harness.environment, "PYTHONPATH": str(tmp_path)},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"-m pip install '{verb.REQUIREMENT}'" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_the_requirement_is_that_of_the_extra() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    assert project["project"]["optional-dependencies"]["mcp"] == [verb.REQUIREMENT]
+    assert verb.REQUIREMENT in project["dependency-groups"]["dev"]
+
+
+def test_every_tool_has_a_call_here() -> None:
+    assert [tool.verb for tool in TOOLS] == [*CALLS]
+
+
+def test_a_document_is_never_longer_than_allowed() -> None:
+    document = {"schema": "s", "findings": [{"message": "x" * 1000}] * 900, "environment": []}
+    found = bounded(document, 1000)
+    assert len(json.dumps(found)) <= MOST_BYTES
+    assert found["cut"] == {"findings": 900}
+    assert bounded({"findings": [1, 2]}, 2) == {"findings": [1, 2]}
+
+
+def test_a_summary_is_short() -> None:
+    at = {"start": {"line": 1, "column": 2}}
+    finding = {"file": "a", "range": at, "severity": "error", "rule": "X", "message": "m"}
+    document = {"findings": [finding] * 50, "files": 1, "nodes": 2}
+    lines = summary("check", document).splitlines()
+    assert lines[0] == "50 error; 1 launch files, 2 nodes"
+    assert lines[1] == "a:1:2: error X: m"
+    assert (len(lines), lines[-1]) == (21, "...")
+
+
+def test_links_out_of_the_workspace_are_refused(tmp_path: Path) -> None:
+    outside = tmp_path / "outside"
+    workspace = tmp_path / "workspace"
+    for folder in (outside, workspace):
+        folder.mkdir()
+    (workspace / "link").symlink_to(outside)
+    (workspace / "in").symlink_to(workspace)
+    assert inside(str(workspace), "in") == os.path.realpath(workspace)
+    for given in ("link", "..", "../workspace2", str(outside)):
+        with pytest.raises(BadArgumentError):
+            inside(str(workspace), given)
