@@ -201,3 +201,10 @@ def test_a_large_graph_is_shown_and_filtered(seen: Mapping[str, Any]) -> None:
     assert before < after, "a click on the overview goes there"
     assert seen["large"]["shown"] == 60, "ten nodes and their topics"
     assert seen["large"]["status"].startswith("10 of 150 nodes, 0 of 600 topics")
+
+
+def test_in_a_narrow_window_all_parts_of_the_page_are_seen(seen: Mapping[str, Any]) -> None:
+    narrow = seen["large"]["narrow"]
+    assert narrow["footer"] == 800
+    assert narrow["canvas"] < 800
+    assert narrow["map"]

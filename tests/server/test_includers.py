@@ -189,6 +189,7 @@ async def test_the_nodes_that_run_are_seen(harness: Harness) -> None:
     async with editing(harness, trusted=True) as editor:
         editor.open(path)
         await editor.once(lambda: titles(editor, path), lambda shown: "running in the sandbox: /slow" in shown)
+        before = editor.lens_refreshes
+        await editor.until(lambda: editor.lens_refreshes > before)
         await editor.having(path, "TRC003")
         await editor.once(lambda: titles(editor, path), lambda shown: len(shown) == 3)
-        assert editor.lens_refreshes > 0

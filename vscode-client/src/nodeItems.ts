@@ -56,6 +56,27 @@ export function colourOf(file: number | null, live?: LiveState): string | undefi
   return file === null ? undefined : COLOURS[file % COLOURS.length];
 }
 
+/** What stands in a line of the tree: of an include the name of its file comes first, as paths are cut off at the end; of
+ * several files each has the number that it has in the graph. */
+export function written(item: NodeItem, files: number): { label: string; description: string } {
+  const numbered = (item.kind === "node" || item.kind === "include") && item.file !== null && files > 1;
+  const number = numbered && item.file !== null ? numberOf(item.file) : "";
+  if (item.kind !== "include") {
+    return { label: item.label, description: [number, item.detail].filter(Boolean).join(" ") };
+  }
+  const slash = item.label.lastIndexOf("/");
+  const folder = item.label.slice(0, Math.max(0, slash));
+  return {
+    label: item.label.slice(slash + 1),
+    description: [number, item.detail, folder && ` ${folder}`].filter(Boolean).join(" "),
+  };
+}
+
+/** A circled number, counted from 1; there are twenty of them. */
+function numberOf(file: number): string {
+  return file < 20 ? String.fromCodePoint(0x2460 + file) : `(${file + 1})`;
+}
+
 const LIVE_ICONS: Readonly<Record<LiveState, string>> = {
   present: "pass-filled",
   missing: "error",

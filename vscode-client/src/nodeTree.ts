@@ -31,6 +31,7 @@ import {
   type NodeItem,
   type NodeTree,
   spoken,
+  written,
 } from "./nodeItems";
 
 const SCHEME = "ros-preflight-node";
@@ -139,9 +140,10 @@ export class NodeTreeView implements TreeDataProvider<Line>, FileDecorationProvi
   }
 
   getTreeItem({ id, item }: Line): TreeItem {
-    const made = new TreeItem(item.label, fold(item, this.differencesAt(item).length > 0));
+    const { label, description } = written(item, this.tree?.files.length ?? 0);
+    const made = new TreeItem(label, fold(item, this.differencesAt(item).length > 0));
     made.id = id;
-    made.description = item.detail;
+    made.description = description;
     made.contextValue = item.kind;
     const files = (this.tree?.files ?? []).map((uri) => path.basename(Uri.parse(uri).path));
     made.accessibilityInformation = { label: spoken(item, files, this.live.states.get(item.name)) };

@@ -9,6 +9,7 @@ import {
   identified,
   type NodeItem,
   spoken,
+  written,
 } from "../src/nodeItems";
 
 function item(kind: NodeItem["kind"], label: string, more: Partial<NodeItem> = {}): NodeItem {
@@ -32,6 +33,16 @@ describe("a line of the tree", () => {
     assert.notEqual(colourOf(0), colourOf(1));
     assert.equal(colourOf(0), colourOf(6));
     assert.equal(colourOf(null), undefined);
+  });
+
+  it("has the number of its file in the graph where there are several, and the name of an include first", () => {
+    const node = item("node", "talker", { detail: "demo/talker.py", file: 1 });
+    assert.deepEqual(written(node, 2), { label: "talker", description: "② demo/talker.py" });
+    assert.deepEqual(written(node, 1), { label: "talker", description: "demo/talker.py" });
+    const include = item("include", "robot/launch/arm.launch", { detail: "2 nodes", file: 20 });
+    assert.deepEqual(written(include, 30), { label: "arm.launch", description: "(21) 2 nodes  robot/launch" });
+    const plain = item("include", "unresolved include", { detail: "0 nodes" });
+    assert.deepEqual(written(plain, 2), { label: "unresolved include", description: "0 nodes" });
   });
 
   it("shows what the running robot does", () => {

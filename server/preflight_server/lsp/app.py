@@ -49,8 +49,8 @@ class PreflightServer(LanguageServer):
         self.folders: Folders | None = None
         self.after_analysis: list[Callable[[], None]] = []
         """Called on the event loop whenever analyses were replaced by newer ones."""
-        self.when_runs_begin: list[Callable[[], None]] = []
-        """Called on the event loop when nodes start to run; that they ended shows in the next analysis."""
+        self.when_runs_change: list[Callable[[], None]] = []
+        """Called on the event loop when nodes start to run, and when all of them have ended."""
         self.status = Status(self)
         self.publisher = Publisher(self)
         self.live = LiveWatch(self)

@@ -282,8 +282,7 @@ class Runs:
         batch = self._batch = _Batch(root, dict(zip(keys, jobs, strict=True)), progress)
         edition = self._results.edition
         done = 0
-        for callback in self._server.when_runs_begin:
-            callback()
+        self._changed()
 
         def one_done(index: int, interface: Interface) -> None:
             nonlocal done
@@ -312,8 +311,13 @@ class Runs:
             raise
         finally:
             self._batch = None
+            self._changed()  # an analysis that has all results already may be the last
             progress.end("cancelled" if batch.cancelled.is_set() else counted(len(keys), "node"))
         self._session.analyses.ask_again()
+
+    def _changed(self) -> None:
+        for callback in self._server.when_runs_change:
+            callback()
 
     async def _reconsider(self, batch: _Batch) -> None:
         """End the runs of a batch that the launch file does not ask for any more, and let the root that the user looks

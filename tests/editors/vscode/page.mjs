@@ -308,6 +308,13 @@ try {
     };
     await page.locator("#fit").click();
     await picture("graph-9-large-filter");
+    // Beside an editor there is less room.
+    await page.setViewportSize({ width: 515, height: 800 });
+    await open("large");
+    const bottom = (selector) => page.locator(selector).evaluate((e) => e.getBoundingClientRect().bottom);
+    const [canvas, footer] = [await bottom("#canvas"), await bottom("footer")];
+    found.narrow = { canvas, footer, map: await page.locator("#map").isVisible() };
+    await picture("graph-11-narrow");
     return found;
   });
   console.log(JSON.stringify(seen));

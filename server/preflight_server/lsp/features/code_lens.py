@@ -86,7 +86,7 @@ def register(server: PreflightServer) -> None:
         return bool(workspace and workspace.code_lens and workspace.code_lens.refresh_support)
 
     refresher = Refresher(server, lambda: server.workspace_code_lens_refresh_async(None), supported)
-    server.when_runs_begin.append(refresher.look)
+    server.when_runs_change.append(refresher.look)
 
     @server.feature(types.TEXT_DOCUMENT_CODE_LENS)
     async def code_lens(ls: PreflightServer, params: types.CodeLensParams) -> list[types.CodeLens] | None:
