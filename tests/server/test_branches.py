@@ -63,25 +63,31 @@ INCLUDES = """<launch>
 """
 
 
-async def test_python_launch_files_that_only_a_branch_includes_are_run(harness: Harness) -> None:
+@pytest.mark.parametrize(
+    ("condition", "shown"), [("$(var sim)", "sim:=true"), ("$(eval len('$(var sim)') > 9)", "$(eval len(")]
+)
+async def test_python_launch_files_that_only_a_branch_includes_are_run(
+    harness: Harness, condition: str, shown: str
+) -> None:
     folder = harness.home / "robots" / "launch"
     folder.mkdir(parents=True)
     ran, models, path = folder / "ran", folder / "models.py", folder / "outer.launch.xml"
     tries = f"try: open({str(ran)!r}, 'w')\nexcept OSError: pass\n"
     (folder / "inner.launch.py").write_text(tries + PYTHON)
     models.write_text("MODELS = ['a1', 's2']\n")
-    path.write_text(INCLUDES)
+    includes = INCLUDES.replace("$(var sim)", condition)
+    path.write_text(includes)
     async with editing(harness, folder=harness.home / "robots") as editor:
         editor.open(path)
         editor.change(
-            path, INCLUDES.replace("<launch>\n", '<launch>\n  <include if="$(var sim)" file="/none.launch"/>\n')
+            path, includes.replace("<launch>\n", '<launch>\n  <include if="$(var sim)" file="/none.launch"/>\n')
         )
         await editor.having(path, "LCH013")
         assert harness.sandbox_starts() == 0, "nothing is run without trust"
         assert "ARG009" not in (editor.rules(path) or ())
         editor.trust()
         found = await editor.having(path, "ARG009", seconds=60)
-        assert "(if sim:=true)" in found.message
+        assert f"(if {shown}" in found.message
         assert editor.covered(path, found.range) == "s1"
         models.write_text("MODELS = ['s1', 's2']\n")
         editor.watched(models)

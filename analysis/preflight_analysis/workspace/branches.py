@@ -150,9 +150,14 @@ class _Search:
         key = _key(args)
         found = self._what_ifs.get(key)
         if found is None and self._has_room():
-            found = self._what_ifs[key] = self._ask(args, frozenset())
-            self._asked.update((each.line, None) for each in found.tree.commands if each.launch_file)
+            found = self._what_ifs[key] = self._evaluated(args, frozenset())
             self._launch_files = {**found.launch_files, **self._launch_files}
+        return found
+
+    def _evaluated(self, args: Assignment, assumed: frozenset[Location]) -> WhatIf:
+        """The launch with these arguments and tags; what it asks to be run is noted."""
+        found = self._ask(args, assumed)
+        self._asked.update((each.line, None) for each in found.tree.commands if each.launch_file)
         return found
 
     def _has_room(self) -> bool:
@@ -171,7 +176,7 @@ class _Search:
                 self._untried |= todo.keys()
                 return
             taken |= todo
-            what_if = self._ask(args, frozenset(taken))
+            what_if = self._evaluated(args, frozenset(taken))
             for each in todo.values():
                 found = (found for found in what_if.found if _stands_in(found, each))
                 doubted = (
