@@ -32,6 +32,8 @@ def test_machine_without_ros_is_usable_and_told_what_to_install(tmp_path: Path) 
     assert (environment.distro, environment.python, environment.system_prefixes) == (None, None, ())
     [problem] = environment.problems
     assert "apt install python3-rospy" in problem
+    assert of_generation(environment, 1).problems == environment.problems
+    assert of_generation(environment, 2).problems == (), "a launch file of ROS 2 needs no rospy"
 
 
 def test_a_folder_that_is_one_package_of_ros_2(tmp_path: Path) -> None:

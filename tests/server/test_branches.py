@@ -64,7 +64,7 @@ INCLUDES = """<launch>
 
 
 @pytest.mark.parametrize(
-    ("condition", "shown"), [("$(var sim)", "sim:=true"), ("$(eval len('$(var sim)') > 9)", "$(eval len(")]
+    ("condition", "shown"), [("$(var sim)", "sim:=true"), ("$(eval &quot;len('$(var sim)') &gt; 9&quot;)", "$(eval ")]
 )
 async def test_python_launch_files_that_only_a_branch_includes_are_run(
     harness: Harness, condition: str, shown: str

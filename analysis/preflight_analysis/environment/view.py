@@ -28,7 +28,8 @@ def of_generation(environment: Environment, generation: int) -> Environment:
             packages[name] = candidates[0]
         if len(candidates) > 1:
             shadowed[name] = candidates[1:]
-    return replace(environment, generation=generation, packages=packages, shadowed=shadowed)
+    problems = environment.problems if generation == environment.generation else ()  # they are of the other ROS
+    return replace(environment, generation=generation, packages=packages, shadowed=shadowed, problems=problems)
 
 
 def meant_by(environment: Environment, file: str) -> tuple[Package, ...]:

@@ -56,6 +56,8 @@ class _Launched:
     inputs: tuple[str, ...]
     findings: tuple[Finding, ...]
     documents: Mapping[str, Document]
+    problems: tuple[str, ...]
+    """What is wrong with the ROS that it is for."""
     nodes: tuple[tuple[str, str], ...]
     """The name of each node, and how it is known what it does; other processes have no interface to be known."""
     untried: int
@@ -74,6 +76,7 @@ class _Launched:
             tuple(analysis.tree.inputs),
             analysis.findings,
             analysis.all_documents,
+            analysis.environment.problems,
             nodes=tuple(
                 (node.name, interface.source)
                 for node, interface in zip(tree.nodes, interfaces, strict=True)
@@ -183,9 +186,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
         not_evaluated=tuple(sorted(left_out.intersection(files))),
         unknown_nodes=tuple(sorted({name for name, source in nodes if source == "none"})),
     )
-    problems = dict.fromkeys(
-        problem for launch in chosen for problem in launch.workspace.workspace.environment.problems
-    )
+    problems = dict.fromkeys(problem for each in kept for problem in each.problems)
     return Report.of(_merged(kept), documents, coverage, problems), files
 
 
