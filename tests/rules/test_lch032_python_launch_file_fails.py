@@ -181,6 +181,11 @@ def test_with_ros_a_missing_module_has_to_be_installed(tmp_path: Path) -> None:
     said = "cannot import name 'Newer' from 'launch.actions'"
     (finding,) = _launched(folder, _error(folder, "ImportError", said, module="launch.actions"), tmp_path).findings
     assert "no launch of Humble, Jazzy, Kilted or Rolling has it" in finding.message
+    (finding,) = _launched(
+        folder, _error(folder, "ModuleNotFoundError", "No module named 'launch_pal'", module="launch_pal"), tmp_path
+    ).findings
+    assert finding.lack is not None
+    assert (finding.lack.kind, finding.lack.name) == ("package", "launch_pal")
 
 
 def test_a_variable_of_the_environment_that_is_not_set(tmp_path: Path) -> None:

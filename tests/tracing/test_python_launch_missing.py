@@ -742,3 +742,77 @@ def test_files_that_are_written_into_the_share_folder_are_there(harness: PythonH
     )
     findings = [each for each in harness.launch(path).findings if each.rule == "PRM005"]
     assert ["missing.urdf" in each.message for each in findings] == [True]
+
+
+PAL = """
+from dataclasses import dataclass
+from launch_pal.actions import CheckPublicSim
+from launch_pal.arg_utils import LaunchArgumentsBase, read_launch_argument
+from launch_pal.composition_utils import generate_component_list
+from launch_pal.include_utils import include_scoped_launch_py_description
+from launch_pal.param_utils import merge_param_files, parse_parametric_yaml
+from launch_pal.robot_arguments import CommonArgs, RobotArgs
+
+SHARE = get_package_share_directory("p")
+
+
+@dataclass(frozen=True)
+class Arguments(LaunchArgumentsBase):
+    side: DeclareLaunchArgument = DeclareLaunchArgument("side", default_value="left")
+    robot_name: DeclareLaunchArgument = CommonArgs.robot_name
+    laser_model: DeclareLaunchArgument = RobotArgs.laser_model
+
+
+def start(context):
+    name = read_launch_argument("robot_name", context)
+    files = [os.path.join(SHARE, each) for each in ("a.yaml", "b.yaml")]
+    params = [merge_param_files(files), parse_parametric_yaml([os.path.join(SHARE, "c.yaml")], {"RATE": 4})]
+    return [Node(package="p", executable="x", name=name, parameters=params)]
+
+
+def generate_launch_description():
+    description = LaunchDescription()
+    Arguments().add_to_launch_description(description)
+    description.add_action(CheckPublicSim())
+    description.add_action(OpaqueFunction(function=start))
+    description.add_action(
+        include_scoped_launch_py_description(
+            "p",
+            ["launch", "inner.launch.py"],
+            launch_arguments={"of": Arguments.side, "where": PathJoinSubstitution(["a", LaunchConfiguration("side")])},
+            namespace="robot",
+        )
+    )
+    components = generate_component_list(os.path.join(SHARE, "d.yaml"), "cams")
+    description.add_action(
+        ComposableNodeContainer(
+            package="rclcpp_components", executable="component_container", name="c", namespace="",
+            composable_node_descriptions=components)
+    )
+    return description
+"""
+PAL_INNER = """
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("of"), DeclareLaunchArgument("where"),
+        Node(package="p", executable="x", name=[LaunchConfiguration("of"), "_arm"],
+             arguments=[LaunchConfiguration("where")])])
+"""
+
+
+def test_launch_pal_is_known_where_it_is_not_installed(harness: PythonHarness) -> None:
+    harness.write("a.yaml", "tiago: {ros__parameters: {speed: 1, turn: 2}}\n")
+    harness.write("b.yaml", "tiago: {ros__parameters: {speed: 3}}\n")
+    harness.write("c.yaml", "tiago: {ros__parameters: {rate: ${RATE}, size: ${SIZE|7}}}\n")
+    harness.write("d.yaml", "components: {cam: {package: p, type: Cam, ros__parameters: {fps: 5}}}\n")
+    harness.write("launch/inner.launch.py", HEAD + PAL_INNER)
+    analysis = harness.launch(
+        harness.write("launch/a.launch.py", HEAD + PAL), {"robot_name": "tiago", "laser_model": "sick"}
+    )
+    tree = analysis.tree
+    assert [p.kind for p in tree.problems] == []
+    assert names(tree) == ["/tiago", "/robot/left_arm", "/c", "/cams/cam"]
+    assert {p.name: p.value for p in tree.nodes[0].params} == {"speed": 3, "turn": 2, "rate": 4, "size": 7}
+    assert tree.nodes[1].args.split()[0] == "a/left"
+    assert (tree.nodes[3].plugin, [(p.name, p.value) for p in tree.nodes[3].params]) == ("p::Cam", [("fps", 5)])
+    assert tree.args["laser_model"].value == "sick"

@@ -21,7 +21,8 @@ from preflight_analysis.rules.rule import Context, Rule
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
 _RAISE = re.compile(r"\s*raise\b")
 _WORD = re.compile(r"\w+")
-_LAUNCH = re.compile(r"launch(_\w+)?\Z")
+_LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
+"""The modules of which all names are known."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -12,9 +12,10 @@ from . import (
     base,
     boolean_substitutions,
     conditions,
+    controller_manager,
     events,
     includes,
-    launch_helpers,
+    launch_pal,
     library,
     moveit_configs,
     nav2_common,
@@ -356,11 +357,23 @@ FALLBACK: dict[str, dict[str, Any]] = {
     "moveit_configs_utils.substitutions": _named(moveit_configs, "Xacro"),
     "launch_param_builder": _named(moveit_configs, "ParameterBuilder", "load_xacro", "load_yaml"),
     "controller_manager": {},
-    "controller_manager.launch_utils": launch_helpers.CONTROLLERS,
+    "controller_manager.launch_utils": controller_manager.CONTROLLERS,
     "launch_pal": {},
-    "launch_pal.arg_utils": _named(launch_helpers, "read_launch_argument"),
-    "launch_pal.include_utils": _named(launch_helpers, "include_launch_py_description"),
-    "launch_pal.param_utils": _named(launch_helpers, "merge_param_files"),
+    "launch_pal.actions": _named(launch_pal, "CheckPublicSim", "ValidateLaunchArgs"),
+    "launch_pal.arg_utils": _named(
+        launch_pal, "LaunchArgCreator", "LaunchArgumentsBase", "parse_launch_args_from_yaml", "read_launch_argument"
+    ),
+    "launch_pal.composition_utils": _named(launch_pal, "generate_component_list"),
+    "launch_pal.include_utils": _named(
+        launch_pal,
+        "get_nested_launch_configurations",
+        "include_launch_py_description",
+        "include_scoped_launch_py_description",
+    ),
+    "launch_pal.param_utils": _named(
+        launch_pal, "insert_ros_param_prefix", "merge_param_files", "parse_parametric_yaml", "substitute_variables"
+    ),
+    "launch_pal.robot_arguments": _named(launch_pal, "CommonArgs", "RobotArgs"),
     "ros2pkg": {},
     "ros2pkg.api": {
         "get_package_names": lambda: list(RECORDER.packages),

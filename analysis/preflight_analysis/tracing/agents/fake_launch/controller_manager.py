@@ -1,24 +1,13 @@
-"""Small helpers that launch files import from packages which need not be here.
-
-What each does is what these files have: ros-controls/ros2_control, controller_manager/controller_manager/
-launch_utils.py; pal-robotics/launch_pal, launch_pal/include_utils.py, arg_utils.py and param_utils.py.
-"""
+"""`controller_manager.launch_utils`, as ros-controls/ros2_control has it, for where it is not installed."""
 
 from __future__ import annotations
 
-import importlib
-import tempfile
 from typing import Any
 
-from ..anything import Anything
-from .base import LaunchContext, LaunchDescription
-from .includes import IncludeLaunchDescription, PythonLaunchDescriptionSource
+from .base import LaunchDescription
 from .ros_nodes import Node
-from .ros_substitutions import FindPackageShare
 from .settings import DeclareLaunchArgument
-from .substitutions import LaunchConfiguration, PathJoinSubstitution, PythonExpression
-
-# controller_manager.launch_utils
+from .substitutions import LaunchConfiguration, PythonExpression
 
 
 def generate_controllers_spawner_launch_description(
@@ -69,44 +58,3 @@ CONTROLLERS = {
         generate_load_controller_launch_description,
     )
 }
-
-# launch_pal
-
-
-def include_launch_py_description(pkg_name: Any, paths: Any, **kwargs: Any) -> Any:
-    path = PathJoinSubstitution([FindPackageShare(pkg_name), *paths])
-    return IncludeLaunchDescription(PythonLaunchDescriptionSource(path), **kwargs)
-
-
-def read_launch_argument(arg_name: str, context: LaunchContext) -> str:
-    return LaunchConfiguration(arg_name).perform(context)
-
-
-def merge_param_files(yaml_files: Any) -> str:
-    """The path of one file with what all have: of the same key the last one's."""
-    yaml = importlib.import_module("yaml")
-    merged: dict[str, Any] = {}
-    for each in yaml_files:
-        path, prefix = (each, None) if isinstance(each, str) else each
-        with open(path) as file:
-            data = yaml.safe_load(file)
-        if isinstance(data, Anything):
-            return str(data)
-        _merge(merged, _prefixed(data, prefix) if prefix else data)
-    with tempfile.NamedTemporaryFile("w", delete=False) as written:
-        yaml.dump(merged, written)
-    return written.name
-
-
-def _merge(into: dict[str, Any], data: dict[str, Any]) -> None:
-    for key, value in data.items():
-        if isinstance(value, dict) and isinstance(into.get(key), dict):
-            _merge(into[key], value)
-        else:
-            into[key] = value
-
-
-def _prefixed(data: Any, prefix: str) -> Any:
-    if not isinstance(data, dict):
-        return data
-    return {k: {prefix: v} if k == "ros__parameters" else _prefixed(v, prefix) for k, v in data.items()}
