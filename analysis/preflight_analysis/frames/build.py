@@ -37,7 +37,7 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else (None,) * len(nodes)
     known = known_of_nodes(tree, meanings, kept)
     params = params_of_nodes(tree, known, kept)
-    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation)
+    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation, _has_prefix(tree))
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
     shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
@@ -47,6 +47,11 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
         tuple(chain.from_iterable(mentions)),
         tuple(_gaps(tree, nodes, interfaces, known, edges)),
     )
+
+
+def _has_prefix(tree: LaunchTree) -> bool:
+    """Whether ROS 1's `tf_prefix` is set, which each node heeds or not."""
+    return not tree.ros.own_parameters and any(name.endswith("/tf_prefix") for name in tree.params)
 
 
 def _of_robots(tree: LaunchTree) -> Iterator[Edge]:

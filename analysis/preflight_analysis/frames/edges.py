@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import Known, Settings, own_params
@@ -17,6 +18,8 @@ from preflight_analysis.tracing.interface import Interface
 _STATE_PUBLISHERS = ("robot_state_publisher", "state_publisher")
 _FIXED = "="
 """In what is known of a package: before a frame that no parameter names."""
+_OTHER = "$"
+"""Likewise before the name of a parameter whose value is a default."""
 _DRIVES = ("diff_drive", "diff-drive", "skid_steer", "planar_move", "ackermann", "mecanum", "tricycle", "odometry-pub")
 """In the names of Gazebo's plugins that broadcast odometry."""
 _ODOMETRY = ("odometry_frame", "odometryFrame", "odom_frame", "frame_id")
@@ -46,9 +49,15 @@ def is_state_publisher(node: LaunchNode) -> bool:
 
 
 def edges_of_node(
-    node: LaunchNode, interface: Interface | None, known: Known | None, given: Sequence[Param], generation: int
+    node: LaunchNode,
+    interface: Interface | None,
+    known: Known | None,
+    given: Sequence[Param],
+    generation: int,
+    has_prefix: bool,
 ) -> tuple[Edge, ...]:
-    """What a node broadcasts beside the frames of a robot description: by its arguments, its run, its parameters."""
+    """What a node broadcasts beside the frames of a robot description: by its arguments, its run, its parameters.
+    With a `tf_prefix` that it may heed nothing of that is sure."""
     space = space_of(node, generation)
     found: dict[tuple[str, str], Edge] = {}
 
@@ -64,7 +73,7 @@ def edges_of_node(
         parent, child = plain(frame.parent), plain(frame.child)
         add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
     for edge in _of_knowledge(node, known, given, space):
-        add(edge)
+        add(replace(edge, sure=False) if has_prefix else edge)
     return tuple(found.values())
 
 
@@ -76,9 +85,18 @@ def _of_knowledge(node: LaunchNode, known: Known | None, given: Sequence[Param],
         parent, child = _frame(settings, each.parent), _frame(settings, each.child)
         if not (parent and child) or not settings.holds(each.when):
             continue
-        place = next((p.place for name in (each.child, each.parent) if (p := settings.params.get(name))), node.location)
+        params = (_param(settings, name) for name in (each.child, each.parent))
+        place = next((param.place for param in params if param is not None), node.location)
         detail = " -> ".join(name for name in (each.parent, each.child) if not name.startswith(_FIXED))
         yield Edge(parent, child, each.static, "knowledge", node, place, space, known.is_used, detail)
+
+
+def _param(settings: Settings, name: str) -> Param | None:
+    """What sets a parameter, or the one whose value is its default."""
+    found, default = settings.params.get(name), settings.defaults.get(name)
+    if found is None and isinstance(default, str) and default.startswith(_OTHER):
+        return settings.params.get(default.removeprefix(_OTHER))
+    return found
 
 
 def _frame(settings: Settings, name: str) -> str:

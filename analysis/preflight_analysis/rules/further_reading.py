@@ -23,6 +23,7 @@ FILE_SYSTEM = f"[REP 122: Filesystem hierarchy layout]({_REP}/rep-0122.html)"
 FORMATS = (
     f"[ROS 2: Using XML, YAML, and Python for launch files]({_DOCS}/How-To-Guides/Launch-file-different-formats.html)"
 )
+FRAMES = "[Frames](../frames.md)"
 LARGE_PROJECTS = (
     f"[ROS 2: Managing large projects]({_DOCS}/Tutorials/Intermediate/Launch/Using-ROS2-Launch-For-Large-Projects.html)"
 )
@@ -80,6 +81,7 @@ SECURITY = "[Security](../security.md)"
 SERVICES = f"[ROS 1: Services]({_WIKI}/Services)"
 SERVICES_2 = f"[ROS 2: About services]({_DOCS}/Concepts/Basic/About-Services.html)"
 LAUNCH_SUBSTITUTIONS = f"[ROS 2: Using substitutions]({_DOCS}/Tutorials/Intermediate/Launch/Using-Substitutions.html)"
+TF2 = f"[ROS 2: tf2]({_DOCS}/Concepts/Intermediate/About-Tf2.html)"
 TOPICS = f"[ROS 1: Topics]({_WIKI}/Topics)"
 TOPICS_2 = f"[ROS 2: About topics]({_DOCS}/Concepts/Basic/About-Topics.html)"
 TOPIC_NAMES = f"[ROS 2 design: Topic and service name mapping]({_DESIGN}/topic_and_service_names.html)"

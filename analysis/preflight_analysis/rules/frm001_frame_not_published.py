@@ -1,0 +1,70 @@
+"""FRM001: a frame that a node asks for and nothing publishes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.frames.model import Frames
+from preflight_analysis.rules.frames import frames_of, place_of_use
+from preflight_analysis.rules.further_reading import FRAMES, TF2
+from preflight_analysis.rules.missing_frames import MissingFrame, missing_frames
+from preflight_analysis.rules.nearest import did_you_mean
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+_OF_OTHER_LAUNCHES = frozenset(("map", "odom", "world", "earth", "utm"))
+"""Frames of REP 105, which localization publishes: it is mostly started by itself."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    frames = frames_of(context)
+    mentioned = {mention.frame for mention in frames.mentions}
+    for missing in missing_frames(context):
+        use, near = missing.use, missing.near
+        judged = _judged(frames, missing, use.frame in mentioned)
+        if missing.elsewhere is not None or judged is None:
+            continue
+        severity, confidence = judged
+        place = place_of_use(context, use)
+        gaps = f"; {frames.gaps[0]}" if frames.gaps and near is None else ""
+        yield rule.finding(
+            f"frame '{use.written}' has no publisher: {use.node.name} uses it ({use.what}){did_you_mean(near)}{gaps}",
+            place,
+            severity=severity,
+            confidence=confidence,
+            related=include_chain(use.node.origin) if use.param is None else (),
+            fixes=rename(context, place, use.written, near) if near is not None and use.param is not None else (),
+        )
+
+
+def _judged(frames: Frames, missing: MissingFrame, is_mentioned: bool) -> tuple[Severity, Confidence] | None:
+    """Severity and confidence; None where too much is unknown to speak."""
+    use = missing.use
+    if missing.near is not None:
+        if is_mentioned or not use.sure:
+            return "info", "possible"
+        return "warning", "likely" if frames.complete else "possible"
+    if is_mentioned or not any(edge.how == "urdf" and edge.sure for edge in frames.edges):
+        return None  # what has no robot in it is started beside another launch
+    if frames.complete:
+        return "info", "likely" if use.sure else "possible"
+    return ("hint", "possible") if use.param is not None and use.frame not in _OF_OTHER_LAUNCHES else None
+
+
+RULE = Rule(
+    id="FRM001",
+    name="frame-not-published",
+    severity="warning",
+    what="Checks for a frame that a node looks up and that nothing in the launch publishes: no robot description, no "
+    "static transform, no node. A frame that is nearly the name of a published one is a warning. Otherwise it is "
+    "information if all nodes are known, and a hint if not; there is no finding in a launch without a robot "
+    "description, which another launch file provides.",
+    why="The node waits for the transform, drops its data, or repeats `Could not transform ... frame does not exist`.",
+    example="amcl:\n  ros__parameters:\n    base_frame_id: base_lnk",
+    instead="amcl:\n  ros__parameters:\n    base_frame_id: base_link",
+    references=(TF2, FRAMES),
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

@@ -1,0 +1,48 @@
+"""FRM004: a frame with a slash in front, which tf2 refuses.
+
+https://github.com/ros2/geometry2/blob/rolling/tf2/src/buffer_core.cpp (`BufferCore::validateFrameId`)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.frames import frames_of, place_of_use
+from preflight_analysis.rules.further_reading import FRAMES, TF2
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    told: set[tuple[int, str]] = set()  # the default of one parameter may be the value of another
+    for use in frames_of(context).uses:
+        if not use.written.startswith("/") or (id(use.node), use.written) in told:
+            continue
+        told.add((id(use.node), use.written))
+        place = place_of_use(context, use)
+        yield rule.finding(
+            f"frame '{use.written}' begins with '/', which tf2 refuses: {use.node.name} uses it ({use.what})",
+            place,
+            severity=None if use.sure else "info",
+            confidence="likely" if use.sure else "possible",
+            related=include_chain(use.node.origin) if use.param is None else (),
+            fixes=rename(context, place, use.written, use.frame) if use.param is not None else (),
+        )
+
+
+RULE = Rule(
+    id="FRM004",
+    name="leading-slash",
+    severity="warning",
+    what="Checks for a frame that begins with `/` in the parameters of a ROS 2 node, in a transform that it looks "
+    "up, or in the configuration of RViz.",
+    why="tf2 refuses the frame: `Invalid frame ID: frame_ids cannot start with a '/'`. The tf library of ROS 1 removed "
+    "the slash.",
+    example="slam_toolbox:\n  ros__parameters:\n    base_frame: /base_link",
+    instead="slam_toolbox:\n  ros__parameters:\n    base_frame: base_link",
+    references=(TF2, FRAMES),
+    check=_check,
+    generations=(2,),
+    in_branches=True,
+)

@@ -1,0 +1,64 @@
+"""Frames that a node asks for and nothing is known to publish: what may be meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from preflight_analysis.frames.edges import is_state_publisher, prefix_of
+from preflight_analysis.frames.model import Edge, Frames, Use
+from preflight_analysis.rules.frames import frames_of
+from preflight_analysis.rules.nearest import is_slip, nearest
+from preflight_analysis.rules.rule import Context
+
+
+class MissingFrame(NamedTuple):
+    """A frame that is asked for where nothing publishes it. `elsewhere` has it with or without a prefix, or in another
+    namespace of `/tf`; `near` is a frame of which it is a slip."""
+
+    use: Use
+    elsewhere: Edge | None
+    near: str | None
+
+
+def missing_frames(context: Context) -> tuple[MissingFrame, ...]:
+    """Each use once; the same objects each time."""
+    return context.once(_missing)
+
+
+def _missing(context: Context) -> tuple[MissingFrame, ...]:
+    frames = frames_of(context)
+    if not frames.edges:
+        return ()
+    prefixes = _prefixes(context)
+    found: dict[tuple[str, int, str], MissingFrame] = {}
+    for use in frames.uses:
+        if not use.looked_up or use.frame in frames.names(use.space):
+            continue
+        elsewhere = next(_elsewhere(frames, use, prefixes), None)
+        near = _near(frames, use) if elsewhere is None else None
+        found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near))
+    return tuple(found.values())
+
+
+def _prefixes(context: Context) -> frozenset[str]:
+    tree = context.tree
+    prefixes = (prefix_of(node, tree) for node in tree.nodes if is_state_publisher(node))
+    return frozenset(filter(None, prefixes))
+
+
+def _elsewhere(frames: Frames, use: Use, prefixes: frozenset[str]) -> Iterator[Edge]:
+    """The transforms that have the frame under another prefix, or elsewhere."""
+    own = {f"{prefix}{use.frame}" for prefix in prefixes}
+    # Without the prefix; a whole namespace may be one.
+    own |= {use.frame.removeprefix(prefix) for prefix in prefixes} | {use.frame.partition("/")[2]}
+    for edge in frames.edges:
+        ends = (edge.child, edge.parent)
+        if edge.sure and ((edge.space == use.space and not own.isdisjoint(ends)) or use.frame in ends):
+            yield edge
+
+
+def _near(frames: Frames, use: Use) -> str | None:
+    names = frames.names(use.space)
+    near = nearest(use.frame, names)
+    return near if near is not None and is_slip(use.frame, near) else None

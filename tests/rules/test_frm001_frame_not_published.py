@@ -1,0 +1,70 @@
+"""FRM001: a frame that a node asks for and nothing publishes."""
+
+import pytest
+from support.check import apply, check
+from support.frame_launch import EKF, EKF_COLUMN, below, fixture, robot, static
+
+_ODOM = static("s", "odom", "base_link")
+_ROBOT = robot(("base_link", "laser"))
+_UNKNOWN = '<node pkg="p" exec="driver" name="driver"/>'
+
+
+def _expected(frame: str, text: str) -> str:
+    return f"\n{below(EKF_COLUMN, len(frame), text)}\n"
+
+
+def test_a_slip() -> None:
+    said = "warning[FRM001] frame 'base_lnk' has no publisher: /ekf uses it (parameter 'base_link_frame'); did you mean"
+    text = fixture(f"{_ODOM}\n{EKF.format('base_lnk', _expected('base_lnk', said))}", {})
+    (found,) = check(text)
+    assert found.confidence == "likely"
+    assert 'value="base_link"' in apply(text, found.fixes[0].edits)["/main.launch.xml"]
+
+
+def test_one_that_nothing_resembles() -> None:
+    said = "info[FRM001] frame 'trailer' has no publisher: /ekf uses it (parameter 'base_link_frame')"
+    check(fixture(f"{_ROBOT}\n{EKF.format('trailer', _expected('trailer', said))}", {}))
+
+
+def test_where_not_all_is_known() -> None:
+    said = "hint[FRM001] (parameter 'base_link_frame'); 1 of 3 nodes are not analysed: /driver"
+    nodes = f"{_ROBOT}\n{_UNKNOWN}\n{EKF.format('trailer', _expected('trailer', said))}"
+    (found,) = check(fixture(nodes, {}))
+    assert found.confidence == "possible"
+
+
+def test_what_a_run_asked_for() -> None:
+    answer = "it waits for the transform odom <- camera_lnk, and was given the identity"
+    expected = below(0, len(_UNKNOWN), "warning[FRM001] (transform odom <- camera_lnk); did you mean 'camera_link'?")
+    nodes = f"{static('s', 'odom', 'camera_link')}\n{_UNKNOWN}\n{expected}"
+    check(fixture(nodes, {"/driver": {"answers": [answer]}}))
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        f"{_ODOM}\n{EKF.format('base_link', '')}",
+        f"{robot(('base_footprint', 'base_link'))}\n{EKF.format('base_link', '')}",
+        # Another launch has the robot.
+        f"{_ODOM}\n{EKF.format('trailer', '')}",
+        # Of no frame anything is known.
+        EKF.format("base_link", ""),
+        # Frames of localization are published by another launch, mostly.
+        f"{_ODOM}\n{_UNKNOWN}\n{EKF.format('map', '')}",
+    ],
+)
+def test_what_is_published_or_may_be(nodes: str) -> None:
+    check(fixture(nodes, {}))
+
+
+@pytest.mark.silent
+def test_before_the_nodes_are_known() -> None:
+    check(fixture(f"{_ODOM}\n{EKF.format('base_lnk', '')}"))
+
+
+@pytest.mark.silent
+def test_what_another_node_may_publish() -> None:
+    driver = '<node pkg="p" exec="d" name="d"><param name="child_frame" value="trailer"/></node>'
+    seen = {"/d": {"params": {"child_frame": ""}}}
+    check(fixture(f"{_ROBOT}\n{driver}\n{EKF.format('trailer', '')}", seen))

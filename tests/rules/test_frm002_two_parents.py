@@ -1,0 +1,63 @@
+"""FRM002: a frame that two nodes publish."""
+
+import pytest
+from support.check import check
+from support.frame_launch import below, fixture, robot, static
+
+_EKF = '<node pkg="robot_localization" exec="ekf_node" name="ekf">'
+_BASE = '<param name="base_link_frame" value="base_link"/></node>'
+
+
+def test_a_link_below_another_one_and_below_odometry() -> None:
+    said = "warning[FRM002] frame 'base_link' has two parents: 'base_footprint' from /rsp (joint j0), 'odom' from /ekf"
+    check(fixture(f"{robot(('base_footprint', 'base_link'))}\n{_EKF}\n{_BASE}\n{below(13, 15, said)}"))
+
+
+def test_two_static_transforms_to_one_frame() -> None:
+    node = static("two", "mast", "laser")
+    said = "warning[FRM002] frame 'laser' has two parents: 'base' from /one, 'mast' from /two"
+    check(fixture(f"{static('one', 'base', 'laser')}\n{node}\n{below(0, len(node.partition('>')[0]) + 1, said)}"))
+
+
+def test_two_who_publish_the_same() -> None:
+    driver = '<node pkg="p" exec="drive" name="drive"/>'
+    said = "warning[FRM002] frame 'base_link' has two publishers: /drive (seen in a run) and /ekf"
+    nodes = f"{driver}\n{_EKF}\n{_BASE}\n{below(13, 15, said)}"
+    check(fixture(nodes, {"/drive": {"frames": [["odom", "base_link"]]}}))
+
+
+def test_a_joint_that_is_published_again() -> None:
+    node = static("again", "base", "laser")
+    said = "info[FRM002] frame 'laser' has two publishers: /rsp (joint j0) and /again"
+    check(fixture(f"{robot(('base', 'laser'))}\n{node}\n{below(0, len(node.partition('>')[0]) + 1, said)}"))
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        robot(("base_footprint", "base_link"), ("base_link", "laser")),
+        static("one", "base", "laser") + static("two", "base", "camera"),
+        static("one", "base", "laser", '<remap from="/tf" to="/one/tf"/>') + static("two", "mast", "laser"),
+    ],
+)
+def test_one_parent(nodes: str) -> None:
+    check(fixture(nodes))
+
+
+def test_one_tag_for_two_robots() -> None:
+    text = """
+        <launch>
+          <include file="/ekf.launch" ns="one"/>
+          <include file="/ekf.launch" ns="two"/>
+        </launch>
+        //- /ekf.launch
+        <launch>
+          <node pkg="robot_localization" type="ekf_localization_node" name="ekf"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[FRM002] frame
+        </launch>
+        //- /robot_localization/package.xml
+        <package><name>robot_localization</name></package>
+    """
+    (found,) = check(text)
+    assert found.confidence == "possible"
