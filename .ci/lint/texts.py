@@ -20,6 +20,7 @@ SHOWN = {"title", "description", "markdownDescription", "enumDescriptions", "con
 MANIFESTS = (
     "vscode-client/package.json",
     "vscode-client/ros-preflight.schema.json",
+    "vscode-client/ros-preflight-knowledge.schema.json",
     "action.yml",
     "packaging/devcontainer/ros-preflight/devcontainer-feature.json",
 )

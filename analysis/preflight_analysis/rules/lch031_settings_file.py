@@ -16,7 +16,8 @@ RULE = Rule(
     id="LCH031",
     name="settings-file",
     severity="warning",
-    what="Checks for invalid keys and values in `.ros-preflight.yaml`, and for a settings file that cannot be read.",
+    what="Checks for invalid keys and values in `.ros-preflight.yaml` and in the files that its key "
+    "`knowledge` names, and for such a file that cannot be read.",
     why="The invalid part is ignored: external topics, described nodes or roots are missing. Findings may be wrong "
     "or missing.",
     example="external:\n  topic: [/scan]",

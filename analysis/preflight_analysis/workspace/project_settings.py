@@ -11,6 +11,8 @@ nodes:                          # what nodes do that cannot be run, in the words
     executable: lidar
     topics: [{name: scan, type: sensor_msgs/LaserScan, class: pub}]
     params: [{name: ~rate, default: 10}]
+knowledge:                      # files that say what parameters of nodes mean: docs/knowledge.md
+  - config/knowledge.yaml
 severities:                     # of rules: off, hint, info, warning or error; `all` are those that are not named
   TOP002: off
 paths:                          # the same for files below a folder, or of a pattern; the last that matches counts
@@ -21,7 +23,7 @@ paths:                          # the same for files below a folder, or of a pat
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 
 import yaml
@@ -39,11 +41,12 @@ from preflight_analysis.findings.severities import ALL, CHOICES, Severities
 from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.knowledge.model import Problem as KnowledgeProblem
 from preflight_analysis.rules.registry import rule_by_id
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.index import Root
 
-KEYS = ("roots", "external", "nodes", "severities", "paths")
+KEYS = ("roots", "external", "nodes", "knowledge", "severities", "paths")
 """The names on the top level."""
 
 
@@ -81,6 +84,8 @@ class ProjectSettings:
     external_topics: tuple[str, ...] = ()
     """Patterns of full names."""
     nodes: tuple[NodeSettings, ...] = ()
+    knowledge: tuple[tuple[str, int], ...] = ()
+    """The paths of files that say what parameters mean, and the lines, counted from 1, that name them."""
     severities: tuple[Severities, ...] = ()
     """The last that speak of a finding count."""
     text: str = ""
@@ -121,6 +126,7 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
     roots: list[Root] = []
     external: list[str] = []
     nodes: list[NodeSettings] = []
+    knowledge: list[tuple[str, int]] = []
     everywhere: list[Severities] = []
     by_path: list[Severities] = []
     for key, value in _entries(document, problems, "the settings"):
@@ -128,6 +134,14 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
             nodes += (node for item in value.value if (node := _node(item, problems)) is not None)
         elif key.value == "nodes":
             problems.append(_problem(value, "invalid value of 'nodes': expected a list"))
+        elif key.value == "knowledge" and isinstance(value, yaml.SequenceNode):
+            for item in value.value:
+                if isinstance(item, yaml.ScalarNode) and item.value:
+                    knowledge.append((_path(folder, item), item.start_mark.line + 1))
+                else:
+                    problems.append(_problem(item, "invalid item of 'knowledge': expected a file"))
+        elif key.value == "knowledge":
+            problems.append(_problem(value, "invalid value of 'knowledge': expected a list of files"))
         elif key.value == "severities":
             everywhere.append(Severities(_severities(value, problems)))
         elif key.value == "paths" and isinstance(value, yaml.SequenceNode):
@@ -148,6 +162,7 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
         tuple(problems),
         tuple(external),
         tuple(nodes),
+        tuple(knowledge),
         (*everywhere, *by_path),
         found.text,
     )
@@ -158,20 +173,28 @@ def located_problems(settings: ProjectSettings) -> tuple[Document | None, tuple[
     what stands on the line. No text where nothing is wrong."""
     if settings.path is None or not settings.problems:
         return None, ()
-    text = settings.text
-    document = _document(settings.path, text)
+    document = document_of(settings.path, settings.text)
+    return document, located(document, settings.problems)
+
+
+def located(
+    document: Document, problems: Iterable[SettingsProblem | KnowledgeProblem]
+) -> tuple[tuple[str, Location], ...]:
+    """What is wrong with a text and where, without the blanks around what stands on the line."""
+    text = document.text
     found = []
-    for problem in settings.problems:
+    for problem in problems:
         start, end = document.lines.line_span(problem.line - 1)
         line = text[start:end]
         start += len(line) - len(line.lstrip())
         found.append((problem.message, document.location(Span(start, max(start, start + len(line.strip()))))))
-    return document, tuple(found)
+    return tuple(found)
 
 
 @lru_cache(maxsize=16)
-def _document(path: str, text: str) -> Document:
-    """One document for one text: what several roots say of a place in it is said of the same place."""
+def document_of(path: str, text: str) -> Document:
+    """The document of a settings file. One for one text: what several roots say of a place in it is said of the same
+    place."""
     return Document(path, text, digest(text), (), (), LineIndex(text))
 
 

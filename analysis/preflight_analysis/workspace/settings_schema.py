@@ -62,6 +62,10 @@ def schema() -> dict[str, Any]:
                 "anyOf": [{"required": ["package", "executable"]}, {"required": ["name"]}],
             },
         ),
+        "knowledge": _list(
+            "Files that say what the parameters of nodes mean.",
+            {"type": "string", "description": "A file, relative to this file."},
+        ),
         "severities": _SEVERITIES,
         "paths": _list(
             "Severities for some files; the last matching entry applies.",

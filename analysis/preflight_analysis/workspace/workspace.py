@@ -59,6 +59,7 @@ from preflight_analysis.workspace.branches import BRANCHES, Branches, WhatIf, br
 from preflight_analysis.workspace.components import Containers
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.not_run import not_run
+from preflight_analysis.workspace.own_knowledge import OwnKnowledge, own_knowledge
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
     from_settings,
@@ -349,14 +350,17 @@ class Workspace:
         db.leave_if_cancelled()
         graph = build_graph(managed, whole, project.external_topics, self.environment.distro, analysis.documents, kept)
         document, problems = located_problems(project)
+        own = self.own_knowledge
         context = replace(
             analysis.context,
             graph=graph,
             why_not_run=why_not_run,
-            settings_problems=problems,
+            settings_problems=(*problems, *own.problems),
+            own_knowledge=own.files,
             kept=kept,
         )
-        documents = analysis.documents if document is None else {**analysis.documents, document.path: document}
+        more = (*own.documents, *((document,) if document is not None else ()))
+        documents = {**analysis.documents, **{each.path: each for each in more}} if more else analysis.documents
         return replace(analysis, context=context, documents=documents, severities=project.severities)
 
     def ahead_of_runs(self, analysis: Analysis) -> Analysis:
@@ -384,19 +388,27 @@ class Workspace:
             interfaces = with_simulated_controllers(tree, interfaces, environment)
         interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
         interfaces = with_command_lines(tree, interfaces, documents, kept)
-        known = KnownMeanings((), environment.distro, tree.generation)
+        known = KnownMeanings(self.own_knowledge.files, environment.distro, tree.generation)
         return with_named_endpoints(tree, interfaces, known, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:
         folder = self.environment.workspace
-        return (os.path.join(folder, SETTINGS_FILE),) if folder is not None else ()
+        if folder is None:
+            return ()
+        return (os.path.join(folder, SETTINGS_FILE), *(path for path, _ in self.settings.knowledge))
 
     @property
     def settings(self) -> ProjectSettings:
         """The settings file of the workspace."""
         folder = self.environment.workspace
         return project_settings_of(self.sources.db, folder) if folder is not None else ProjectSettings()
+
+    @property
+    def own_knowledge(self) -> OwnKnowledge:
+        """What the user's files say of parameters."""
+        folder = self.environment.workspace
+        return own_knowledge(self.sources.db, folder) if folder is not None else OwnKnowledge()
 
     def texts_of(self, tree: LaunchTree) -> tuple[dict[str, Document], dict[str, LaunchFile]]:
         """All that places in a tree may lead to, and what of it are launch files that somebody here may mend."""
