@@ -46,6 +46,23 @@ def test_a_service_that_a_node_of_another_launch_offers(tmp_path: Path) -> None:
     assert "did you mean 'topological_localisation/tagged'" in message
 
 
+@pytest.mark.parametrize(("line", "severity"), [("Publisher('toMapImageGenerator', Pose)", "hint"), ("", "warning")])
+def test_a_node_that_makes_both_names_means_two(tmp_path: Path, line: str, severity: str) -> None:
+    (tmp_path / "b.py").write_text("rospy.Publisher('toMapImageGenerator', Pose)")
+    (tmp_path / "a.py").write_text(f"rospy.Subscriber('fromMapImageGenerator', Pose, f)\n{line}\n")
+    (tmp_path / "main.launch").touch()
+    found = findings_of(f"""
+        //- {tmp_path}/main.launch
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {{"/n": {{"subscribers": {{"fromMapImageGenerator": "my_msgs/Pose"}},
+                 "made": {{"fromMapImageGenerator": ["{tmp_path}/a.py", 1]}}}}}}
+        //- {tmp_path}/package.xml
+        <package><name>p</name></package>
+    """)
+    assert [each.severity for each in found if each.rule == "TOP001"] == [severity]
+
+
 def test_a_name_that_launch_files_give_is_no_slip(tmp_path: Path) -> None:
     sources = {"a.cpp": 'nh.advertise<nav_msgs::OccupancyGrid>("map", 1);'}
     for severity, written in (("warning", "/pmap0"), ("hint", "/pmap")):

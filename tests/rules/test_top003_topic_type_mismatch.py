@@ -35,6 +35,19 @@ def test_types_that_differ() -> None:
     assert finding.related[0].message == "/a publishes /pose"
 
 
+@pytest.mark.parametrize(
+    ("type_", "severity"), [("rtabmap_msgs/Data", "info"), ("other_msgs/Data", "error"), ("rtabmap_msgs/Map", "error")]
+)
+def test_a_message_that_another_version_has_in_another_package(type_: str, severity: str) -> None:
+    found = findings_of(f"""
+        <launch><node pkg="p" type="t" name="own"/><node pkg="p" type="t" name="slam"/></launch>
+        //- interfaces
+        {{"/own": {{"publishers": {{"/data": "rtabmap_ros/Data"}}}},
+         "/slam": {{"subscribers": {{"/data": "{type_}"}}, "catalogued": "noetic"}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "TOP003"] == [severity]
+
+
 def test_one_type_of_two_definitions() -> None:
     (finding,) = findings_of("""
         <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>

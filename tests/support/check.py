@@ -265,8 +265,8 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
     `answers`, `lacks`; `frames`, a list of parent and child; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`;
-    `made` `{name: [file, line]}`; `builtin`, `speculative`, `on_demand` and `similar`, lists of names; `nodes`, those
-    that the process makes, with the fields of `MadeNode`.
+    `made` `{name: [file, line]}`; `builtin`, `speculative`, `on_demand` and `similar`, lists of names; `catalogued`;
+    `nodes`, those that the process makes, with the fields of `MadeNode`.
     """
     made = data.get("made", {})
     endpoints = [
@@ -282,6 +282,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
             speculative=name in data.get("speculative", ()),
             on_demand=name in data.get("on_demand", ()),
             similar=name in data.get("similar", ()),
+            catalogued=data.get("catalogued", ""),
         )
         for key, role in _ROLES.items()
         for name, type_ in data.get(key, {}).items()

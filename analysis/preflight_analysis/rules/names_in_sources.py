@@ -52,6 +52,9 @@ def meant_in_sources(context: Context, connection: Connection) -> tuple[str, int
         return None
     own, kind = connection.endpoint.name.strip("~/"), type_.rpartition("/")[2]
     known = _in_workspace(context.disk.db, context.environment)
+    # What a node takes in and what it gives out have like names on purpose.
+    source = connection.endpoint.source_file
+    beside = {each.name for each in _in_file(context.disk.db, source)} if source is not None else set()
     files: Counter[str] = Counter()
     for each, count in known.items():
         alike = likeness(f"/{own}", f"/{each.name}")
@@ -60,7 +63,9 @@ def meant_in_sources(context: Context, connection: Connection) -> tuple[str, int
                 return None
             continue
         # Without an offer it is a word of several against one.
-        enough = each.offers or (count >= _ENOUGH and known.get(Named(own, kind, offers=False), 0) <= 1)
+        enough = each.name not in beside and (
+            each.offers or (count >= _ENOUGH and known.get(Named(own, kind, offers=False), 0) <= 1)
+        )
         if each.type == kind and enough:
             files[each.name] += count
     return next(iter(files.items())) if len(files) == 1 else None

@@ -11,6 +11,9 @@ from preflight_analysis.rules.channels import channels_of, of_all_kinds
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.tracing.interface import Endpoint
+
+_MESSAGES = "_msgs"
 
 
 def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) -> Iterator[Finding]:
@@ -27,7 +30,7 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
             f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} "
             f"{consumer.endpoint.type or 'an unknown type'}{difference}",
             connection_location(site),
-            severity="info" if consumer.endpoint.assumed or provider.endpoint.assumed else None,
+            severity="info" if _is_doubtful(consumer.endpoint, provider.endpoint) else None,
             confidence=_confidence(graph, consumer, provider),
             related=(
                 related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
@@ -35,6 +38,18 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
             ),
             endpoints=endpoints_of(consumer, provider),
         )
+
+
+def _is_doubtful(one: Endpoint, other: Endpoint) -> bool:
+    """Whether an end is only assumed, or one of the catalogue may be of another version, with the message in another
+    package of the same project, for messages alone (`rtabmap_msgs`, `rtabmap_ros`)."""
+    if one.assumed or other.assumed:
+        return True
+    if not (one.catalogued or other.catalogued) or one.type is None or other.type is None:
+        return False
+    (package, _, name), (other_package, _, other_name) = one.type.partition("/"), other.type.partition("/")
+    moved = package.endswith(_MESSAGES) != other_package.endswith(_MESSAGES)
+    return moved and name == other_name and package.partition("_")[0] == other_package.partition("_")[0]
 
 
 _Misfit = tuple[Connection, Connection, str]
