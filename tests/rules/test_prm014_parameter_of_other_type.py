@@ -65,7 +65,7 @@ def test_simulated_time_that_is_no_bool() -> None:
     check("""
         //- /robot.launch.yaml
         launch:
-          - set_parameter: {name: use_sim_time, value: "'true'"}
+          - set_parameter: {name: use_sim_time, value: simulated}
             ^^^^^^^^^^^^^ error[PRM014] type mismatch of parameter 'use_sim_time': got a string, /a declares a bool;
           - node: {pkg: p, exec: a, name: a}
           - node: {pkg: p, exec: b, name: b}

@@ -87,8 +87,9 @@ class KnownMeanings:
     def _is_used(self, entry: Entry) -> bool:
         if self.distro is not None:
             return self.distro in entry.distributions
-        # What several distributions have alike is likely so in the one that is not known.
-        return len(DISTRIBUTIONS[self.generation].keys() & set(entry.distributions)) > 1 or self.generation == 1
+        # What several distributions have alike is likely so in the one that is not known; of ROS 1 that is the last.
+        known = DISTRIBUTIONS[self.generation].keys() & set(entry.distributions)
+        return len(known) > 1 or "noetic" in known
 
 
 def _place(node: LaunchNode) -> tuple[str, EntryKind, str]:
