@@ -214,3 +214,50 @@ def test_a_node_that_the_catalogue_has(source: str, args: str, more: dict[str, o
     """)
     remaps = [each for each in found if each.rule == "TOP004"]
     assert [(each.severity, each.confidence) for each in remaps] == ([(severity, "possible")] if severity else [])
+
+
+def test_a_name_that_is_given_to_itself_in_place_of_the_node_s_own() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="ekf"/>
+          <node pkg="p" type="t" name="navsat">
+            <remap from="imu/data" to="imu/data"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/ekf": {"subscribers": {"imu/data": "sensor_msgs/Imu"}},
+         "/navsat": {"subscribers": {"imu": "sensor_msgs/Imu", "odom": "nav_msgs/Odometry"}}}
+    """)
+    assert "LCH024" not in [finding.rule for finding in findings]
+    (finding,) = [finding for finding in findings if finding.rule == "TOP004"]
+    assert finding.severity == "warning"
+    assert "did you mean 'imu', which it subscribes to and which is unconnected?" in finding.message
+
+
+def test_a_private_name_that_was_meant_by_the_plain_one() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="marker">
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP002] '/marker/cmd_vel' has no subscriber
+            <remap from="cmd_vel" to="/cmd_vel"/>
+                         ^^^^^^^ warning[TOP004] did you mean '~cmd_vel', which it publishes and which is unconnected?
+          </node>
+        </launch>
+        //- interfaces
+        {"/marker": {"source": "catalogue", "publishers": {"~cmd_vel": "geometry_msgs/Twist"}}}
+    """)
+
+
+@pytest.mark.silent
+def test_a_name_that_the_node_uses_is_given_to_itself_out_of_habit() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="navsat">
+            <remap from="gps/fix" to="/gps/fix"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/navsat": {"subscribers": {"gps/fix": "sensor_msgs/NavSatFix"},
+                     "publishers": {"fix": "sensor_msgs/NavSatFix"}}}
+    """)
+    assert "TOP004" not in [finding.rule for finding in findings]

@@ -38,6 +38,11 @@ class IdleRemap:
     sure: bool = True
     """Whether all names of the nodes are known. If not, `meant` has the very name but for a `~` or a namespace."""
 
+    @property
+    def to_itself(self) -> bool:
+        """Whether it is from a name to the same name, which says nothing unless something else was meant."""
+        return _is_to_itself(self.remap, self.nodes[0])
+
 
 @dataclass(frozen=True, slots=True)
 class _Reached:
@@ -64,7 +69,7 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
     own_ends = kept.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
     of_nodes = kept.grouped(_node, "", chain.from_iterable(own_ends))
     found = (_with_meaning(kept, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
-    return tuple(each for each in found if each.sure or each.meant is not None)
+    return tuple(each for each in found if (each.sure and not each.to_itself) or each.meant is not None)
 
 
 def meant_endpoints(context: Context) -> frozenset[int]:
@@ -77,13 +82,15 @@ def meant_endpoints(context: Context) -> frozenset[int]:
 def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
     if not node.remaps:
         return ()
-    sure = _reports_names(node, interface)
-    used = _used(node, interface) if sure or _tells_in_part(node, interface) else None
+    sure, known = _reports_names(node, interface), _used(node, interface)
+    tells = sure or _tells_in_part(node, interface)
     known_by = _KNOWN_BY.get(interface.source, _BY_RUN)
-    return tuple(
-        _Reached(remap, node, used is None or not _has_no_effect(remap, node, used), known_by, sure)
-        for remap in node.remaps
-    )
+    found = []
+    for remap in node.remaps:
+        # One to itself has none whatever the node uses.
+        idle = (tells or _is_to_itself(remap, node)) and _has_no_effect(remap, node, known)
+        found.append(_Reached(remap, node, not idle, known_by, sure))
+    return tuple(found)
 
 
 def _tag(reached: _Reached) -> Location:
@@ -130,17 +137,20 @@ def _meaning(
     """With the end that the remap was meant for, and whom it would then meet.
 
     Either its name is like the remap's and nothing else reaches it, or it is the node's only one without another end
-    that fits what stands under the target. `own` are the ends of the node, `channels` what they are in and `targets`
-    what is under the target's name.
+    that fits what stands under the target. Of a remap from a name to itself it may join others of its kind there.
+    `own` are the ends of the node, `channels` what they are in and `targets` what is under the target's name.
     """
     full = names.resolve(idle.remap.source, idle.nodes[0].name)
     rows = zip(own, channels, targets, strict=True)
-    lone = [(each, _partner(target, each)) for each, channel, target in rows if not _facing(channel, each)]
+    lone = [(each, target) for each, channel, target in rows if not _facing(channel, each)]
     is_slip = _is_slip if idle.sure else _is_same_leaf
-    found = [(connection, partner) for connection, partner in lone if is_slip(full, connection)]
+    found = [(each, target) for each, target in lone if is_slip(full, each)]
     if len(found) != 1 and idle.sure:
-        found = [(connection, partner) for connection, partner in lone if partner is not None]
-    meant, partner = found[0] if len(found) == 1 else (None, None)
+        found = [(each, target) for each, target in lone if _partner(target, each) is not None]
+    if not found and idle.to_itself:
+        found = [(each, target) for each, target in lone if _has_peer(target, each)]
+    meant, target = found[0] if len(found) == 1 else (None, None)
+    partner = _partner(target, meant) if meant is not None else None
     return replace(idle, meant=meant, partner=partner)
 
 
@@ -183,6 +193,10 @@ def _used(node: LaunchNode, interface: Interface) -> _Names:
     return _Names(used, frozenset(names.with_namespaces(used)))
 
 
+def _is_to_itself(remap: Remap, node: LaunchNode) -> bool:
+    return names.resolve(remap.source, node.name) == names.resolve(remap.target, node.name)
+
+
 def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
     """Whether neither the node nor a library could mean the name.
 
@@ -190,11 +204,13 @@ def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
     dynamic_reconfigure's, a node handle's), and beside it (`camera_info`); one that applies remaps itself hands over
     the target.
     """
-    if remap.source == remap.target or not names.is_legal(remap.source):
+    if not names.is_legal(remap.source) or any(old.target != remap.target for old in remap.replaces):
         return False
     full, target = names.resolve(remap.source, node.name), names.resolve(remap.target, node.name)
     if is_transform(full) or full.endswith("/camera_info") or full in known.around or target in known.around:
         return False
+    if full == target:
+        return True
     above = full.rpartition("/")[0]
     while above:
         if above in known.used:
@@ -222,6 +238,16 @@ def _partner(channel: Channel | None, connection: Connection) -> Connection | No
         if same and other.node is not connection.node and not other.endpoint.builtin:
             return other
     return None
+
+
+def _has_peer(channel: Channel | None, connection: Connection) -> bool:
+    """Whether another node does the same in `channel`, with the same type."""
+    type_, role = connection.endpoint.type, connection.endpoint.role
+    others = (*channel.providers, *channel.consumers) if channel is not None and type_ not in (None, "*") else ()
+    return any(
+        (each.endpoint.type, each.endpoint.role) == (type_, role) and each.node is not connection.node
+        for each in others
+    )
 
 
 def _facing(channel: Channel, connection: Connection) -> tuple[Connection, ...]:

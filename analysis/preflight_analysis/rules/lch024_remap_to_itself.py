@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
+from preflight_analysis.rules.idle_remaps import idle_remaps
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags, removal
@@ -20,9 +21,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for remap in chain.from_iterable(context.kept.each(_to_itself, context.tree.nodes)):
         reached.setdefault(remap.origin[-1], []).append(remap)
     tags = Tags(context.launch_files)
+    # Where another name was meant, TOP004 says so.
+    explained = {idle.remap.origin[-1] for idle in context.once(idle_remaps)} if reached else ()
     for location, remaps in reached.items():
         remap = remaps[0]
-        if all(map(_idle, remaps)) and _literal(context, remap):
+        if location not in explained and all(map(_idle, remaps)) and _literal(context, remap):
             yield rule.finding(
                 f"remap of '{remap.source}' to itself has no effect",
                 location,

@@ -89,9 +89,10 @@ RULE = Rule(
     "were run up to their event loop, or static analysis describes them completely. The finding is a warning if a "
     "node has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`. It is "
     "information if only the catalogue knows the node and no argument decides what it does. It is a warning if "
-    "`from` is also in a namespace without any name of the node. Otherwise it is a hint, because the node or a "
-    "library may use the name later. Namespaces of names in use, and names below one, count as used: actions, image "
-    "transports and `dynamic_reconfigure` create such names.",
+    "`from` is also in a namespace without any name of the node. A remap from a name to itself is reported if the "
+    "node has an unconnected endpoint with the same last part, or of the type that another node uses under the name. "
+    "Otherwise it is a hint, because the node or a library may use the name later. Namespaces of names in use, and "
+    "names below one, count as used: actions, image transports and `dynamic_reconfigure` create such names.",
     why="A remap of an unused name is ignored without an error, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
     instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',

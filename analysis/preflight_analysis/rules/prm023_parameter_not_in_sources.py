@@ -1,0 +1,163 @@
+"""PRM023: a parameter whose name is in no source of the workspace, which has one of a similar name."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterator, Mapping
+
+from preflight_analysis.environment.model import Package
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
+from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
+from preflight_analysis.rules.params_in_sources import Asked, meant_in_one_file, meant_in_sources
+from preflight_analysis.rules.places import related_node
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.unread_params import reports_params
+from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.request import split_args
+
+_LEAST = 4
+"""Parameters that stand together beside the nodes, of which most are those of one source."""
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    graph = context.graph
+    if graph is None:
+        return
+    by_node = _below_nodes(context, graph)
+    reported: set[object] = set()
+    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
+        package = _of_workspace(context, node)
+        if package is None or _others_speak(context, interface):
+            continue
+        params = node.params if context.tree.ros.ament else by_node.get(node.name, ())
+        taken = {use.name.strip("~/") for use in interface.params}
+        given = {_below(node, param) for param in params}
+        for param in params:
+            name = _below(node, param)
+            if name in taken or is_for_tools(param.name) or param.place in reported:
+                continue
+            asked = meant_in_sources(context.disk.db, context.environment, package.share, name)
+            if asked is None or _renamed(name, asked) in given:
+                continue
+            reported.add(param.place)
+            yield _finding(rule, context, node, param, asked)
+    if not context.tree.ros.ament:
+        yield from _beside_nodes(rule, context, graph, by_node)
+
+
+def _beside_nodes(
+    rule: Rule, context: Context, graph: Graph, by_node: Mapping[str, Collection[Param]]
+) -> Iterator[Finding]:
+    """Of files of parameters that are loaded in a namespace, where the nodes of the launch ask for most of them."""
+    nodes = {node.name for node in graph.tree.nodes}
+    packages = filter(None, (_of_workspace(context, node) for node in graph.tree.nodes))
+    shares = tuple(sorted({package.share for package in packages}))
+    read = {each.name for each in graph.param_reads}
+    owned = {id(param) for params in by_node.values() for param in params}
+    loose = [param for param in context.tree.all_params if id(param) not in owned and param.name not in nodes]
+    for namespace, group in grouped(loose).items() if shares else ():
+        by_file: dict[str, list[Param]] = {}
+        for param in group:
+            by_file.setdefault(param.place.file, []).append(param)
+        for params in by_file.values():
+            if len(params) < _LEAST or all(param.name in read for param in params):
+                continue
+            leaves = {names.leaf(param.name): param for param in params}
+            found = meant_in_one_file(context.disk.db, context.environment, shares, tuple(sorted(leaves)))
+            for leaf, asked in found.items():
+                if leaves[leaf].name not in read and f"{namespace}/{asked.name}" not in graph.tree.params:
+                    yield _finding(rule, context, None, leaves[leaf], asked)
+
+
+def _below_nodes(context: Context, graph: Graph) -> Mapping[str, tuple[Param, ...]]:
+    """ROS 1: the parameters below the name of each node."""
+    nodes, found = {node.name for node in graph.tree.nodes}, dict[str, tuple[Param, ...]]()
+    groups = context.kept.grouped(namespace_of, "params in sources", context.tree.all_params)
+    for namespace, params in groups.items() if not context.tree.ros.ament else ():
+        home = namespace
+        while home and home not in nodes:
+            home = home.rpartition("/")[0]
+        if home:
+            found[home] = (*found.get(home, ()), *params)
+    return found
+
+
+def _of_workspace(context: Context, node: LaunchNode) -> Package | None:
+    """The package of the node's program, of a nodelet that of its class, if that is in the workspace."""
+    name = node.package
+    if node.package == "nodelet":
+        words = [word for word in split_args(node.args) if not word.startswith("-")]
+        name = words[1].partition("/")[0] if len(words) > 1 else ""
+    package, environment = context.environment.packages.get(name), context.environment
+    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
+    return None if package is None or package.share.startswith(installed) else package
+
+
+def _others_speak(context: Context, interface: Interface) -> bool:
+    """Whether the parameters of the node are known, so that PRM001 or PRM013 says which of them it does not read."""
+    lists = any(use.access == "list" for use in interface.params)
+    if not context.tree.ros.ament:
+        return interface.known_in_full
+    return interface.source != "none" and not lists and bool(interface.params or reports_params(interface))
+
+
+def _below(node: LaunchNode, param: Param) -> str:
+    return param.name.removeprefix(f"{node.name}/")
+
+
+def _renamed(name: str, asked: Asked) -> str:
+    """The name with the last part of what is asked for."""
+    cut = max(name.rfind("/"), name.rfind(".")) + 1
+    return name[:cut] + asked.name
+
+
+def _finding(rule: Rule, context: Context, node: LaunchNode | None, param: Param, asked: Asked) -> Finding:
+    where = os.path.basename(asked.path)
+    return rule.finding(
+        f"parameter '{_last(param.name)}' is in no source of the workspace; did you mean '{asked.name}', which {where} "
+        "reads?",
+        param.place,
+        confidence="possible",
+        related=(*((related_node(node),) if node is not None else ()), *include_chain(param.origin)),
+        fixes=_fixes(context, param, asked),
+    )
+
+
+def _last(name: str) -> str:
+    return name.replace(".", "/").rpartition("/")[2]
+
+
+def _fixes(context: Context, param: Param, asked: Asked) -> tuple[Fix, ...]:
+    new = _renamed(param.name, asked)
+    if not context.tree.ros.ament:
+        return renamed(context, param, new)
+    location = param.name_location
+    if location is None or context.text(location) != _last(param.name):
+        return ()
+    return (Fix(f"Rename '{_last(param.name)}' to '{asked.name}'", (Edit(location, asked.name),), True),)
+
+
+RULE = Rule(
+    id="PRM023",
+    name="parameter-not-in-sources",
+    severity="warning",
+    what="Checks for a parameter of a node of the workspace whose name is in no source of the workspace, while the "
+    "node's package reads one of a similar name that is not set. Similar is a typo, or one word more or less. In a "
+    "deeper namespace (`radio/channel`) a plugin of any package may read it. In ROS 1 it also checks parameters beside "
+    "the nodes if one source reads most of them. Names are looked for in the text of the sources. Nodes whose "
+    "parameters are known in full are checked by PRM001 and PRM013.",
+    why="The node uses its default, and no tool reports that the value of the launch file is unused.",
+    example='<!-- the node reads ~subscribe_laserScan -->\n<param name="subscribe_scan" value="true"/>',
+    instead='<param name="subscribe_laserScan" value="true"/>',
+    references=(PARAMETER_SERVER, PARAMETERS),
+    settings=("nodes",),
+    check=_check,
+    needs_graph=True,
+    every_root=True,
+)

@@ -1,0 +1,95 @@
+"""PRM023: a parameter whose name is in no source of the workspace, which has one of a similar name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from preflight_analysis.findings.finding import Finding
+from support.check import apply, findings_of
+
+ROS_1 = """
+    //- {0}/p/main.launch
+    <launch>{1}</launch>
+    //- interfaces
+    {{"/n": {{"status": "not-run"}}}}
+    //- {0}/p/package.xml
+    <package><name>p</name></package>
+    //- {0}/q/package.xml
+    <package><name>q</name></package>
+"""
+NODE = '<node pkg="p" type="t" name="n">{0}</node>'
+READS = 'nh.param("subscribe_laserScan", a, false);\nprivate_nh->param<int>("queue_size", b, 1);\n'
+
+
+def found(folder: Path, inside: str, sources: dict[str, str], launch: str = NODE) -> list[Finding]:
+    """What the rule says of the launch file of package `p`, which stands beside package `q`."""
+    for file, text in sources.items():
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
+        (folder / file).write_text(text)
+    (folder / "p").mkdir(exist_ok=True)
+    (folder / "p" / "main.launch").touch()
+    return [f for f in findings_of(ROS_1.format(folder, launch.format(inside))) if f.rule == "PRM023"]
+
+
+def param(name: str) -> str:
+    """A parameter in a tag."""
+    return f'<param name="{name}" value="1"/>'
+
+
+@pytest.mark.parametrize(
+    ("name", "source", "meant"),
+    [
+        ("subscribe_scan", READS, "subscribe_laserScan"),
+        ("qeue_size", READS, "queue_size"),
+        ("global_flame", 'declare_parameter_if_not_declared(node, name_ + ".global_frame", value);', "global_frame"),
+        ("frame_id", "rospy.get_param('~body_frame_id', 'BODY')", "body_frame_id"),
+    ],
+)
+def test_a_slip_of_what_the_package_reads(tmp_path: Path, name: str, source: str, meant: str) -> None:
+    (finding,) = found(tmp_path, param(name), {"p/src/a.cpp": source})
+    assert finding.severity == "warning"
+    assert finding.message == f"parameter '{name}' is in no source of the workspace; did you mean '{meant}', which " + (
+        "a.cpp reads?"
+    )
+    text = ROS_1.format(tmp_path, NODE.format(param(name)))
+    assert f'name="{meant}"' in apply(text, finding.fixes[0].edits)[f"{tmp_path}/p/main.launch"]
+
+
+def test_what_a_plugin_of_another_package_reads_in_a_namespace_of_that_name(tmp_path: Path) -> None:
+    source = {"q/include/radio.h": 'nh.getParam("radio/x_channel_index", x);', "p/src/a.cpp": ""}
+    (finding,) = found(tmp_path, param("radio/x_channel"), source)
+    assert "did you mean 'x_channel_index', which radio.h reads?" in finding.message
+    assert found(tmp_path, param("audio/x_channel"), source) == []
+
+
+def test_parameters_beside_the_nodes_of_which_one_source_reads_most(tmp_path: Path) -> None:
+    source = {"p/src/config.h": "".join(f'nh->param<int>("{name}", {name}, 1);\n' for name in ("a1", "b1", "c1"))}
+    source["p/src/config.h"] += 'nh->param<std::string>("odom_frame", odom_frame_id, "odom");'
+    beside = "<rosparam>{{a1: 1, b1: 2, c1: 3, odom_frame_id: odom}}</rosparam>" + NODE
+    (finding,) = found(tmp_path, "", source, beside)
+    assert "parameter 'odom_frame_id' is in no source of the workspace; did you mean 'odom_frame'" in finding.message
+    few = "<rosparam>{{a1: 1, x1: 2, y1: 3, odom_frame_id: odom}}</rosparam>" + NODE
+    assert found(tmp_path, "", source, few) == []
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("inside", "sources"),
+    [
+        # Its name stands somewhere, be it in another package or as what a macro is given.
+        (param("subscribe_scan"), {"p/a.cpp": READS, "q/scripts/tool": 'x = {"subscribe_scan": 1}'}),
+        (param("subscribe_scan"), {"p/a.cpp": READS + "READ_PARAM(subscribe_scan, false);"}),
+        (param("subscribe_scan"), {"p/a.cpp": READS, "p/cfg/P.cfg": 'gen.add("subscribe_scan", bool_t, 0, "", True)'}),
+        # What it may be meant for is set, too.
+        (param("subscribe_scan") + param("subscribe_laserScan"), {"p/a.cpp": READS}),
+        # Two may be meant, or another thing.
+        (param("laser_frame"), {"p/a.cpp": 'nh.param("laser_frame_id", a); nh.param("my_laser_frame", b);'}),
+        (param("min_speed"), {"p/a.cpp": 'nh.param("max_speed", a);'}),
+        (param("j_max"), {"p/a.cpp": 'nh.param("max_j_z", a);'}),
+        (param("rate"), {"p/a.cpp": 'nh.param("publish_rate", a);'}),
+        (param("camera1_frame"), {"p/a.cpp": 'nh.param("camera2_frame", a);'}),
+    ],
+)
+def test_names_that_are_known_or_like_nothing(tmp_path: Path, inside: str, sources: dict[str, str]) -> None:
+    assert found(tmp_path, inside, sources) == []
