@@ -281,6 +281,7 @@ def test_helpers_of_navigation_that_are_not_here_have_their_behaviour(harness: P
             use_sim_time: false
             scan_topic: <robot>/scan
             limits: {speed: 0.5}
+            kept: 3
         """,
     )
     tree = tree_of(
@@ -308,7 +309,12 @@ def generate_launch_description():
     )
     assert names(tree) == ["/r1/amcl"]
     values = {param.name: param.value for param in tree.nodes[0].params}
-    assert values == {"use_sim_time": True, "scan_topic": "r1/scan", "limits.speed": 0.25, "added": 1}
+    assert values == {"use_sim_time": True, "scan_topic": "r1/scan", "limits.speed": 0.25, "added": 1, "kept": 3}
+    places = {param.name: param.name_location for param in tree.nodes[0].params}
+    kept = places.pop("kept")
+    assert kept is not None
+    assert kept.file.endswith("/params.yaml")
+    assert set(places.values()) == {None}
     assert tree.complete
 
 

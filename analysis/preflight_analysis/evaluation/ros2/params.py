@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import field
 from typing import Any
@@ -198,7 +199,35 @@ def file_source(
         fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
-    return of_file(file, path, lines, origin, to, gone=made)
+    return of_file(file, path, lines, origin, to, made_of=_places_before(performer, text) if made else None)
+
+
+_Places = Mapping[str, tuple[tuple[FileParam, str, Location], ...]]
+"""Parameters of a file by name, each with the key of its section and its place."""
+_SOURCE = re.compile(r"# preflight: rewritten from (/.+)\n")
+"""How `rewrites.py` of `tracing/agents/fake_launch` says what a file was made from."""
+
+
+def _places_before(performer: Performer, text: str) -> _Places:
+    """Where the parameters of a file that a run of a launch file wrote stand in the one that it was made from."""
+    source = _SOURCE.match(text)
+    found = performer.state.read_text(source[1]) if source is not None else None
+    if source is None or not isinstance(found, Document) or performer.state.text_made(source[1]) is not None:
+        return {}
+    places: dict[str, tuple[tuple[FileParam, str, Location], ...]] = {}
+    for section in read_param_file(found).sections:
+        for param in section.params:
+            place = found.lines.location(source[1], param.name_span)
+            places[param.name] = (*places.get(param.name, ()), (param, section.key, place))
+    return places
+
+
+def _place_before(places: _Places, param: FileParam, key: str) -> Location | None:
+    """None for a value that was replaced, and where several sections have the name."""
+    same = [each for each in places.get(param.name, ()) if repr(each[0].value) == repr(param.value)]
+    of_section = [each for each in same if key.endswith(each[1].lstrip("/"))]
+    found = of_section or same
+    return found[0][2] if len(found) == 1 else None
 
 
 def sections_for_any_name(node: LaunchNode, documents: Mapping[str, Document]) -> tuple[tuple[Section, ...], ...]:
@@ -250,10 +279,10 @@ def of_file(
     origin: Origin,
     to: Sources,
     *,
-    gone: bool = False,
+    made_of: _Places | None = None,
 ) -> ParamSource:
-    """What of a file reaches a node. `lines` are those of the file, None where its substitutions were made. `gone`:
-    a run of a launch file wrote it, so there is no place in it to show."""
+    """What of a file reaches a node. `lines` are those of the file, None where its substitutions were made. `made_of`:
+    a run of a launch file wrote it, so there is no place in it to show, but in the one that it was made from."""
     reaching = file.reaching(to.node, composable=to.composable)
     if to.composable:
         reaching.sort(key=lambda section: section.exact)
@@ -264,11 +293,15 @@ def of_file(
         for param in section.params:
             if is_unknown(param.name) or any(map(is_unknown, _items(param.value))):
                 continue
-            place = lines.location(path, param.name_span) if lines is not None else Location.of_file(path)
+            place: Location | None = Location.of_file(path)
+            if made_of is not None:
+                place = _place_before(made_of, param, section.key)
+            elif lines is not None:
+                place = lines.location(path, param.name_span)
             value = param.by_launch if to.composable else param.value
             by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
-            way, name_place = (origin, None) if gone else ((*origin, place), place)
-            params.append(Param(param.name, value, way, to.owner, name_place, by_launch=by_launch))
+            way = origin if place is None else (*origin, place)
+            params.append(Param(param.name, value, way, to.owner, place, by_launch=by_launch))
             keys.append(section.key)
     return ParamSource(path, tuple(params), origin, tuple(keys), lines is None)
 

@@ -230,6 +230,7 @@ def _call(call: dict[str, Any]) -> dict[str, Any]:
         if call["what"] == "perform":
             is_condition = isinstance(thing, Condition)
             text = str(thing.evaluate(context)).lower() if is_condition else str(thing.perform(context))
+            rewrites.tell_source(thing, context, text)
             RECORDER.unmatched += [[*each, thing.preflight_place] for each in rewrites.unmatched(thing, context)]
             # The file that it wrote is known but for what it wrote of that.
             is_guess = RECORDER.guessed and not is_unknown(text) and not os.path.isfile(text)
