@@ -195,6 +195,7 @@ const NAMES: Readonly<Record<Exclude<NodeItem["kind"], "section" | "not-taken">,
   remap: "remap",
   include: "include",
   difference: "difference",
+  frame: "frame",
 };
 
 const SPOKEN: Readonly<Record<LiveState, string>> = {
