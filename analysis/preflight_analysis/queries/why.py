@@ -19,7 +19,7 @@ from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.qos import policies
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.places import attribute_location, connection_location
-from preflight_analysis.tracing.interface import DOES, Interface
+from preflight_analysis.tracing.interface import DOES, Endpoint, Interface
 from preflight_analysis.workspace.workspace import Analysis
 
 State = Literal["ok", "broken", "unknown"]
@@ -66,18 +66,20 @@ class Link:
 @dataclass(frozen=True, slots=True)
 class Chain:
     """From `provider` to `consumer` (full names of nodes), over one topic, service or action. `channel` is its final
-    name where both ends have the same one."""
+    name where both ends have the same one; `provided` and `consumed` are those of each end."""
 
     kind: ChannelKind
     channel: str | None
     provider: str
     consumer: str
     links: tuple[Link, ...]
+    provided: str | None = None
+    consumed: str | None = None
 
     @property
     def broken(self) -> Link | None:
         """The first link that breaks."""
-        return next((link for link in self.links if link.state == "broken"), None)
+        return first_broken(self.links)
 
     @property
     def unknown(self) -> int:
@@ -88,6 +90,11 @@ class Chain:
     def noun(self) -> str:
         """`topic`, `service` or `action`."""
         return _NOUN[self.kind]
+
+
+def first_broken(links: Iterable[Link]) -> Link | None:
+    """The first link that breaks."""
+    return next((link for link in links if link.state == "broken"), None)
 
 
 def node_named(nodes: Iterable[LaunchNode], name: str) -> LaunchNode:
@@ -190,7 +197,7 @@ def _no_pair(analysis: Analysis, graph: Graph, a: LaunchNode, b: LaunchNode, cha
 
 def _ends_known(graph: Graph, kind: ChannelKind, node: LaunchNode, over: str) -> Link:
     provided, consumed = (sorted({each.name for each in side}) for side in _ends(graph, kind, node))
-    does = [f"{verb} {_listed(ends)}" for verb, ends in (("publishes", provided), ("subscribes to", consumed)) if ends]
+    does = [f"{verb} {listed(ends)}" for verb, ends in (("publishes", provided), ("subscribes to", consumed)) if ends]
     text = f"no endpoint of {node.name} fits {over}; it {' and '.join(does) or 'has no topic'}"
     interface = _interface(graph, node)
     if not interface.complete:
@@ -198,7 +205,8 @@ def _ends_known(graph: Graph, kind: ChannelKind, node: LaunchNode, over: str) ->
     return Link("endpoint", "broken", text, node.location)
 
 
-def _listed(found: Sequence[str]) -> str:
+def listed(found: Sequence[str]) -> str:
+    """Names in one text, the first ones of many."""
     more = f" and {len(found) - _LISTED} more" if len(found) > _LISTED else ""
     return ", ".join(found[:_LISTED]) + more
 
@@ -220,7 +228,7 @@ def _chain(analysis: Analysis, graph: Graph, kind: ChannelKind, provider: Connec
         *_clock(graph, consumer.node),
     )
     channel = consumer.name if provider.name == consumer.name else None
-    return Chain(kind, channel, provider.node.name, consumer.node.name, links)
+    return Chain(kind, channel, provider.node.name, consumer.node.name, links, provider.name, consumer.name)
 
 
 def _of_node(analysis: Analysis, graph: Graph, node: LaunchNode) -> Iterator[Link]:
@@ -304,10 +312,17 @@ def _type(provider: Connection, consumer: Connection) -> Link:
 
 
 def _qos(provider: Connection, consumer: Connection) -> Iterator[Link]:
+    ends = provider.endpoint, consumer.endpoint
+    found = [*qos_links(*ends, provider.node.name, consumer.node.name, consumer.node.location)]
+    yield from found or [Link("qos", "unknown", "the QoS of both ends is not known")]
+
+
+def qos_links(
+    offering: Endpoint, requesting: Endpoint, provider: str, consumer: str, place: Location | None = None
+) -> Iterator[Link]:
+    """One link for each policy that an end is known to set; `provider` and `consumer` are the names of the nodes."""
     states: Mapping[str, State] = {"compatible": "ok", "incompatible": "broken", "unknown": "unknown"}
-    found = False
-    for policy in policies(provider.endpoint, consumer.endpoint):
-        found = True
+    for policy in policies(offering, requesting):
         offered, requested = (
             "none" if value is None else f"{value} s" if isinstance(value, (int, float)) else value.replace("_", " ")
             for value in (policy.offered, policy.requested)
@@ -315,13 +330,8 @@ def _qos(provider: Connection, consumer: Connection) -> Iterator[Link]:
         if policy.fit == "unknown":
             offered = "unknown" if policy.offered is None else offered
             requested = "unknown" if policy.requested is None else requested
-        text = (
-            f"QoS {policy.name.replace('_', ' ')}: {provider.node.name} offers {offered}, "
-            f"{consumer.node.name} requests {requested}"
-        )
-        yield Link("qos", states[policy.fit], text, consumer.node.location)
-    if not found:
-        yield Link("qos", "unknown", "the QoS of both ends is not known")
+        text = f"QoS {policy.name.replace('_', ' ')}: {provider} offers {offered}, {consumer} requests {requested}"
+        yield Link("qos", states[policy.fit], text, place)
 
 
 def _environment(analysis: Analysis, provider: LaunchNode, consumer: LaunchNode) -> Iterator[Link]:
@@ -346,7 +356,7 @@ def _clock(graph: Graph, consumer: LaunchNode) -> Iterator[Link]:
     if param is None or param.value is not True or graph.is_external("/clock"):
         return
     if clock is not None and clock.providers:
-        publishers = _listed(sorted({each.node.name for each in clock.providers}))
+        publishers = listed(sorted({each.node.name for each in clock.providers}))
         yield Link("clock", "ok", f"{consumer.name} uses simulated time; /clock is published by {publishers}")
     else:
         text = f"{consumer.name} uses simulated time, and no node of this launch publishes /clock"

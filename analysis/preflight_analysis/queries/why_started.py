@@ -8,7 +8,7 @@ from itertools import islice
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables, assignments
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, NotTaken
-from preflight_analysis.queries.why import Link, NoSuchNodeError, node_named
+from preflight_analysis.queries.why import Link, NoSuchNodeError, first_broken, node_named
 from preflight_analysis.workspace.workspace import Analysis
 
 MAX_EVALUATIONS = 24
@@ -31,7 +31,7 @@ class Start:
     @property
     def broken(self) -> Link | None:
         """The first link that breaks."""
-        return next((link for link in self.links if link.state == "broken"), None)
+        return first_broken(self.links)
 
 
 def why_started(analysis: Analysis, name: str, evaluate: Evaluate) -> Start:

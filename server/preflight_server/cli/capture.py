@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -16,7 +15,8 @@ from preflight_analysis.graph.annotations import annotation_edit, annotation_tex
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.live.capture import Captured, capture, settings_text
 from preflight_analysis.live.model import CannotObserveError, Observation
-from preflight_analysis.live.watcher import LOOK_SECONDS, Observer, observer
+from preflight_analysis.live.settled import settled
+from preflight_analysis.live.watcher import Observer, observer
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -28,7 +28,6 @@ from preflight_server.cli.project import open_project, run_nodes
 DESCRIPTION = """Print the interfaces of running nodes as annotations for the launch file, or as settings. The nodes
 run in the ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID). Without --node, capture the nodes that cannot
 run in the sandbox. --no-run executes nothing. Exit codes: 0 captured, 1 a node is not captured, 2 no system found."""
-_POLL_SECONDS = 0.25
 _NO_NODES = ("test", "process")
 
 
@@ -103,25 +102,18 @@ def _captured(
     watched: Observer, graph: Graph, chosen: Sequence[LaunchNode], args: argparse.Namespace
 ) -> list[Captured]:
     """What the chosen ones do, once all of them are there and nothing changes any more, or the time is over."""
-    began = since = time.monotonic()
-    last: Observation | None = None
-    while True:
-        error = None
-        try:
-            seen = watched.observe(max(began + args.timeout - time.monotonic(), LOOK_SECONDS))
-        except CannotObserveError as cannot:
-            seen, error = None, cannot
-        now = time.monotonic()
-        if seen != last:
-            last, since = seen, now
-        found = capture(graph, chosen, seen) if seen is not None else []
-        complete = bool(found) and all(each.interface is not None for each in found)
-        over = now - began >= args.timeout or (error is not None and error.final)
-        if (complete and now - since >= args.settle) or over:
-            if error is not None:
-                raise CannotDoError(str(error))
-            return found
-        time.sleep(_POLL_SECONDS)
+
+    def captured(seen: Observation) -> list[Captured]:
+        return capture(graph, chosen, seen)
+
+    def complete(seen: Observation) -> bool:
+        found = captured(seen)
+        return bool(found) and all(each.interface is not None for each in found)
+
+    try:
+        return captured(settled(watched, timeout=args.timeout, settle=args.settle, enough=complete))
+    except CannotObserveError as error:
+        raise CannotDoError(str(error)) from None
 
 
 def _lines(analysis: Analysis, captured: Iterable[Captured]) -> Iterable[str]:

@@ -11,7 +11,11 @@ from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.inversion import Assignment
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.report import place, printable
-from preflight_analysis.queries.why import Chain, Link, NoSuchNodeError, State, chains
+from preflight_analysis.live.model import CannotObserveError, Observation
+from preflight_analysis.live.settled import settled
+from preflight_analysis.live.watcher import observer
+from preflight_analysis.queries.why import Chain, Link, NoSuchNodeError, State, chains, first_broken
+from preflight_analysis.queries.why_live import live_links
 from preflight_analysis.queries.why_started import Start, why_started
 from preflight_analysis.workspace.tree_json import place_json
 from preflight_analysis.workspace.workspace import Analysis
@@ -23,11 +27,14 @@ from preflight_server.cli.paths import with_paths
 from preflight_server.cli.project import Project, open_project, run_nodes
 
 DESCRIPTION = """Explain the connection of two nodes, link by link: names with their remaps, type, QoS, environment,
-lifecycle, clock. With one node, explain why the launch file starts it, or which condition leaves it out. The command
-runs the nodes in a sandbox to see their interfaces; calling it is your consent. --no-run executes nothing. Exit codes:
-0 no link is broken, 1 a link is broken, 2 the command failed."""
+lifecycle, clock. With --live, also look for each link in the running system. With one node, explain why the launch
+file starts it, or which condition leaves it out. The command runs the nodes in a sandbox to see their interfaces;
+calling it is your consent. --no-run executes nothing. Exit codes: 0 no link is broken, 1 a link is broken, 2 the
+command failed."""
 SCHEMA = "ros-preflight/why/1"
 _MOST_WORDS = 3
+_LIVE_SECONDS, _SETTLE_SECONDS = 10.0, 2.0
+"""At most for the running system to answer, and how long it may not change: discovery takes a moment."""
 _MARKS: dict[State, tuple[str, int]] = {"ok": ("ok", 32), "broken": ("BROKEN", 31), "unknown": ("?", 33)}
 """By state its word in text, and its colour on a terminal."""
 
@@ -35,6 +42,11 @@ _MARKS: dict[State, tuple[str, int]] = {"ok": ("ok", 32), "broken": ("BROKEN", 3
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_running(parser, ("text", "json"))
+    parser.add_argument(
+        "--live",
+        action="store_true",
+        help="also look for each link in the running ROS 1 master (ROS_MASTER_URI) or ROS 2 domain (ROS_DOMAIN_ID)",
+    )
     parser.add_argument("file", metavar="FILE", help="a launch file")
     parser.add_argument(
         "launch_args",
@@ -80,13 +92,38 @@ def _connected(project: Project, words: Sequence[str], args: argparse.Namespace)
         say("ros-preflight: the launch file has no graph")
         return FAILED
     found = chains(analysis, analysis.graph, *words)
+    seen = _observed(analysis) if args.live else None
+    live = [live_links(chain, seen) if seen is not None else None for chain in found]
     if args.format == "json":
-        data = {"schema": SCHEMA, "chains": [_chain_json(chain, analysis) for chain in found]}
+        both = zip(found, live, strict=True)
+        data = {"schema": SCHEMA, "chains": [_chain_json(chain, links, analysis) for chain, links in both]}
         print_json(with_paths(data, args, [workspace_of(analysis.root)]))
     else:
-        blocks = [[_verdict(chain), *_lines(chain.links, analysis)] for chain in found]
+        blocks = [
+            [_verdict(chain), *_lines(chain.links, analysis), *_live_lines(links, analysis)]
+            for chain, links in zip(found, live, strict=True)
+        ]
         _print([line for block in blocks for line in (*block, "")][:-1])
-    return FOUND if any(chain.broken for chain in found) else CLEAN
+    broken = any(chain.broken for chain in found) or any(first_broken(links) for links in live if links is not None)
+    return FOUND if broken else CLEAN
+
+
+def _observed(analysis: Analysis) -> Observation:
+    watched = observer(analysis.tree.generation, analysis.environment)
+    try:
+        return settled(watched, timeout=_LIVE_SECONDS, settle=_SETTLE_SECONDS)
+    except CannotObserveError as error:
+        raise CannotDoError(str(error)) from None
+    finally:
+        watched.close()
+
+
+def _live_lines(links: Sequence[Link] | None, analysis: Analysis) -> Iterator[str]:
+    if links is None:
+        return
+    broken = first_broken(links)
+    yield f"running system: {'no broken link' if broken is None else broken.text}"
+    yield from _lines(links, analysis)
 
 
 def _verdict(chain: Chain) -> str:
@@ -112,8 +149,9 @@ def _print(lines: Sequence[str]) -> None:
     print_text("".join(f"{line}\n" for line in lines), painted=colours())
 
 
-def _chain_json(chain: Chain, analysis: Analysis) -> dict[str, Any]:
+def _chain_json(chain: Chain, live: Sequence[Link] | None, analysis: Analysis) -> dict[str, Any]:
     return {
+        **({"live": [_link_json(link, analysis) for link in live]} if live is not None else {}),
         "kind": chain.noun,
         "channel": chain.channel,
         "provider": chain.provider,
