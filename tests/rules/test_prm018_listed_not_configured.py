@@ -92,6 +92,16 @@ def test_a_file_of_the_package_or_beside_it_that_no_node_gets(tmp_path: Path, pl
 
 
 @pytest.mark.silent
+def test_a_file_that_changes_some_of_another_one(tmp_path: Path) -> None:
+    base = LOOSE + '    voxel_layer: {plugin: "a::Voxel", enabled: true}\n'
+    for name, text in {"base.yaml": base, "nav.yaml": LOOSE}.items():
+        path = tmp_path / "src/robot/p/config" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    assert not _with_files(tmp_path)
+
+
+@pytest.mark.silent
 def test_a_file_that_is_of_something_else(tmp_path: Path) -> None:
     assert not _with_files(
         tmp_path, "src/robot/docs/nav.yaml", "docs/config/nav.yaml", "src/robot/p/test/config/nav.yaml"

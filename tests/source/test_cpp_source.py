@@ -185,6 +185,18 @@ def test_computed_names(harness: Harness) -> None:
     ]
 
 
+def test_a_text_that_grows_piece_by_piece(harness: Harness) -> None:
+    body = """
+        ros::NodeHandle nh;
+        std::string topic;
+        topic.append("/arm").append(SIDE).append("/goal");
+        nh.advertise<std_msgs::String>(topic, 1);
+        topic.append(argv[1]).append("/more");
+        nh.advertise<std_msgs::String>(topic, 1);
+    """
+    assert harness.topics(body, 'const std::string SIDE = "_left";') == ["/arm_left/goal"]
+
+
 def test_namespaces_of_handles(harness: Harness) -> None:
     assert harness.topics(
         """

@@ -4,7 +4,7 @@ rewrites them, an argument names them, the launch file could not be followed."""
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import PurePath
 
 from preflight_analysis.documents.disk import Disk
@@ -55,9 +55,25 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
             yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
         for missing in document.once(prm018.missing_in):
+            if _is_in_base(context, files | given, missing):
+                continue
             yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")
         for wrong in prm022.wrong_in(document, context.plugins):
             yield prm022.RULE.finding(wrong.message, document.location(wrong.span), confidence=wrong.confidence)
+
+
+def _is_in_base(context: Context, files: Iterable[str | None], missing: prm018.Missing) -> bool:
+    """Whether another file has the parameter, and more of the same section: it is given first, and the one that lacks
+    the parameter changes some of it."""
+    documents = (context.disk.text(path) for path in files if path is not None)
+    return any(
+        section.pattern == missing.pattern
+        and len(section.params) > missing.size
+        and any(param.name == missing.parameter for param in section.params)
+        for document in documents
+        if isinstance(document, Document)
+        for section in read_param_file(document).sections
+    )
 
 
 def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:

@@ -39,13 +39,16 @@ _WITH_DEFAULTS = frozenset(
 
 
 class Missing(NamedTuple):
-    """An item of a list without the parameter that says what it is. `ready`: plugins beside it that no list has."""
+    """An item of a list without the parameter that says what it is. `ready`: plugins beside it that no list has. It is
+    in a section for the nodes of `pattern`, with so many parameters."""
 
     name: str
     parameter: str
     listed_in: str
     span: Span
     ready: tuple[tuple[str, Span], ...]
+    pattern: str
+    size: int
 
     @property
     def message(self) -> str:
@@ -134,7 +137,9 @@ def _missing(text: str, section: Section) -> Iterator[Missing]:
                     rf"(?<![\w.]){re.escape(name)}(?![\w.])", text[param.value_span.start : param.value_span.end]
                 )
                 start = param.value_span.start + (at.start() if at is not None else 0)
-                yield Missing(name, f"{above}{dot}{name}.{kind}", param.name, Span(start, start + len(name)), ready)
+                at_name = Span(start, start + len(name))
+                parameter, size = f"{above}{dot}{name}.{kind}", len(section.params)
+                yield Missing(name, parameter, param.name, at_name, ready, section.pattern, size)
 
 
 def _are_names(items: Sequence[object]) -> bool:

@@ -190,6 +190,10 @@ class Expressions(CallExpressions):
                 return self._lvalue(node.child_by_field_name("argument"), scope)
             case "parenthesized_expression":
                 return self._lvalue(first_child(node), scope)
+            case "call_expression":
+                callee = node.child_by_field_name("function")
+                if callee is not None and text_of(callee.child_by_field_name("field")) == "append":
+                    return self._lvalue(callee.child_by_field_name("argument"), scope)  # it gives its own text
             case _:
                 pass
         return None
