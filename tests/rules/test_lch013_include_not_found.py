@@ -1,5 +1,6 @@
 """LCH013: an include of a file that is not there."""
 
+import os
 from pathlib import Path
 from textwrap import dedent
 
@@ -157,3 +158,18 @@ def test_a_variable_that_is_not_set_has_to_be(tmp_path: Path) -> None:
     workspace = Workspace(detect_environment(None, {"ROS_VERSION": "1"}, (str(tmp_path),)), Sources())
     (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "LCH013"]
     assert (finding.severity, "set variable 'GAMEPAD'" in finding.message) == ("info", True)
+
+
+@pytest.mark.ros
+def test_a_file_of_the_home_folder_of_whoever_launches(tmp_path: Path) -> None:
+    """Where the workspace lies on the robot nobody knows here."""
+    arm = PythonHarness(tmp_path, "arm")
+    arm.write("launch/other.launch.py", "")
+    include = "IncludeLaunchDescription(PythonLaunchDescriptionSource({}))"
+    text = "import os\n" + _launch_file(
+        include.format("os.path.expanduser('~/no_ws/src/arm/launch/other.launch.py')"),
+        include.format("[FindPackageShare('arm'), '/launch/gone.launch.py']"),
+    )
+    home = {"HOME": os.path.expanduser("~")}
+    analysis = arm.launch(arm.write("launch/robot.launch.py", text), variables=home)
+    assert sorted(f.severity for f in analysis.findings if f.rule == "LCH013") == ["error", "info"]

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.workspace.sources import Sources
@@ -110,3 +111,21 @@ def test_a_file_of_another_machine_or_of_the_folder_where_the_launch_is_started(
                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] parameter file 'p/params.yaml' does not exist; the
         </launch>
     """)
+
+
+def test_a_path_out_of_the_share_folder_of_a_package_that_is_not_built(tmp_path: Path) -> None:
+    """From `install/p/share/p` it leads into the workspace, from the source elsewhere."""
+    launch = """
+        <launch><node pkg="p" exec="x"><param from="$(find-pkg-share p)/{}/config/robot.yaml"/></node></launch>
+    """
+    for path, severity in (("../../../../src/robot", "hint"), ("launch/..", "warning")):
+        package = tmp_path / "src" / "p"
+        (package / "launch").mkdir(parents=True, exist_ok=True)
+        (package / "package.xml").write_text(
+            "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
+        )
+        file = package / "launch" / "a.launch.xml"
+        file.write_text(launch.format(path))
+        environment = detect_environment(str(tmp_path), {"ROS_VERSION": "2"}, root=str(tmp_path / "nowhere"))
+        findings = Workspace(environment, Sources()).static(str(file)).findings
+        assert [f.severity for f in findings if f.rule == "PRM002"] == [severity]

@@ -24,6 +24,7 @@ from preflight_analysis.rules.rule import Check, Context, Rule
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
 
+_HOME = re.compile(r"\bHOME\b|\bexpanduser\b|\.home\(\)")
 _OPTIONAL = re.compile(r"\$\(optenv (\w+) *\)")
 _GAP = re.compile(r"(?:\A()(?=[._-])|([._-])(?=[._-]))")
 """Where the name of a file lacks a part: `_map.yaml`, `map_.yaml`."""
@@ -53,6 +54,8 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 severity, message = "info", f"{message}; set {empty}"
             elif (absent := _absent_top(context, path)) is not None:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
+            elif _is_below_own_home(context, path, problem.location.file):
+                severity, message = "info", f"{message}; it is looked for in the home folder"
             elif _is_beside(context, problem.kind, problem.location) or (
                 near is None and depends_on_working_folder(context, problem.location)
             ):
@@ -63,6 +66,15 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
             yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
     return check
+
+
+def _is_below_own_home(context: Context, path: str, file: str) -> bool:
+    """Whether a launch file asks for the home folder of whoever starts it, where the path lies: on another machine the
+    workspace may be there."""
+    home, document = context.environment.variables.get("HOME"), context.documents.get(file)
+    below = home is not None and len(home) > 1 and path.startswith(home.rstrip("/") + "/")
+    asks = document is not None and _HOME.search(document.text) is not None
+    return below and asks and package_folder(path, context.environment) is None
 
 
 def _in_namesake(context: Context, path: str) -> str | None:

@@ -165,11 +165,23 @@ def lack_of_build(context: Context, package: str) -> Lack:
 def lack_of_made(context: Context, path: str) -> Lack | None:
     """A file that is there once its package is built: the build makes it, or installs it from another folder; None for
     any other."""
+    if (left := _left_package(context, path)) is not None:
+        return lack_of_build(context, left.name)
     package = made_by_build(context.disk, context.environment, path)
     moved = located(context.disk, context.environment, path) != path
     if package is None and (moved or is_made_of_template(context, path)):
         package = package_around(context.environment, path)
     return lack_of_build(context, package.name) if package is not None else None
+
+
+def _left_package(context: Context, path: str) -> Package | None:
+    """The package out of whose share folder a path leads by `..`, before it is built: where that is in an installation
+    is another place than in the source (`install/robot/share/robot/../../../..` is the workspace)."""
+    package = package_around(context.environment, path) if context.tree.ros.ament and "/../" in path else None
+    if package is None or is_installed(context, package):
+        return None
+    inside = f"{os.path.normpath(path)}/".startswith(f"{package.share.rstrip('/')}/")
+    return package if not inside else None
 
 
 def is_made_of_template(context: Context, path: str) -> bool:
