@@ -278,6 +278,30 @@ def test_what_programs_say_of_this_machine(said: str, lack: tuple[str, str] | No
     assert finding.severity == ("hint" if lack else "warning")
 
 
+def test_a_node_that_refuses_a_parameter_that_has_to_be_given() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="poses" default=""/>
+          <node pkg="p" exec="t" name="n">
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] ValueError: poses_file is required; parameter 'poses_file' is empty
+            <param name="poses_file" value="$(var poses)"/>
+            <param name="mode" value="fast"/>
+          </node>
+          <node pkg="p" exec="t" name="m">
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TRC001] ValueError: mode is not known
+            <param name="poses_file" value="$(var poses)"/>
+            <param name="mode" value="fast"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr": ["ValueError: poses_file is required"],
+                "params": {"~poses_file": "", "~mode": ""}},
+         "/m": {"status": "crashed", "exit_code": 1, "stderr": ["ValueError: mode is not known"],
+                "params": {"~poses_file": "", "~mode": ""}}}
+    """)
+
+
 def test_a_node_that_is_started_again_until_somebody_has_set_its_parameter() -> None:
     check("""
         <launch>

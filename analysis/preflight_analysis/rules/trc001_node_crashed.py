@@ -22,6 +22,7 @@ from preflight_analysis.rules.well_known import describes_robot, is_for_tools
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 from preflight_analysis.tracing.request import split_args
 
+_WORD = re.compile(r"\w+")
 _KILLED = re.compile(
     r": line \d+: +\d+ (?:Trace/breakpoint trap|Segmentation fault|Illegal instruction|Bus error|Aborted|Killed)"
     r"(?: +\(core dumped\))? +([^\s]+)"
@@ -58,11 +59,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
         absent = absent_top_said(context.disk, told)
         made = lacks_recording(told) or any(is_ignored(context.disk, path) for path in paths_said(told))
+        empty = _empty_param(node, told)
         message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
+        message += f"; parameter '{empty}' is empty" if empty is not None else ""
         found = rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
             node.location,
-            severity="info" if ours or reported or absent or made or _waits(node, outcome) else None,
+            severity="info" if ours or reported or absent or made or empty or _waits(node, outcome) else None,
             confidence="possible" if ours or absent else "likely",
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
@@ -87,6 +90,12 @@ def _is_of_another_program(outcome: Outcome) -> bool:
     """Whether a shell script says that a signal killed a program that it started, which is not of the project: in the
     sandbox a browser or a window may end so."""
     return (found := _KILLED.search(telling_line(outcome.stderr_tail))) is not None and "/" not in found[1]
+
+
+def _empty_param(node: LaunchNode, told: str) -> str | None:
+    """The parameter that the node names before it ends, and which is empty until somebody gives it a value."""
+    words = set(_WORD.findall(told))
+    return next((param.name for param in node.params if param.value == "" and names.leaf(param.name) in words), None)
 
 
 def _waits(node: LaunchNode, outcome: Outcome) -> bool:
