@@ -284,7 +284,7 @@ def test_a_node_that_refuses_a_parameter_that_has_to_be_given() -> None:
         <launch>
           <arg name="poses" default=""/>
           <node pkg="p" exec="t" name="n">
-          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] ValueError: poses_file is required; parameter 'poses_file' is empty
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] ValueError: poses_file is required; parameter 'poses_file'
             <param name="poses_file" value="$(var poses)"/>
             <param name="mode" value="fast"/>
           </node>
