@@ -38,8 +38,11 @@ def test_the_demo_in_text(harness: Harness, preflight: Run) -> None:
 def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     data = preflight("check", "launch/talker_listener.launch", "--format", "json").json
     assert set(data) == {
-        *("schema", "findings", "rules", "environment"),
-        *("files", "evaluated", "nodes", "traced", "known", "not_evaluated", "unknown_nodes"),
+        *("schema", "findings", "rules", "environment", "coverage", "files", "nodes", "traced"),
+    }
+    assert data["coverage"] == {
+        **{"files": 1, "evaluated": 1, "not_evaluated": [], "untried": 0},
+        **{"nodes": 2, "sources": {"trace": 2}, "unknown_nodes": []},
     }
     assert (data["schema"], data["files"], data["nodes"], data["traced"]) == ("ros-preflight/check/1", 1, 2, 2)
     (finding,) = data["findings"]

@@ -53,8 +53,11 @@ def test_json() -> None:
         "schema": "ros-preflight/check/1",
         "rules": {"TOP001": {"warning": 1}},
         "environment": {"complete": True, "missing": [], "commands": [], "problems": []},
-        **{"files": 1, "evaluated": 1, "nodes": 2, "traced": 2, "known": {"trace": 2}},
-        **{"not_evaluated": [], "unknown_nodes": []},
+        "coverage": {
+            **{"files": 1, "evaluated": 1, "not_evaluated": [], "untried": 0},
+            **{"nodes": 2, "sources": {"trace": 2}, "unknown_nodes": []},
+        },
+        **{"files": 1, "nodes": 2, "traced": 2},
     }
     message = finding.pop("message")
     assert "'/chater'" in message
@@ -226,6 +229,7 @@ def test_what_was_not_looked_at_is_named() -> None:
     assert "  what these nodes do: /n0, /n1, " in text
     assert "/n9 and 2 more\n" in text
     assert text.endswith("1 of 2 launch files evaluated, 12 nodes: 12 unknown\n")
-    assert to_json(report)["not_evaluated"] == ["/ws/launch/a.launch"]
-    assert to_json(report)["unknown_nodes"] == [*nodes]
+    looked_at = to_json(report)["coverage"]
+    assert looked_at["not_evaluated"] == ["/ws/launch/a.launch"]
+    assert looked_at["unknown_nodes"] == [*nodes]
     assert "not looked at" not in to_text(Report.of([], {}, Coverage(1, 1, {"trace": 1})))

@@ -97,8 +97,8 @@ def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
     points. `findings` has one for each cause, with a `condition` where it needs other arguments than those of its root;
-    `rules` counts all places. `files`, `evaluated`, `nodes`, `traced` and `known` are the counts, `not_evaluated` and
-    `unknown_nodes` name what was not looked at, `environment` is what is missing."""
+    `rules` counts all places. `coverage` is how much was looked at, `sources` there how many nodes are known in which
+    way; `environment` is what is missing."""
     coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
@@ -109,13 +109,18 @@ def to_json(report: Report) -> dict[str, Any]:
             **missing_json(report),
             "problems": list(report.problems),
         },
+        "coverage": {
+            "files": coverage.files,
+            "evaluated": coverage.evaluated,
+            "not_evaluated": list(coverage.not_evaluated),
+            "untried": coverage.untried,
+            "nodes": coverage.total_nodes,
+            "sources": dict(coverage.nodes),
+            "unknown_nodes": list(coverage.unknown_nodes),
+        },
         "files": coverage.files,
-        "evaluated": coverage.evaluated,
         "nodes": coverage.total_nodes,
         "traced": coverage.nodes.get("trace", 0),
-        "known": dict(coverage.nodes),
-        "not_evaluated": list(coverage.not_evaluated),
-        "unknown_nodes": list(coverage.unknown_nodes),
     }
 
 
