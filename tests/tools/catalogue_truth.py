@@ -4,8 +4,9 @@
 
 Runs the nodes of the launch files (all of `fixtures/ros1/real_nodes/launch` without any) in the sandbox, as far as
 they are installed, and with `--sources`, the folder that `make catalogue` has, the nodes in Python of ROS 2 from their
-source with the rclpy of PyPI. Those that come to their event loop are compared with the catalogue's word for them,
-which knows neither arguments nor parameters. `--write` writes docs/catalogue.md.
+source with the rclpy of PyPI. Those that come to their event loop are compared with what is said of them where their
+packages are not installed: the catalogue's word, with the arguments and parameters of their launch file in ROS 1 and
+without any in ROS 2. `--write` writes docs/catalogue.md.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,8 +34,11 @@ from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.nodl.catalogued import Catalogued, catalogued
+from preflight_analysis.tracing.interface import NOT_RUN, Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.ros2_harness import ros2_prefix
 
 from tools.catalogue.interfaces import lay_out
@@ -81,6 +85,7 @@ class Row:
 
 def rows(launch: Path) -> Iterable[Row]:
     """The nodes of a launch file that ran and that the catalogue knows."""
+    said_of = _without_ros(launch)
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(
             [str(Path(sys.executable).parent / "ros-preflight"), "trace", str(launch), "--format", "json"],
@@ -89,22 +94,37 @@ def rows(launch: Path) -> Iterable[Row]:
             check=False,
         )
     for node in json.loads(done.stdout)["nodes"] if done.stdout else ():
-        package, name = node["package"], node["executable"]
-        said = catalogued(package, "executables", name, "noetic")
+        package, name, said = node["package"], node["executable"], said_of.get(node["name"])
         if node["interface_source"] == "trace" and node["outcome"]["status"] == "spinning" and said is not None:
             ends = {(e["role"], e["name"], e["type"]) for e in node["endpoints"] if not e["builtin"]}
             params = {use["name"] for use in node["params"] if not use["builtin"]}
             yield _row(f"{package}/{name}", node["name"], ends, params, said)
 
 
-def _row(name: str, node: str, ends: Ends, params: set[str], said: Catalogued) -> Row:
+def _without_ros(launch: Path) -> Mapping[str, Interface]:
+    """What is said of the nodes of a launch file that the catalogue knows, by their names, where no ROS is."""
+    environment = detect_environment(None, {"ROS_DISTRO": "noetic"}, root="/nowhere")
+    workspace = Workspace(environment, Sources())
+    analysis = workspace.static(str(launch))
+    graph = workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), None).graph
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ()
+    return {node.name: interface for node, interface in pairs if interface.source == "catalogue"}
+
+
+def _row(name: str, node: str, ends: Ends, params: set[str], said: Catalogued | Interface) -> Row:
     # Programs in C++ tell names that are resolved already.
     def full(each: str) -> str:
         return names.resolve(each, node)
 
-    seen = {(role, full(end), type_) for role, end, type_ in ends if full(end) not in _OF_ALL}
-    known = {(e.role, full(e.name), e.type) for e in said.endpoints}
-    return Row(name, Share.of(seen, known), Share.of(set(map(full, params)), {full(use.name) for use in said.params}))
+    seen = {(role, full(end), _type(type_)) for role, end, type_ in ends if full(end) not in _OF_ALL}
+    known = {(e.role, full(e.name), _type(e.type)) for e in said.endpoints if not e.builtin}
+    uses = {full(use.name) for use in said.params if not use.builtin}
+    return Row(name, Share.of(seen, known), Share.of(set(map(full, params)), uses))
+
+
+def _type(type_: str | None) -> str | None:
+    """A type; None where it is whatever the other end has."""
+    return None if type_ == "*" else type_
 
 
 def rclpy_rows(sources: Path) -> Iterator[Row]:
@@ -163,7 +183,7 @@ def page(found: Iterable[Row], of_ros2: Iterable[Row]) -> str:
         "Debian's nodes of ROS 1 that were installed where this was written, run in the sandbox, beside the word of",
         "the catalogue.",
         ros1.summary,
-        "What only the run has depends on arguments and parameters of its launch file, as all topics of a relay do.",
+        "What the arguments and parameters of the launch file name is counted, too, as all topics of a relay.",
         "",
         *ros1.table,
         "",
