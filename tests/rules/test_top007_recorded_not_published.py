@@ -30,10 +30,26 @@ def test_a_slip_in_a_topic_that_ros2_bag_records() -> None:
         <launch>
           <node pkg="p" exec="laser" name="laser"/>
           <executable cmd="ros2 bag record -s mcap -o run --topics /odom /scann"/>
-                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TOP007] '/scann' has no
+                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP007] '/scann' has no
         </launch>
         //- interfaces
         {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"}, "subscribers": {"scan": null}}}
+    """)
+
+
+def test_a_node_of_which_nothing_is_known_may_publish_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="laser" name="laser"/>
+          <node pkg="p" type="other" name="other"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC004] not run: /other
+          <node pkg="rosbag" type="record" name="record" args="/scann"/>
+                                                               ^^^^^^ info[TOP007] '/scann' has no publisher
+        </launch>
+        //- /rosbag/package.xml
+        <package/>
+        //- interfaces
+        {"/laser": {"publishers": {"scan": "sensor_msgs/LaserScan"}, "subscribers": {"scan": null}}}
     """)
 
 

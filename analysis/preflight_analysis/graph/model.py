@@ -114,3 +114,8 @@ class Graph:
     def likely_complete(self) -> bool:
         """Whether no node is likely to have ends that are not known: absence is not sure, but to be reckoned with."""
         return self.tree.complete and all(interface.likely_complete for interface in self.interfaces)
+
+    def likely_complete_beside(self, node: LaunchNode) -> bool:
+        """Likewise of all nodes but one, of which it is known what it does not do."""
+        pairs = zip(self.tree.nodes, self.interfaces, strict=True)
+        return self.tree.complete and all(each.likely_complete for other, each in pairs if other is not node)

@@ -37,14 +37,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             near = _near(graph, topic)
             if near is None:
                 continue
-            place = argument_location(context, node, written)
+            place, known = argument_location(context, node, written), graph.likely_complete_beside(node)
             provider = graph.topics[near].providers[0]
             yield rule.finding(
                 f"recorded topic '{topic}' has no publisher in this launch; did you mean '{near}', published by "
                 f"{provider.node.name}?",
                 place,
-                severity=None if graph.likely_complete else "info",
-                confidence="likely" if graph.complete else "possible",
+                severity=None if known else "info",
+                confidence="likely" if known else "possible",
                 related=(related_endpoint(provider, "publishes"), *include_chain(node.origin)),
                 fixes=rename(context, place, written.lstrip("/"), near.lstrip("/")) if written == topic else (),
             )

@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if consumer is None:
                 continue
             place = argument_location(context, node, written)
-            known = _others_known(graph, node)
+            known = graph.likely_complete_beside(node)
             yield rule.finding(
                 f"played topic '{topic}' has no subscriber in this launch; did you mean '{consumer.name}' (subscriber: "
                 f"{consumer.node.name}, no publisher)?",
@@ -55,12 +55,6 @@ def _meant(graph: Graph, topic: str) -> Connection | None:
     waiting = (name for name, each in graph.topics.items() if each.consumers and not each.providers)
     near = nearest_typo(topic, waiting)
     return graph.topics[near].consumers[0] if near is not None else None
-
-
-def _others_known(graph: Graph, player: LaunchNode) -> bool:
-    """Whether it is likely that all is known of the nodes beside the player."""
-    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
-    return graph.tree.complete and all(each.likely_complete for node, each in pairs if node is not player)
 
 
 def _played(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:
