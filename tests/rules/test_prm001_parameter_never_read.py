@@ -428,6 +428,23 @@ def test_a_group_of_parameters_in_the_namespace_of_no_node(also: str, told: int)
     assert [each.severity for each in found if each.rule == "PRM001"] == ["warning"] * told
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "told"), [("start_pose", "true", 1), ("start_pose", "false", 0), ("pose", "true", 0)]
+)
+def test_a_parameter_beside_the_node_that_has_another_value_of_its_own(name: str, value: str, told: int) -> None:
+    findings = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="mapper"><param name="{name}" value="false"/></node>
+          <param name="{name}" value="{value}"/>
+        </launch>
+        //- interfaces
+        {{"/mapper": {{"source": "source", "status": "crashed", "params": {{"~{name}": false}}}}}}
+    """)
+    found = [finding for finding in findings if (finding.rule, finding.severity) == ("PRM001", "warning")]
+    assert [f"reads '/mapper/{name}', which is set to False" in finding.message for finding in found] == [True] * told
+    assert all(not finding.fixes for finding in found)
+
+
 @pytest.mark.silent
 def test_a_node_of_which_nothing_is_known_may_read_what_is_beside_it() -> None:
     assert "PRM001" not in {each.rule for each in findings_of(_BESIDE % "none")}

@@ -53,6 +53,23 @@ def test_a_node_of_which_nothing_is_known_may_publish_it() -> None:
     """)
 
 
+def test_a_slip_in_what_libraries_call_so() -> None:
+    fixture = """
+        <launch>
+          <arg name="f"/>
+                     ^ info[ARG003] argument 'f' has no default
+          <node pkg="rosbag" type="record" name="record" args="-O $(arg f) /head/compressdDepth"/>
+                                                               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[TOP007] mean
+        </launch>
+        //- /rosbag/package.xml
+        <package/>
+        //- interfaces
+        {"/record": {}}
+    """
+    (finding,) = [each for each in check(fixture) if each.rule == "TOP007"]
+    assert '/head/compressedDepth"' in apply(fixture, finding.fixes[0].edits)["/main.launch"]
+
+
 @pytest.mark.silent
 def test_topics_that_are_published_or_are_not_named() -> None:
     check("""

@@ -121,7 +121,7 @@ def _beside_nodes(context: Context, rows: Iterable[_Asked | None], explained: Co
     wanted: dict[str, list[ParamRead]] = {}
     for node, asked in zip(graph.tree.nodes, rows, strict=True):
         for name, each in asked.own.get(node.name, {}).items() if asked is not None and asked.of_itself else ():
-            if name not in given and each.use.access == "get":
+            if each.use.access == "get":
                 wanted.setdefault(names.leaf(name), []).append(each)
     # By the namespace in which they are set and the node that reads them.
     found: dict[tuple[str, str], list[Unread]] = {}
@@ -131,7 +131,8 @@ def _beside_nodes(context: Context, rows: Iterable[_Asked | None], explained: Co
             continue
         namespace, _, leaf = param.name.rpartition("/")
         counts[namespace] = counts.get(namespace, 0) + 1
-        reads = wanted.get(leaf, ())
+        all_reads = wanted.get(leaf, [])
+        reads = [each for each in all_reads if each.name not in given] or all_reads
         if len(reads) == 1 and param.name not in explained and not is_for_tools(param.name):
             found.setdefault((namespace, reads[0].node.name), []).append(Unread(param, None, reads[0]))
     nodes = {node.name for node in graph.tree.nodes}
@@ -144,7 +145,14 @@ def _beside_nodes(context: Context, rows: Iterable[_Asked | None], explained: Co
         for lost in unread if beside or group else ():
             # A group says enough even where its values are the defaults.
             read = lost.meant
-            if read is not None and (fits(lost.param.value, read) if group else would_change(lost.param, read)):
+            if read is None or not fits(lost.param.value, read):
+                continue
+            if read.name in given:
+                # Set twice, and once where nobody looks: of a name that says enough.
+                differs = given[read.name].value != lost.param.value
+                if beside and differs and names.leaf(read.name).count("_"):
+                    yield lost
+            elif group or would_change(lost.param, read):
                 yield lost
 
 
@@ -196,7 +204,12 @@ def _finding(
     if read.use.access == "search":
         name = f"{namespace}/{read.name.rpartition('/')[2]}"
     sure = sure or ("likely" if holder is not None or (graph.complete and unread.alone) else "possible")
-    if holder is not None:
+    set_too = graph.tree.params.get(read.name)
+    if set_too is not None:
+        message = (
+            f"unused parameter '{param.name}'; {read.node.name} reads '{read.name}', which is set to {set_too.value!r}"
+        )
+    elif holder is not None:
         message = (
             f"parameter '{param.name}' is not read by {holder.name}; did you mean '{read.name}', which it reads and "
             f"which is not set{_default(read)}?"
@@ -213,7 +226,7 @@ def _finding(
         severity="warning" if unread.alone else "info",
         confidence=sure,
         related=(related_param_read(read), *include_chain(param.origin)),
-        fixes=renamed(context, param, name) if unread.alone else (),
+        fixes=renamed(context, param, name) if unread.alone and set_too is None else (),
     )
 
 

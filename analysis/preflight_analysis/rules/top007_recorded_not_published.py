@@ -11,7 +11,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.rules.further_reading import ROSBAG, ROSBAG2
-from preflight_analysis.rules.nearest import nearest_typo
+from preflight_analysis.rules.nearest import is_slip, nearest_typo
 from preflight_analysis.rules.places import argument_location, related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -25,6 +25,8 @@ _FLAG = re.compile(
 """Options without a value, after which topics may follow."""
 _SEVERAL = re.compile(r"--(?:exclude-\S+|services|actions|topic-types)")
 """Options that take all words up to the next one."""
+_CONVENTIONS = ("compressed", "compressedDepth", "theora", "camera_info", "parameter_descriptions", "parameter_updates")
+"""Last parts of names that image_transport, drivers of cameras and dynamic_reconfigure make."""
 _PATTERNS = ("-e", "--regex")
 
 
@@ -34,8 +36,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     for node, recorded in zip(nodes, context.kept.each(_recorded, nodes, context.tree.generation), strict=True):
         for written, topic in recorded:
-            near = _near(graph, topic)
+            near = _near(graph, topic) if not node.unknowns else None
             if near is None:
+                yield from _of_convention(rule, context, graph, node, written, topic)
                 continue
             place, known = argument_location(context, node, written), graph.likely_complete_beside(node)
             provider = graph.topics[near].providers[0]
@@ -48,6 +51,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=(related_endpoint(provider, "publishes"), *include_chain(node.origin)),
                 fixes=rename(context, place, written.lstrip("/"), near.lstrip("/")) if written == topic else (),
             )
+
+
+def _of_convention(
+    rule: Rule, context: Context, graph: Graph, node: LaunchNode, written: str, topic: str
+) -> Iterator[Finding]:
+    """Of a name that ends in a slip of what libraries always call so, whoever publishes it."""
+    leaf = names.leaf(topic)
+    meant = next((each for each in _CONVENTIONS if leaf != each and is_slip(leaf, each)), None)
+    if meant is None or leaf in _CONVENTIONS or topic in graph.topics:
+        return
+    place = argument_location(context, node, written)
+    yield rule.finding(
+        f"recorded topic '{topic}' ends in '{leaf}'; did you mean '{meant}'?",
+        place,
+        confidence="likely",
+        related=include_chain(node.origin),
+        fixes=rename(context, place, leaf, meant),
+    )
 
 
 def _near(graph: Graph, topic: str) -> str | None:
@@ -64,7 +85,7 @@ def _recorded(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:
 def _recorded_by(node: LaunchNode, generation: int) -> Iterator[tuple[str, str]]:
     """The topics that a recorder is given, as written and in full: `rosbag record`, or a process `ros2 bag record`."""
     words = split_args(node.args)
-    if node.unknowns or "record" not in (node.executable, *words[1:2]):
+    if "record" not in (node.executable, *words[1:2]):
         return
     if (node.package, node.executable) == ("rosbag", "record"):
         remaps = {source: target for source, (_, target) in effective_remaps(node, generation).items()}
@@ -96,7 +117,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a topic in the arguments of `rosbag record` or `ros2 bag record` without publisher and "
     "subscriber in the launch. A node publishes a topic of a similar name. The finding is information if not all "
-    "nodes are known. Other topics of a recorder may come from another launch and are not reported.",
+    "nodes are known. It also checks for a typo in a last part that libraries give, such as `compressedDepth`. Other "
+    "topics of a recorder may come from another launch and are not reported.",
     why="The recorder waits for the topic without an error, and the recording lacks it.",
     example='<node pkg="rosbag" type="record" name="record" args="/scna /odom"/>',
     instead='<node pkg="rosbag" type="record" name="record" args="/scan /odom"/>',
