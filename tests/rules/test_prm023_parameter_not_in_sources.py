@@ -86,6 +86,7 @@ def test_parameters_beside_the_nodes_of_which_one_source_reads_most(tmp_path: Pa
         # Two may be meant, or another thing.
         (param("laser_frame"), {"p/a.cpp": 'nh.param("laser_frame_id", a); nh.param("my_laser_frame", b);'}),
         (param("min_speed"), {"p/a.cpp": 'nh.param("max_speed", a);'}),
+        (param("Odom/MaxDepth"), {"p/a.cpp": 'nh.param("max_depth", a);'}),
         (param("j_max"), {"p/a.cpp": 'nh.param("max_j_z", a);'}),
         (param("rate"), {"p/a.cpp": 'nh.param("publish_rate", a);'}),
         (param("camera1_frame"), {"p/a.cpp": 'nh.param("camera2_frame", a);'}),

@@ -40,12 +40,14 @@ _ASKED = re.compile(
 _MACRO = re.compile(r"\b[A-Z][A-Z0-9_]{2,}\(([^()\"]*)\)")
 """What a macro is given may become a text."""
 _KEY = re.compile(r"^\s*([A-Za-z]\w*)\s*:", re.MULTILINE)
+_ANY = "*"
 _PART = re.compile(r"[/.]")
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 
 
 class Asked(NamedTuple):
-    """A parameter that a source asks for: the part before its name, empty where there is none, its name, the file."""
+    """A parameter that a source asks for: the part before its name, empty where there is none, `*` where the text goes
+    on from another one (`prefix + ".name"`), its name, and the file."""
 
     above: str
     name: str
@@ -66,14 +68,13 @@ def meant_in_sources(db: Database, environment: Environment, share: str, name: s
     own = _in_folder(db, share)
     if own is None or not _is_telling(leaf) or leaf in own.words:
         return None
-    near = {each.name: each for each in _alike(own.asked, above, leaf)}
+    near = _by_name(_alike(own.asked, above, leaf))
     if not near and not above:
         return None
     others = _in_workspace(db, environment)
     if not near:
         # A plugin of another package reads it.
-        asked = (each for index in others for each in _alike(index.asked, above, leaf) if each.above == above)
-        near = {each.name: each for each in asked}
+        near = _by_name(each for index in others for each in _alike(index.asked, above, leaf) if each.above == above)
     if len(near) != 1 or not others or any(leaf in index.words for index in others):
         return None
     return next(iter(near.values()))
@@ -91,13 +92,13 @@ def meant_in_one_file(
         for each in index.asked if index is not None else ():
             by_file.setdefault(each.path, set()).add(each)
     found: dict[str, Asked] = {}
-    for asked in by_file.values():
+    for _, asked in sorted(by_file.items()):
         known = {each.name for each in asked}
         rest = [name for name in names if name not in known]
         if len(names) - len(rest) < max(3, len(names) / 2):
             continue
         for name in rest:
-            near = {each.name: each for each in _alike(asked, "", name) if each.name not in names}
+            near = _by_name(each for each in _alike(asked, "", name) if each.name not in names)
             if not _is_telling(name) or len(near) != 1:
                 continue
             indexes = _in_workspace(db, environment)
@@ -106,13 +107,18 @@ def meant_in_one_file(
     return found
 
 
+def _by_name(asked: Iterable[Asked]) -> dict[str, Asked]:
+    """The first of each name, whatever the order."""
+    return {each.name: each for each in sorted(asked, reverse=True)}
+
+
 def _is_telling(leaf: str) -> bool:
     return len(leaf) >= _SHORTEST and not leaf.startswith("_")
 
 
 def _alike(asked: Iterable[Asked], above: str, leaf: str) -> Iterator[Asked]:
     for each in asked:
-        if each.above and each.above != above:
+        if each.above not in (above, _ANY):
             continue
         alike = likeness(leaf, each.name)
         typo = alike is not None and alike[0] == "typo" and not _are_opposite(leaf, each.name)
@@ -171,10 +177,13 @@ def _in_file(db: Database, path: str) -> _Index:
     text = document.text if isinstance(document, Document) else ""
     if path.endswith(".yaml"):
         return _Index(frozenset(), frozenset(_KEY.findall(text)) if "default_value" in text else frozenset())
-    asked = frozenset(Asked(*_parts(name), path) for name in _ASKED.findall(text))
+    asked = set()
+    for name in _ASKED.findall(text):
+        above, leaf = _parts(name)
+        asked.add(Asked(_ANY if not above and name[0] in "./" else above, leaf, path))
     words = {part for written in _WRITTEN.findall(text) for part in _PART.split(written.strip("~/."))}
     words.update(word for given in _MACRO.findall(text) for word in re.findall(r"\w+", given))
-    return _Index(asked, frozenset(words))
+    return _Index(frozenset(asked), frozenset(words))
 
 
 def _parts(name: str) -> tuple[str, str]:
