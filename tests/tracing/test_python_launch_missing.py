@@ -822,3 +822,38 @@ def test_launch_pal_is_known_where_it_is_not_installed(harness: PythonHarness) -
     assert tree.nodes[1].args.split()[0] == "a/left"
     assert (tree.nodes[3].plugin, [(p.name, p.value) for p in tree.nodes[3].params]) == ("p::Cam", [("fps", 5)])
     assert tree.args["laser_model"].value == "sick"
+
+
+AGAIN = """
+import json, tempfile, yaml
+
+def again(data, package):
+    with tempfile.NamedTemporaryFile("w", delete=False) as file:
+        package.dump(data, file)
+    with open(file.name) as file:
+        return package.load(file, yaml.FullLoader) if package is yaml else package.load(file)
+
+def keys(data, package):
+    return list(again(data, package).keys())
+"""
+
+
+def test_a_file_with_nothing_but_something_unknown_is_an_unknown_document(harness: PythonHarness) -> None:
+    harness.write("p/__init__.py", "")
+    harness.write("p/again.py", AGAIN)
+    tree = tree_of(
+        harness,
+        """
+import json, yaml
+from p.again import keys
+
+def generate_launch_description():
+    share = get_package_share_directory("not_here")
+    with open(os.path.join(share, "params.yaml")) as file:
+        data = yaml.safe_load(file)
+    keys(data, yaml), keys(data, json)
+    return LaunchDescription([Node(package="p", executable="x", name="n")])
+""",
+    )
+    assert "AttributeError" not in {each.what for each in tree.unknowns}
+    assert names(tree) == ["/n"]

@@ -37,6 +37,8 @@ _PARSERS = {
     "subprocess": ("check_output", "run", "check_call", "call", "getoutput", "getstatusoutput"),
 }
 """Functions whose value is unknown where something of what they are given is."""
+_DATA = ("json.", "yaml.")
+"""Modules whose functions give what a text says."""
 _SYSTEM_ERRORS = ("OSError", "IOError", "error", "gaierror", "herror", "timeout")
 _MAPPINGS = ("_collections_abc", "collections.abc", "os")
 """Which ask for a variable to tell whether it is there."""
@@ -145,7 +147,9 @@ def _guarded(function: Any, name: str) -> Any:
             RECORDER.unknown = True
             return unknown()
         try:
-            return function(*args, **kwargs)
+            found = function(*args, **kwargs)
+            # A file that was written of something unknown has its mark and nothing else.
+            return unknown() if name.startswith(_DATA) and isinstance(found, str) and is_unknown(found) else found
         except Exception as error:
             if BEGIN not in str(error) and not name.startswith("xacro."):
                 raise
