@@ -473,3 +473,25 @@ def test_the_only_parameter_that_is_left_over_on_either_side() -> None:
 @pytest.mark.parametrize(("source", "more"), [("trace", ""), ("source", ', "~": {"access": "list"}')])
 def test_a_node_that_ended_early_or_reads_more_than_its_source_tells(source: str, more: str) -> None:
     assert "PRM001" not in {each.rule for each in findings_of(_PARTLY % (source, more))}
+
+
+@pytest.mark.parametrize(
+    ("ns", "also", "told"),
+    [("", "", 1), ("local_costmap", "", 0), ("", "other1: 1, other2: 1, other3: 1, other4: 1, other5: 1,", 0)],
+)
+def test_a_file_that_is_loaded_one_namespace_too_high(ns: str, also: str, told: int) -> None:
+    keys = ("frame", "width", "height", "rate")
+    findings = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="base"><rosparam file="/costmap.yaml" ns="{ns}"/></node>
+        </launch>
+        //- /costmap.yaml
+        {{{also} {", ".join(f"{key}: 2" for key in keys)}}}
+        //- interfaces
+        {{"/base": {{"source": "catalogue", "status": "not-run",
+                     "params": {{{", ".join(f'"~local_costmap/{key}": 1' for key in keys)}}}}}}}
+    """)
+    found = [finding for finding in findings if "parameters of this file" in finding.message]
+    assert [(finding.rule, finding.severity) for finding in found] == [("PRM001", "warning")] * told
+    assert all("4 parameters of this file" in each.message for each in found)
+    assert all(each.message.endswith("it reads them in 'local_costmap'") for each in found)

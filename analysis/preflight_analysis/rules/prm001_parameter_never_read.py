@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Confidence, Finding
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Confidence, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
 from preflight_analysis.rules.missing_params import missing_params
@@ -23,6 +23,8 @@ from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
 
 _ARGUMENT = re.compile(r"_[A-Za-z]\w*")
+_GROUP = 4
+"""Parameters of a file that are read one namespace below."""
 _PARTLY = ("catalogue", "source")
 """What may tell a node's parameters without telling all, beside a run to the event loop: one that ended early tells too
 few."""
@@ -46,7 +48,43 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         explained.add(each.param.name)
         if each.meant is not None:
             yield _finding(rule, context, context.graph, each, each.meant, sure="possible")
+    yield from _one_level_too_high(rule, context, context.graph, explained)
     yield from _as_on_the_command_line(rule, context, context.graph, explained)
+
+
+def _one_level_too_high(rule: Rule, context: Context, graph: Graph, explained: Collection[str]) -> Iterator[Finding]:
+    """Files that are loaded among the private parameters of a node that is known in part, and of which it reads most in
+    one namespace below: a costmap's without `ns="local_costmap"`."""
+    rows = context.kept.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
+    if not any(rows):
+        return
+    read, given = {each.name for each in graph.param_reads}, graph.tree.params
+    by_namespace = context.kept.grouped(namespace_of, "one level", context.tree.all_params)
+    for node, asked in zip(graph.tree.nodes, rows, strict=True):
+        below = [space for space in asked.own if names.parent(space) == f"{node.name}/"] if asked is not None else []
+        if asked is None or not below:
+            continue
+        files: dict[str, list[Param]] = {}
+        for param in by_namespace.get(node.name, ()):
+            if param.name not in read and param.name not in explained:
+                files.setdefault(param.place.file, []).append(param)
+        for file, params in files.items():
+            leaves = {names.leaf(param.name) for param in params}
+            wanted = {
+                space: {names.leaf(name) for name in asked.own[space] if name not in given} & leaves for space in below
+            }
+            spaces = [space for space, found in wanted.items() if len(found) >= max(_GROUP, len(leaves) / 2)]
+            if not spaces or file in context.launch_files:
+                continue
+            first = min(params, key=lambda param: (param.place.line, param.name))
+            where = " or ".join(f"'{names.leaf(space)}'" for space in sorted(spaces))
+            yield rule.finding(
+                f"{len(params)} parameters of this file are not read by {node.name}, '{names.leaf(first.name)}' among "
+                f"them; it reads them in {where}",
+                first.origin[-2] if len(first.origin) > 1 else first.place,
+                confidence="possible",
+                related=(Related("the first of them", first.place), *include_chain(node.origin)),
+            )
 
 
 def _as_on_the_command_line(
