@@ -87,15 +87,15 @@ def _gaps(
     unread, unseen, unclear = list[str](), list[str](), list[str]()
     for node, interface, about, found in zip(nodes, interfaces, known, edges, strict=True):
         if is_state_publisher(node):
-            unread += [node.name] if _robot_of(tree, node) is None else []
+            unread += [_named(node)] if _robot_of(tree, node) is None else []
         elif found or (about is not None and about.is_used):
             continue
         elif interface is None or not interface.known:
-            unseen.append(node.name)
+            unseen.append(_named(node))
         elif any(end.role == "publisher" and names.leaf(end.name) in _TF for end in interface.endpoints):
-            unclear.append(node.name)
-        elif interface.source in ("trace", "similar") and not interface.likely_complete:
-            unseen.append(node.name)
+            unclear.append(_named(node))
+        elif interface.source in ("trace", "similar", "source") and not interface.likely_complete:
+            unseen.append(_named(node))
     if unread:
         yield f"the robot description of {_some(unread)} is not known"
     if unclear:
@@ -105,6 +105,10 @@ def _gaps(
     simulates = any(node.package in _SIMULATORS or (node.package, node.executable) in SPAWN for node in nodes)
     if simulates:
         yield "a simulator may broadcast more"
+
+
+def _named(node: LaunchNode) -> str:
+    return node.name or node.executable or node.kind
 
 
 def _some(found: Sequence[str]) -> str:

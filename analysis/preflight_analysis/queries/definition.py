@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.queries import shared_arguments
+from preflight_analysis.queries.frames import frame_at, published_at
 from preflight_analysis.queries.param_files import from_param_file, is_param_file
 from preflight_analysis.queries.places import action_at, remaps_of, use_at
 from preflight_analysis.queries.query_context import QueryContext
@@ -34,6 +35,8 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     that reads a parameter; from a remap to the other ends, in the nodes' sources where they are known, and from the
     name that it replaces to the node's own; from a finding to its related places."""
     analysis, file = context.analyses[0], context.path
+    if (frame := frame_at(context.analyses, file, offset)) is not None:
+        return _targets(published_at(frame), context.location(file, frame.span))
     if is_param_file(analysis, file):
         return tuple(Target(place, context.location(file, span)) for place, span in from_param_file(context, offset))
     if targets := _targets_of_param(context, offset):

@@ -13,6 +13,7 @@ from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.arguments import accepted
+from preflight_analysis.queries.frames import frame_hover
 from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.language import described
@@ -88,6 +89,8 @@ def hover(
     None where there is nothing to say. `unseen` is how many more roots there are that reach the file. With a `context`
     what other files say of a parameter, a package or an argument is there too.
     """
+    if (frame := frame_hover(analyses, file, offset)) is not None:
+        return frame
     if analyses and is_param_file(analyses[0], file):
         return in_param_file(analyses, file, offset)
     symbol = symbol_hover(context, offset) if context is not None else None

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.queries import shared_arguments
+from preflight_analysis.queries.frames import frame_at, named_at, published_at
 from preflight_analysis.queries.node_names import mentions_of, tags_of
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import Kind, NamedSymbol, annotated, own_parameter, settings_of, symbol_at
@@ -27,13 +28,13 @@ class Reference:
 
 def references(context: QueryContext, offset: int) -> tuple[Reference, ...]:
     """All places in the workspace, and in the sources of its nodes as far as they are known, that name what is at
-    `offset`: those of the file itself first, then by path."""
-    symbol = symbol_at(context, offset)
-    if symbol is None:
-        return ()
+    `offset`, a frame within one launch: those of the file itself first, then by path."""
     found: dict[Location, bool] = {}
-    for reference in _FINDERS[symbol.kind](context, symbol):
-        found[reference.location] = found.get(reference.location, False) or reference.declares
+    if (frame := frame_at(context.analyses, context.path, offset)) is not None:
+        found = {**dict.fromkeys(named_at(frame), False), **dict.fromkeys(published_at(frame), True)}
+    elif (symbol := symbol_at(context, offset)) is not None:
+        for reference in _FINDERS[symbol.kind](context, symbol):
+            found[reference.location] = found.get(reference.location, False) or reference.declares
     places = sorted(found, key=lambda place: (place.file != context.path, place.file, place.span))
     return tuple(Reference(place, found[place]) for place in places)
 

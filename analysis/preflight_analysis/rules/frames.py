@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.frames.build import build_frames
-from preflight_analysis.frames.model import Edge, Frames, Use
+from preflight_analysis.frames.model import Edge, Frames, Mention, Use
 from preflight_analysis.robot.sources import place_of
 from preflight_analysis.rules.rule import Context
 
@@ -29,7 +30,14 @@ def place_of_edge(context: Context, edge: Edge) -> Location:
 
 def place_of_use(context: Context, use: Use) -> Location:
     """Where a frame is named: the value of the parameter, else the node."""
-    if use.param is None:
-        return use.node.location
-    place = use.param.place
-    return value_place(place, use.written, context.documents.get(place.file)) or place
+    return _place_of(context, use.param, use.written) if use.param is not None else use.node.location
+
+
+def place_of_mention(context: Context, mention: Mention) -> Location:
+    """Where a frame is named: the value of the parameter."""
+    return _place_of(context, mention.param, str(mention.param.value))
+
+
+def _place_of(context: Context, param: Param, value: str) -> Location:
+    place = param.place
+    return value_place(place, value, context.documents.get(place.file)) or place

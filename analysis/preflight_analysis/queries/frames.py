@@ -1,0 +1,133 @@
+"""The coordinate frame under the cursor: who publishes it, its path to the root, who uses it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.markdown import code, escaped
+from preflight_analysis.frames.edges import plain
+from preflight_analysis.frames.model import Edge, Frames
+from preflight_analysis.queries.hover_text import Hover
+from preflight_analysis.queries.places import place
+from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_mention, place_of_use
+from preflight_analysis.workspace.workspace import Analysis
+
+_SHOWN = 8
+_PATH = 12
+"""Frames of a path that are listed."""
+
+
+@dataclass(frozen=True, slots=True)
+class FrameSymbol:
+    """A frame that is named at `span` of a file, in one root."""
+
+    analysis: Analysis
+    frame: str
+    space: str
+    span: Span
+
+
+def frame_at(analyses: Sequence[Analysis], file: str, offset: int) -> FrameSymbol | None:
+    """The frame that is named at `offset`: in the value of a parameter, or in the arguments of a static transform."""
+    for analysis in analyses:
+        for frame, space, named in _named_in(analysis, file):
+            if named.span.contains(offset):
+                return FrameSymbol(analysis, frame, space, named.span)
+    return None
+
+
+def _named_in(analysis: Analysis, file: str) -> Iterator[tuple[str, str, Location]]:
+    """The frames that a file names, each with its place."""
+    context, frames = analysis.context, frames_of(analysis.context)
+    for use in frames.uses:
+        if use.param is not None and use.param.place.file == file:
+            found = place_of_use(context, use)
+            if context.text(found) == use.written:
+                yield use.frame, use.space, found
+    for mention in frames.mentions:
+        if mention.param.place.file == file:
+            found = place_of_mention(context, mention)
+            if plain(context.text(found)) == mention.frame:
+                yield mention.frame, mention.space, found
+    for edge in frames.edges:
+        if edge.how == "arguments" and edge.location.file == file:
+            yield from ((frame, edge.space, found) for frame, found in _in_arguments(analysis, edge))
+
+
+def _in_arguments(analysis: Analysis, edge: Edge) -> Iterator[tuple[str, Location]]:
+    """The frames in the arguments of a static transform publisher."""
+    span = edge.node.tag.span_of("args") if edge.node is not None else None
+    document = analysis.documents.get(edge.location.file)
+    if span is None or document is None:
+        return
+    for frame in (edge.parent, edge.child):
+        written = re.compile(rf"(?<![\w/.-])/?{re.escape(frame)}(?![\w/.-])")
+        if (found := written.search(document.text, span.start, span.end)) is not None:
+            yield frame, document.location(Span(*found.span()))
+
+
+def published_at(symbol: FrameSymbol) -> tuple[Location, ...]:
+    """Where the frame is published: the joint of a robot description, a node, a parameter."""
+    return tuple(dict.fromkeys(place_of_edge(symbol.analysis.context, edge) for edge in _edges(symbol)))
+
+
+def named_at(symbol: FrameSymbol) -> tuple[Location, ...]:
+    """The other places that name it: parameters and nodes that use it."""
+    context, frames = symbol.analysis.context, frames_of(symbol.analysis.context)
+    mine = (symbol.frame, symbol.space)
+    uses = (place_of_use(context, use) for use in frames.uses if (use.frame, use.space) == mine)
+    mentions = (place_of_mention(context, each) for each in frames.mentions if (each.frame, each.space) == mine)
+    return tuple(dict.fromkeys((*uses, *mentions)))
+
+
+def _edges(symbol: FrameSymbol) -> Sequence[Edge]:
+    """The transforms to it; of a root those from it."""
+    frames = frames_of(symbol.analysis.context)
+    to = frames.parents(symbol.space).get(symbol.frame, ())
+    return to or [each for each in frames.edges if each.space == symbol.space and each.parent == symbol.frame]
+
+
+def frame_hover(analyses: Sequence[Analysis], file: str, offset: int) -> Hover | None:
+    """The hover of the frame at `offset`; None where none is named."""
+    symbol = frame_at(analyses, file, offset)
+    if symbol is None:
+        return None
+    frames = frames_of(symbol.analysis.context)
+    topic = f" on {code(f'{symbol.space}/tf')}" if symbol.space else ""
+    lines = [f"frame {code(symbol.frame)}{topic}", ""]
+    lines += _publishers(symbol, frames)
+    lines += _users(symbol, frames)
+    return Hover("\n".join(lines).rstrip(), symbol.span)
+
+
+def _publishers(symbol: FrameSymbol, frames: Frames) -> Iterator[str]:
+    edges = _edges(symbol)
+    if not edges:
+        yield "No node of this launch is known to publish it."
+        yield from (["", f"The frames may be incomplete: {escaped('; '.join(frames.gaps))}."] if frames.gaps else [])
+        return
+    path = frames.path(symbol.space, symbol.frame)
+    if path:
+        steps = [symbol.frame, *(edge.parent for edge in path)]
+        more = " → …" if len(steps) > _PATH else ""
+        yield f"Path to the root: {' → '.join(map(code, steps[:_PATH]))}{more}"
+    else:
+        yield "Root of its tree"
+    yield ""
+    for edge in edges[:_SHOWN]:
+        where = place(symbol.analysis, place_of_edge(symbol.analysis.context, edge))
+        sure = "" if edge.sure else ", possible"
+        yield f"- {code(edge.parent)} → {code(edge.child)} by {escaped(edge.by)}{sure} — {where}"
+
+
+def _users(symbol: FrameSymbol, frames: Frames) -> Iterator[str]:
+    uses = [use for use in frames.uses if (use.frame, use.space) == (symbol.frame, symbol.space)]
+    if uses:
+        yield from ("", "Used by")
+    for use in uses[:_SHOWN]:
+        yield f"- {code(use.node.name)}, {escaped(use.what)}"
+    if len(uses) > _SHOWN:
+        yield f"- … and {len(uses) - _SHOWN} more"
