@@ -523,6 +523,18 @@ def test_a_parameter_that_is_not_declared(harness: Harness) -> None:
     assert ["did you mean 'max_pressure'?" in f.message for f in findings] == [True]
 
 
+def test_what_a_function_does_without_is_not_mandatory(harness: Harness) -> None:
+    before = 'void start(rclcpp::Node::SharedPtr node) { node->declare_parameter<int>("of_another"); }'
+    body = """
+        try { node->declare_parameter<int>("optional"); } catch (const std::exception &) { /* it has a default */ }
+        try { node->declare_parameter<int>("needed"); } catch (const std::exception &) { return 1; }
+        try { start(node); } catch (const std::exception & error) { RCLCPP_ERROR(node->get_logger(), "failed"); }
+        node->declare_parameter<int>("after");
+        """
+    found = harness.main(body, before=before)
+    assert [use.name for use in found.params if use.mandatory] == ["~needed", "~of_another", "~after"]
+
+
 def test_a_second_node_with_arguments_of_its_own(harness: Harness) -> None:
     body = """
         auto options = rclcpp::NodeOptions().arguments({"--ros-args", "-r", "__ns:=/maps", "-r", "__node:=local"});

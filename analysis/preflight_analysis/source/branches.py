@@ -36,6 +36,8 @@ class Branches:
         self._trails: list[list[tuple[dict[str, Any], str, Any]]] = []
         self.late = False
         """Whether only callbacks are left."""
+        self.caught = False
+        """Whether the function catches what is thrown here, and goes on."""
 
     @property
     def speculative(self) -> bool:

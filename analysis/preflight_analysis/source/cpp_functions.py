@@ -89,7 +89,11 @@ class Functions(Names):
 
     def _body(self, body: Node, scope: Scope) -> None:
         self._call_counts[body.id] = self._call_counts.get(body.id, 0) + 1
-        self._statement(body, scope)
+        caught, self._branches.caught = self._branches.caught, False
+        try:
+            self._statement(body, scope)
+        finally:
+            self._branches.caught = caught
 
     def _leads(self, body: Node) -> bool:
         """Whether something of a library may be called in it."""

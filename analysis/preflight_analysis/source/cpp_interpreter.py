@@ -15,7 +15,7 @@ from tree_sitter import Node
 from preflight_analysis.source.branches import ExitError
 from preflight_analysis.source.cpp_expressions import Expressions, TooLargeError
 from preflight_analysis.source.cpp_operators import MAX_ITEMS, truth
-from preflight_analysis.source.cpp_program import CppProgram
+from preflight_analysis.source.cpp_program import CppProgram, words_in
 from preflight_analysis.source.cpp_text import (
     CONDITIONAL,
     FieldText,
@@ -35,6 +35,8 @@ from preflight_analysis.source.cpp_values import Argument, Calls, Class, CppType
 from preflight_analysis.source.python_values import UNKNOWN
 
 _MAX_ITERATIONS = 64
+_LEAVES = frozenset({"throw", "return", "exit", "abort", "terminate", "shutdown"})
+"""How a handler of exceptions ends its function, or all of the program."""
 _FEW_ITERATIONS = 8
 _ACTIVATE = "activate"
 _FOREVER = frozenset({"(true)", "(1)"})
@@ -355,8 +357,13 @@ class _Interpreter(Expressions):
 
     def _try(self, node: Node, scope: Scope) -> bool:
         body = node.child_by_field_name("body")
-        ended = body is not None and self._statement(body, scope)
         handlers = [child for child in node.named_children if child.type == "catch_clause"]
+        caught = self._branches.caught
+        self._branches.caught = caught or (bool(handlers) and all(_LEAVES.isdisjoint(words_in(h)) for h in handlers))
+        try:
+            ended = body is not None and self._statement(body, scope)
+        finally:
+            self._branches.caught = caught
         for handler in handlers:
             inside = handler.child_by_field_name("body")
             if inside is not None:

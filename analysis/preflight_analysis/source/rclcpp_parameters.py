@@ -115,7 +115,8 @@ class Parameters:
         default = given_parameter(args[1], type_) if has_default else Parameter(UNKNOWN)
         about = _described(args, type_)
         if type_ is not None and not has_default and (len(args) < 2 or is_descriptor(args[1].value)):
-            about = replace(about, mandatory=True)  # rclcpp throws where there is no value of that type
+            # rclcpp throws where there is no value of that type.
+            about = replace(about, mandatory=not self.collected.branches.caught)
         found = self._declare(node, name, default.value, has_default, place, typed=default.typed, about=about)
         of_value = len(args) > 1 and isinstance(args[1].value, (Parameter, Constant))
         if of_value and type_ is None:
