@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import AsyncIterator, Callable
@@ -197,6 +198,13 @@ def test_the_requirement_is_that_of_the_extra() -> None:
 
 def test_every_tool_has_a_call_here() -> None:
     assert [tool.verb for tool in TOOLS] == [*CALLS]
+
+
+def test_the_page_lists_the_tools_with_their_arguments() -> None:
+    rows = re.findall(r"^\| `(\w+)` \|.*\| (.+) \|$", (ROOT / "docs/mcp.md").read_text(), re.MULTILINE)
+    assert {tool: re.findall(r"`(\w+)`", arguments) for tool, arguments in rows} == {
+        tool.verb: [*tool.properties] for tool in TOOLS
+    }
 
 
 def test_a_document_is_never_longer_than_allowed() -> None:
