@@ -282,8 +282,9 @@ RULE = Rule(
     "a similar name. It is a warning too if a node reads the same name in another namespace: one level too many or "
     "too few, or global instead of private. Otherwise it is a hint, and only for a node that is known up to its "
     "event loop. Reading a namespace reads all parameters in it. Of a node that the catalogue or its source "
-    "describes in part, only typos are reported. Its source also shows the same name in another namespace. A "
-    "parameter of a node that begins with `_` is a warning, because that form belongs on the command line.",
+    "describes in part, only typos are reported. Its source also shows the same name in another namespace. A file "
+    "is a warning if its node reads most of it one namespace below. A parameter of a node that begins with `_` is a "
+    "warning, because that form belongs on the command line.",
     why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
     instead='<param name="publish_objects" value="false"/>',
