@@ -1,5 +1,7 @@
 """FRM001: a frame that a node asks for and nothing publishes."""
 
+from pathlib import Path
+
 import pytest
 from support.check import apply, check
 from support.frame_launch import EKF, EKF_COLUMN, below, fixture, robot, static
@@ -38,6 +40,23 @@ def test_what_a_run_asked_for() -> None:
     expected = below(0, len(_UNKNOWN), "warning[FRM001] (transform odom <- camera_lnk); did you mean 'camera_link'?")
     nodes = f"{static('s', 'odom', 'camera_link')}\n{_UNKNOWN}\n{expected}"
     check(fixture(nodes, {"/driver": {"answers": [answer]}}))
+
+
+def test_the_fixed_frame_of_rviz(tmp_path: Path) -> None:
+    config = tmp_path / "a.rviz"
+    config.write_text("Visualization Manager:\n  Global Options:\n    Fixed Frame: base_lnk\n")
+    node = f'<node pkg="rviz2" exec="rviz2" name="rviz" args="-d {config}"/>'
+    package = "\n//- /rviz2/package.xml\n<package><name>rviz2</name></package>"
+    said = "warning[FRM001] frame 'base_lnk' has no publisher: /rviz uses it (Fixed Frame of a.rviz); did you mean"
+    check(fixture(f"{_ODOM}\n{node}\n{below(0, len(node), said)}", {}, package))
+
+
+def test_a_driver_that_publishes_other_frames_than_the_robot_has() -> None:
+    """https://github.com/IntelRealSense/realsense-ros/issues/2400, https://github.com/TixiaoShan/LIO-SAM/issues/482"""
+    answer = "it asks for the transform base_link <- camera_depth_frame again and again, and was given the identity"
+    said = "info[FRM001] frame 'camera_depth_frame' has no publisher: /driver uses it (transform base_link <- camera"
+    nodes = f"{robot(('base_link', 'camera_link'))}\n{_UNKNOWN}\n{below(0, len(_UNKNOWN), said)}"
+    check(fixture(nodes, {"/driver": {"answers": [answer], "source": "settings"}}))
 
 
 @pytest.mark.silent

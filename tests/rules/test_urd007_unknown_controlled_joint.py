@@ -1,7 +1,10 @@
 """URD007: a joint that ros2_control or a transmission names and the robot does not have."""
 
+from dataclasses import replace
+
 import pytest
-from support.check import apply, check
+from preflight_analysis.rules.registry import run_rules
+from support.check import analyse, apply, check, read_fixture
 from support.robot_launch import of_urdf, robot
 
 _URDF = """<link name="a"/><link name="b"/>
@@ -34,6 +37,21 @@ def test_a_transmission() -> None:
             ),
         )
     )
+
+
+def test_newer_distributions_refuse_the_description() -> None:
+    """https://github.com/ros-controls/ros2_control/issues/1539"""
+    escaped = f"<robot>{_URDF.format('wheel_joint', 'shoulder_joint')}</robot>".replace("<", "&lt;").replace(
+        '"', "&quot;"
+    )
+    fixture = read_fixture(f"""
+        //- /main.launch.xml
+        <launch><node pkg="p" exec="rsp" name="rsp"><param name="robot_description" value="{escaped}"/></node></launch>
+    """)
+    context = analyse(fixture)
+    for distro, severity in (("humble", "warning"), ("jazzy", "error")):
+        used = replace(context, environment=replace(context.environment, distro=distro))
+        assert [each.severity for each in run_rules(used) if each.rule == "URD007"] == [severity]
 
 
 @pytest.mark.silent
