@@ -160,3 +160,17 @@ def test_substitutions_in_yaml_that_are_made_or_are_not_the_launchers() -> None:
         //- commands
         {"xacro r.xacro": {"output": "<robot name='$(arg port)'/>"}}
     """)
+
+
+@pytest.mark.silent
+def test_a_comment_in_a_robot_description() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="a" name="a"><param from="/p/a.yaml"/></node>
+        </launch>
+        //- /p/a.yaml
+        /a:
+          ros__parameters:
+            robot: "<robot><!-- <mesh file='$(find-pkg-share p)/arm.dae'/> --></robot>"
+    """)

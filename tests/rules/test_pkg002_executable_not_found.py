@@ -197,3 +197,31 @@ def test_a_slip_of_an_executable_of_the_catalogue(tmp_path: Path, distro: str | 
 def test_an_executable_that_another_version_may_have(tmp_path: Path, name: str) -> None:
     analysis = analysed(tmp_path, f'<launch><node pkg="joy" type="{name}" name="j"/></launch>', distro="noetic")
     assert [f for f in analysis.findings if f.rule == "PKG002"] == []
+
+
+def test_a_program_that_a_build_file_names_in_a_way_that_is_not_followed(tmp_path: Path) -> None:
+    """A `setup.py` beside a `CMakeLists.txt` that installs the same programs in a loop over texts."""
+    share = tmp_path / "src" / "demo"
+    share.mkdir(parents=True)
+    (share / "package.xml").write_text(
+        "<package><name>demo</name><export><build_type>ament_cmake</build_type></export></package>"
+    )
+    entry = "entry_points={'console_scripts': ['driver = demo.driver:main', 'reader = demo.reader:main']}"
+    (share / "setup.py").write_text(f"from setuptools import setup\nsetup(name='demo', packages=['demo'], {entry})\n")
+    (share / "CMakeLists.txt").write_text("""
+        add_executable(viewer a.cpp)
+        install(TARGETS viewer DESTINATION lib/${PROJECT_NAME})
+        foreach(each "driver:scripts/driver.py")
+          string(REPLACE ":" ";" parts ${each})
+          list(GET parts 0 name)
+          list(GET parts 1 file)
+          install(PROGRAMS ${file} DESTINATION lib/${PROJECT_NAME} RENAME ${name})
+        endforeach()
+    """)
+    launch = share / "a.launch.xml"
+    launch.write_text('<launch><node pkg="demo" exec="driver"/><node pkg="demo" exec="drivr"/></launch>')
+    packages = {"demo": Package("demo", str(share), str(share / "package.xml"), build_type="ament_cmake")}
+    environment = Environment(2, "jazzy", {}, (str(tmp_path / "src"),), packages, {}, (), (), None)
+    findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    found = [(f.severity, f.message.partition("; ")[2]) for f in findings if f.rule == "PKG002"]
+    assert [severity for severity, _ in found] == ["info", "error"]

@@ -140,6 +140,13 @@ def test_what_the_build_ignores_is_not_checked(harness: Harness) -> None:
     assert paths(tuple(index.entries)) == ["AMENT_IGNORE.launch", "COLCON_IGNORE.launch"]
 
 
+def test_parameters_of_a_launch_test_are_no_launch_file(harness: Harness) -> None:
+    (harness.folder / "test").mkdir()
+    harness.write("test/arm_launch.yaml", "/arm:\n  ros__parameters:\n    speed: 1.0\n")
+    harness.write("test/leg_launch.yaml", "launch:\n- node: {pkg: p, exec: e}\n")
+    assert paths(tuple(harness.build().entries)) == ["leg_launch.yaml"]
+
+
 def test_what_eclipse_starts_programs_with_is_no_launch_file(harness: Harness) -> None:
     harness.write("Debug.launch", '<?xml version="1.0"?>\n<launchConfiguration type="com.st.debug"/>')
     harness.write("robot.launch", LEAF)

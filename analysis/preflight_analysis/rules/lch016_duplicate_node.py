@@ -8,6 +8,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode, Problem
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.rules.catalogued import as_sure
 from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, NAMES, NODES
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shortened
 from preflight_analysis.rules.python_branches import made_twice
@@ -28,7 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             rule,
             problem,
             f"duplicate node name '{name}'{how}",
-            severity=None if problem.fatal else "warning",
+            severity=None if problem.fatal else as_sure(context, first.file, "warning")[0],
             related=(Related("the first node", first),),
             fixes=() if twice else _fixes(context, problem, taken),
         )

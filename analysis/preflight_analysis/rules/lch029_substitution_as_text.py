@@ -29,6 +29,8 @@ from preflight_analysis.rules.syntax import Tags
 
 _COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
 _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+"""In a robot description, where xacro leaves it as it is."""
 _ARG = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
 _ARGUMENT = re.compile(r"[\s\"',]+")
 _LONGEST = 4096
@@ -67,7 +69,9 @@ def _left_in(param: Param) -> tuple[Param, str] | None:
     value = param.value
     texts = (names.leaf(param.name), *(value if isinstance(value, list) else (value,)))
     for text in texts:
-        if isinstance(text, str) and "$(" in text and len(text) < _LONGEST and (found := _SUBSTITUTION.search(text)):
+        if not isinstance(text, str) or "$(" not in text or len(text) >= _LONGEST:
+            continue
+        if (found := _SUBSTITUTION.search(_COMMENT.sub("", text))) is not None:
             return param, found[0]
     return None
 

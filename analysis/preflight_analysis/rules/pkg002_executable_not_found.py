@@ -88,6 +88,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         doubtful = node.executable.startswith("/dev/") or says_not_set(node.executable)
         if doubtful:
             hint = "; set the argument that names it"
+        elif near == node.executable:
+            doubtful, hint = True, "; a build file names it, but how it is installed is unresolved"
         elif not names and is_ignored(context.disk, f"{found.package_path}/{LISTS}"):
             doubtful, hint = True, f"; git ignores {LISTS} of the package, so each machine may create it"
         yield rule.finding(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import re
 import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -18,7 +19,7 @@ from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
-from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_SUFFIXES, is_module
+from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_SUFFIXES, YAML_SUFFIXES, is_module
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.observations import Notes
@@ -32,6 +33,8 @@ MAX_INCLUDED = 200_000
 """How many includes are evaluated for one index."""
 _MAX_UPSTREAM = 100
 _HEAD = 2_000
+_PARAMETERS = re.compile(r"^\s+ros__parameters:", re.MULTILINE)
+_YAML_LAUNCH = re.compile(r"^launch:", re.MULTILINE)
 _ECLIPSE = "<launchConfiguration"
 """The outermost element, which stands in that many characters."""
 _log = logging.getLogger(__name__)
@@ -311,10 +314,13 @@ def _makes_launch_description(path: str, sources: Sources) -> bool:
 
 def _is_of_other(path: str, sources: Sources) -> bool:
     """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program, a `.test` is
-    no XML (LLVM's are command lines), or a Python file a module that helps to make launch files."""
-    found = sources.text(path) if path.endswith((".launch", ".test", PYTHON_SUFFIX)) else None
+    no XML (LLVM's are command lines), a YAML file one of parameters, or a Python file a module that helps to make
+    launch files."""
+    found = sources.text(path) if path.endswith((".launch", ".test", *YAML_SUFFIXES, PYTHON_SUFFIX)) else None
     if found is None or isinstance(found, Unreadable):
         return False
+    if path.endswith(YAML_SUFFIXES):
+        return _PARAMETERS.search(found.text) is not None and _YAML_LAUNCH.search(found.text) is None
     if path.endswith(PYTHON_SUFFIX):
         return is_module(path, found.text)
     is_text = bool(found.text.strip()) and not found.text.lstrip().startswith("<") and "<launch" not in found.text
