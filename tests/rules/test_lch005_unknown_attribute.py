@@ -21,7 +21,7 @@ def test_an_unknown_attribute() -> None:
 @pytest.mark.silent
 def test_attributes_that_are_known() -> None:
     check("""
-        <launch>
+        <launch xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="roslaunch.xsd">
           <node pkg="p" type="t" name="n" ns="a" args="x" respawn="true" respawn_delay="3" required="false" output="log"
                 cwd="node" launch-prefix="nice" clear_params="false"/>
         </launch>

@@ -85,3 +85,13 @@ def test_lists_from_yaml() -> None:
         //- interfaces
         {"/n": {"params": {"~frames": ["c"], "~frame": "map"}}}
     """)
+
+
+@pytest.mark.parametrize(("default", "severity"), [("{}", "info"), ('{"a": 1}', "warning")])
+def test_an_empty_default_says_little_of_the_kind(default: str, severity: str) -> None:
+    found = findings_of(f"""
+        <launch><node pkg="p" type="t" name="n"><rosparam>tools: [a]</rosparam></node></launch>
+        //- interfaces
+        {{"/n": {{"params": {{"~tools": {default}}}}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "PRM009"] == [severity]

@@ -360,6 +360,8 @@ def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None
         ("Error opening file: drive.bag", "info"),
         ("Error reading from file: drive.bag", "warning"),
         ("Error reading version line", "info"),
+        ("The traceback for the exception was written to the log file", "info"),
+        ("RLException: environment variable 'LD_LIBRARY_PATH' is not set", "hint"),
         ("Error opening file: /home/somebody/Datasets/drive.bag", "info"),
         ("Error writing: Error opening file: /mnt/recordings/drive.bag.active", "info"),
         ("Invalid target directory '/home/somebody/Documents/Data'.", "info"),

@@ -289,7 +289,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     ]
     params = [
         ParamUse(name, default["access"])
-        if isinstance(default, dict)
+        if isinstance(default, dict) and "access" in default
         else ParamUse(
             name, "get", default, default is not None, default is None, *made.get(name, ()), **_described(data, name)
         )

@@ -92,6 +92,10 @@ def _without_dollar(value: Value) -> Iterator[LanguageProblem]:
             yield LanguageProblem(SubstitutionAsText(found[0], f"${found[0]}"), span)
 
 
+_OF_XML = ("xmlns", "xsi:")
+"""How the attributes begin by which editors find the schema of a file."""
+
+
 def _checked(action: Action) -> tuple[LanguageProblem, ...]:
     return tuple(_check(action))
 
@@ -101,7 +105,7 @@ def _check(action: Action, *, whole: bool = False) -> Iterator[LanguageProblem]:
     tag = TAGS[kind]
     for attribute in action.attributes:
         # What is refused is reported when the tag is evaluated, where it stops the launch.
-        if attribute.name not in (*tag.attributes, *tag.refused):
+        if attribute.name not in (*tag.attributes, *tag.refused) and not attribute.name.startswith(_OF_XML):
             unknown = UnknownAttribute(attribute.name, kind, tuple(tag.attributes))
             yield LanguageProblem(unknown, attribute.name_span)
         if "$" in attribute.value.text:

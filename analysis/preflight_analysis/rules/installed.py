@@ -37,6 +37,8 @@ _NO_PROGRAM = re.compile(
     r"|cannot locate (rospack)\b"
 )
 """How `env`, shells and roslib say it of a program."""
+_NO_VARIABLE = re.compile(r"environment variable '(\w+)' is not set")
+"""How roslaunch says it, which a node may start."""
 _BETWEEN = re.compile(r"[/_.-]")
 _TEMPLATES = (".xacro", ".in", ".em", ".erb", ".jinja", ".jinja2", ".template")
 """What the name of a file has more of which a build makes the one without it."""
@@ -270,6 +272,8 @@ def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lac
 def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
     """What a program lacked, by what it printed before it ended."""
     for line in lines:
+        if found := _NO_VARIABLE.search(line):
+            return lack_of_variable(context, found[1])
         if found := _NO_PROGRAM.search(line):
             program = next(filter(None, found.groups()))
             near = nearest(program, _INTERPRETERS)

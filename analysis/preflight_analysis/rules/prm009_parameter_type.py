@@ -120,6 +120,8 @@ def _difference(value: Any, default: Any) -> tuple[Severity, Confidence, str] | 
         case str() if default:
             if isinstance(value, list | dict):
                 return "warning", "likely", ""
+        case list() | dict() if not default and isinstance(value, list | dict):
+            return "info", "possible", "; an empty default may stand for either"
         case list():
             if isinstance(value, str) and value.strip().startswith("["):
                 return "warning", "likely", '; a <param> is never a list: write <rosparam param="...">[...]</rosparam>'
@@ -154,7 +156,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a parameter whose value has another kind than the default with which a node reads it. It "
     "reports a text for a number, a list or a boolean, and a list for a single value. An integer for a float is valid. "
-    'Defaults that mean "not set" (`False`, `0`, an empty text) are not compared.',
+    'Defaults that mean "not set" (`False`, `0`, an empty text) are not compared. '
+    "A list for an empty dictionary is information.",
     why="Some nodes crash, some use the default, and some read `off` as true. For `roslaunch` the values `1e3`, "
     "`0x10` and `1_000` are texts.",
     example='<param name="rate" value="1e3"/> <!-- rospy.get_param("~rate", 10) -->',

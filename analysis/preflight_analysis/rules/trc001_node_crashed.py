@@ -28,6 +28,8 @@ _KILLED = re.compile(
     r"(?: +\(core dumped\))? +([^\s]+)"
 )
 
+_IN_LOG = "The traceback for the exception was written to the log file"
+"""The last line of a roslaunch that a node starts: its launch file is checked as others are."""
 _EXIT = re.compile(r"it ended with exit code \d+: ")
 _EXCEPTION = re.compile(r"\A(?:\w+\.)+\w+: (?=\S)")
 
@@ -51,6 +53,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or outcome.lacks is not None
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
+            or _IN_LOG in telling_line(outcome.stderr_tail)
             or any(e.speculative for e in interface.endpoints)
             or node.kind == "test"
             or "$(" in node.args
@@ -197,7 +200,7 @@ RULE = Rule(
     "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "
     "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
     "ignores. A module that the program reports as missing, an argument without a value, "
-    "a `<test>`, and a program that a signal kills in a shell script, are information too.",
+    "a `<test>`, a program that a signal kills in a shell script, and a `roslaunch` that fails, are information too.",
     why="With these parameters and arguments the node most likely exits on the robot too. What it does "
     "later is unknown.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',
