@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 from collections.abc import Awaitable, Callable
 from typing import TYPE_CHECKING
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
 
 _log = logging.getLogger(__name__)
+_TO_ASK = 1.0
+"""Seconds that a client has to ask again. VS Code forgets to, where its editor loses the focus just then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +40,7 @@ class Refresher:
         self._answered: dict[str, _Answered] = {}
         self._task: asyncio.Task[None] | None = None
         self._again = False
+        self._told = asyncio.Event()
         self.looks = 0
         """How often the answers may have become others so far."""
         server.after_analysis.append(self.look)
@@ -47,6 +51,7 @@ class Refresher:
         """What the client was told of a document, and how to ask for it again; `ask` gives None where it cannot.
         `asked` are the `looks` from before the answer was made: it may be out of date already."""
         self._answered[document.uri] = _Answered(document, answer, ask)
+        self._told.set()
         if asked != self.looks:
             self._compare_soon()
 
@@ -76,7 +81,13 @@ class Refresher:
                     break
 
     async def _ask(self) -> None:
-        try:
-            await self._refresh()
-        except Exception as error:
-            _log.info("the client did not refresh: %s", error)
+        for _ in range(2):
+            self._told.clear()
+            try:
+                await self._refresh()
+            except Exception as error:
+                _log.info("the client did not refresh: %s", error)
+                return
+            with contextlib.suppress(asyncio.TimeoutError):
+                await asyncio.wait_for(self._told.wait(), _TO_ASK)
+                return
