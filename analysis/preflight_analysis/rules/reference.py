@@ -43,6 +43,7 @@ _EVERY_ROOT = "\n\nIn a file that other files include, the finding is reported o
 _GENERATED = f"<!-- Written by `{COMMAND}`. Do not edit: the text is in the rule's file. -->\n"
 _ROS_VERSIONS = {(1, 2): "ROS 1 and ROS 2.", (1,): "ROS 1.", (2,): "ROS 2."}
 _SETTINGS = {
+    "knowledge": "[`knowledge`](../knowledge.md) says what the parameters of your own nodes mean.",
     "external": "`external.topics` names topics that other programs publish or subscribe to.",
     "nodes": "`nodes` describes nodes that cannot be run.",
     "roots": "`roots` names the launch files to launch, and their arguments.",

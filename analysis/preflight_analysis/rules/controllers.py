@@ -1,0 +1,145 @@
+"""The controllers of ros2_control that a launch has: what their parameters ask for, and who starts them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import Known, Meant, Settings, items_of, meant_by, own_params
+from preflight_analysis.evaluation.ros2.params import of_name
+from preflight_analysis.evaluation.ros2.spawners import (
+    MANAGER,
+    PACKAGE,
+    asked_of,
+    is_spawner,
+    with_spawned,
+    words_of,
+)
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.evaluation.value_places import value_place
+from preflight_analysis.findings.finding import Confidence
+from preflight_analysis.robot.model import Description
+from preflight_analysis.robot.of_launch import robots_of, unread_of
+from preflight_analysis.rules.rule import Context
+
+_TYPE = ".type"
+_NOT_STARTED = frozenset({"--inactive", "--stopped", "--load-only"})
+_UNLOADS = "unspawner"
+
+
+class Claim(NamedTuple):
+    """A joint that a controller has in its parameters, with the interfaces that it asks for of it."""
+
+    joint: str
+    interfaces: tuple[str, ...]
+    commands: bool
+    param: Param
+
+
+class Controller(NamedTuple):
+    """A controller that a manager has the type of. `spawner` is what loads it, None where nothing of the launch does,
+    and `is_active` whether that activates it, too."""
+
+    name: str
+    type: str
+    manager: str
+    given_to: str
+    """The name of the manager's node in the launch file."""
+    known: Known | None
+    claims: tuple[Claim, ...]
+    spawner: LaunchNode | None
+    is_active: bool
+
+    @property
+    def confidence(self) -> Confidence:
+        """How sure it is what the parameters mean."""
+        return "likely" if self.known is not None and self.known.is_used else "possible"
+
+
+def controllers_of(context: Context) -> tuple[Controller, ...]:
+    """Those of all managers of the launch; ask through `context.once`."""
+    if not context.tree.ros.ament:
+        return ()
+    spawned = _spawned(context.tree)
+    tree = with_spawned(context.tree, context.documents)
+    return tuple(
+        each
+        for node in tree.nodes_and_simulated
+        if (node.package, node.executable) == MANAGER
+        for each in _of_manager(context, node, spawned)
+    )
+
+
+def robot_of(context: Context, controller: Controller) -> Description | None:
+    """The description that the manager of a controller gets, else the one that is published in its namespace. None
+    where that is not one, or one of the launch is not known."""
+    robots = [robot for robot in robots_of(context.tree) if robot.description.kind == "robot"]
+    found = [robot for robot in robots if any(node.name == controller.given_to for node in robot.nodes)]
+    if not found and not unread_of(context.tree):
+        space = names.parent(controller.manager)
+        found = [robot for robot in robots if any(node.namespace == space for node in robot.nodes)]
+    return found[0].description if len(found) == 1 else None
+
+
+def managers_of(tree: LaunchTree) -> tuple[str, ...]:
+    """The full names of the controller managers of a launch."""
+    nodes = tree.nodes_and_simulated
+    return tuple(_name(node) for node in nodes if (node.package, node.executable) == MANAGER)
+
+
+def place_of(context: Context, param: Param, value: str) -> Location:
+    """Where the value of a parameter is written, or an item of its list; else where the parameter is."""
+    return value_place(param.place, value, context.documents.get(param.place.file)) or param.place
+
+
+def _name(manager: LaunchNode) -> str:
+    """The full name of a manager, which calls itself so where the launch file does not name it."""
+    named = manager.named or manager.name_from_code
+    return manager.name if named else names.join(manager.namespace, PACKAGE)
+
+
+def _spawned(tree: LaunchTree) -> Mapping[tuple[str, str], tuple[LaunchNode, bool]]:
+    """The spawner of each controller, by the names of manager and controller, and whether it activates it."""
+    found: dict[tuple[str, str], tuple[LaunchNode, bool]] = {}
+    unloads = any(node.package == PACKAGE and node.executable.startswith(_UNLOADS) for node in tree.nodes)
+    for node in tree.nodes:
+        asked = asked_of(node) if is_spawner(node) else None
+        for controller in asked.controllers if asked is not None else ():
+            active = _NOT_STARTED.isdisjoint(words_of(node.args)) and not unloads
+            found.setdefault((asked.manager, controller) if asked is not None else ("", ""), (node, active))
+    return found
+
+
+def _of_manager(
+    context: Context, manager: LaunchNode, spawned: Mapping[tuple[str, str], tuple[LaunchNode, bool]]
+) -> Iterator[Controller]:
+    name = _name(manager)
+    for param in manager.params:
+        if not param.name.endswith(_TYPE) or not isinstance(param.value, str):
+            continue
+        controller = param.name.removesuffix(_TYPE)
+        known = context.known.plugin(param.value, "controllers")
+        spawner, is_active = spawned.get((name, controller), (None, False))
+        node = of_name(manager, names.join(manager.namespace, controller), context.documents, inferred=False)
+        claims = tuple(_claims(context, known, node)) if known is not None else ()
+        yield Controller(controller, param.value, name, manager.name, known, claims, spawner, is_active)
+
+
+def _claims(context: Context, known: Known, node: LaunchNode) -> Iterator[Claim]:
+    params = own_params(node, node.params)
+    settings = Settings(known, params)
+    by_name = dict(params)
+    for each in meant_by(known, params, context.known):
+        param = each.param or by_name.get(str(each.meaning.default).removeprefix("$"))
+        is_claim = each.meaning.kind == "joint" and each.meaning.role in ("commanded", "read")
+        if is_claim and isinstance(each.value, str) and each.value and param is not None:
+            yield Claim(each.value, tuple(_interfaces(each, settings)), each.meaning.role == "commanded", param)
+
+
+def _interfaces(meant: Meant, settings: Settings) -> list[str]:
+    type_ = meant.meaning.type
+    if type_ is None:
+        return []
+    return items_of(settings.value(type_[1:])) if type_.startswith("$") else [type_]

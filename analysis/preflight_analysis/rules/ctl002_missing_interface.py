@@ -1,0 +1,59 @@
+"""CTL002: a controller claims an interface that the joint does not have.
+
+https://control.ros.org/jazzy/doc/ros2_control/hardware_interface/doc/hardware_interface_types_userdoc.html
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.controllers import Controller, controllers_of, place_of, robot_of
+from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
+from preflight_analysis.rules.problems import quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    for each in context.once(controllers_of):
+        robot = robot_of(context, each) if each.spawner is not None else None
+        systems = robot.systems if robot is not None else ()
+        if not systems:
+            continue
+        commands = {joint.name: set(joint.commands) for system in systems for joint in system.joints}
+        states = {joint.name: set(joint.states) for system in systems for joint in system.joints}
+        yield from _of_controller(rule, context, each, commands, states)
+
+
+def _of_controller(
+    rule: Rule, context: Context, controller: Controller, commands: dict[str, set[str]], states: dict[str, set[str]]
+) -> Iterator[Finding]:
+    for claim in controller.claims:
+        known = (commands if claim.commands else states).get(claim.joint)
+        kind = "command" if claim.commands else "state"
+        for interface in claim.interfaces if known is not None else ():
+            if known is None or interface in known:
+                continue
+            has = f"it has {quoted(sorted(known))}" if known else f"it has no {kind} interface"
+            yield rule.finding(
+                f"joint '{claim.joint}' has no {kind} interface '{interface}', which '{controller.name}' "
+                f"({controller.type}) claims; {has}",
+                place_of(context, claim.param, claim.joint),
+                confidence=controller.confidence,
+            )
+
+
+RULE = Rule(
+    id="CTL002",
+    name="missing-interface",
+    severity="error",
+    what="Checks for a command or state interface that a controller claims and that `<ros2_control>` in the robot "
+    "description does not give to the joint. The controller is one of ros2_controllers, and the launch spawns it.",
+    why="The controller manager refuses to activate the controller. The robot does not move.",
+    example='<joint name="left_wheel_joint">\n  <command_interface name="position"/>\n</joint>',
+    instead='<joint name="left_wheel_joint">\n  <command_interface name="velocity"/>\n</joint>',
+    references=(ROS2_CONTROL_URDF,),
+    settings=("knowledge",),
+    generations=(2,),
+    check=_check,
+)

@@ -1,0 +1,53 @@
+"""CTL005: a controller claims an interface of another controller that its manager does not have.
+
+https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/controller_chaining.html
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.controllers import controllers_of, place_of, robot_of
+from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    found = context.once(controllers_of)
+    for each in found:
+        others = {other.name for other in found if other.manager == each.manager}
+        robot = robot_of(context, each)
+        if each.spawner is None or robot is None:
+            continue
+        systems = robot.systems
+        parts = {part.name for system in systems for part in (*system.joints, *system.sensors, *system.gpios)}
+        for claim in each.claims:
+            controller, slash, _ = claim.joint.partition("/")
+            if not slash or not claim.commands or controller in others or claim.joint in parts or controller in parts:
+                continue
+            near = nearest(controller, others)
+            yield rule.finding(
+                f"chained controller '{controller}' does not exist: '{each.name}' claims '{claim.joint}'"
+                + (did_you_mean(near) if near is not None else f"; {each.manager} has {quoted(sorted(others))}"),
+                place_of(context, claim.param, claim.joint),
+                confidence=each.confidence,
+            )
+
+
+RULE = Rule(
+    id="CTL005",
+    name="chained-controller-missing",
+    severity="warning",
+    what="Checks for a joint of a controller that is named as an interface of another controller, with a slash, where "
+    "the controller manager has no controller of that name.",
+    why="The interface is never there, so the controller manager refuses to activate the controller.",
+    example="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_pd/left_wheel_joint]",
+    instead="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_pid/left_wheel_joint]",
+    references=(CONTROLLER_MANAGER,),
+    settings=("knowledge",),
+    generations=(2,),
+    check=_check,
+)

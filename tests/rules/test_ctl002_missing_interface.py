@@ -1,0 +1,43 @@
+"""CTL002: an interface that a joint does not have."""
+
+import pytest
+from support.check import check
+from support.controlled_robot import launch, spawner
+
+_BASE = """
+    controller_manager:
+      ros__parameters:
+        base: {type: diff_drive_controller/DiffDriveController}
+    base:
+      ros__parameters:
+        left_wheel_names: [left_wheel]
+"""
+_ARM = """
+    controller_manager:
+      ros__parameters:
+        arm: {type: joint_trajectory_controller/JointTrajectoryController}
+    arm:
+      ros__parameters:
+        command_interfaces: [velocity]
+        state_interfaces: [velocity, position]
+        joints: [left_wheel]
+"""
+
+
+def test_a_command_interface() -> None:
+    expected = (
+        "                           ^^^^^^^^^^ error[CTL002] joint 'left_wheel' has no command interface 'velocity', "
+        "which 'base' (diff_drive_controller/DiffDriveController) claims; it has 'position'"
+    )
+    check(launch(spawner("base"), params=f"{_BASE}{expected}", interface="position"))
+
+
+def test_a_state_interface_of_those_that_a_parameter_lists() -> None:
+    expected = "                 ^^^^^^^^^^ error[CTL002] joint 'left_wheel' has no state interface 'position'"
+    check(launch(spawner("arm"), params=f"{_ARM}{expected}"))
+
+
+@pytest.mark.silent
+def test_interfaces_that_are_there() -> None:
+    check(launch(spawner("base"), params=_BASE))
+    check(launch(spawner("arm"), params=_ARM.replace(", position", "")))

@@ -1,0 +1,37 @@
+"""CTL003: two controllers that claim one interface."""
+
+import pytest
+from support.check import check
+from support.controlled_robot import launch, spawner
+
+_PARAMS = """
+    controller_manager:
+      ros__parameters:
+        base: {type: diff_drive_controller/DiffDriveController}
+        wheels: {type: velocity_controllers/JointGroupVelocityController}
+    base:
+      ros__parameters:
+        left_wheel_names: [left_wheel]
+        right_wheel_names: [right_wheel]
+    wheels:
+      ros__parameters:
+        joints: [right_wheel]
+"""
+
+
+def test_both_are_activated() -> None:
+    second = spawner("wheels", "t")
+    expected = f"{'^' * len(second)} warning[CTL003] command interface 'right_wheel/velocity' is claimed by 'base'"
+    (found,) = check(launch(spawner("base"), f"{second}\n{expected}", params=_PARAMS))
+    assert [each.message for each in found.related] == ["'wheels' has the joint here", "'base' is spawned here"]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize("option", ["--inactive", "--load-only", "--stopped"])
+def test_one_is_only_loaded(option: str) -> None:
+    check(launch(spawner("base"), spawner(f"wheels {option}", "t"), params=_PARAMS))
+
+
+@pytest.mark.silent
+def test_other_joints() -> None:
+    check(launch(spawner("base wheels"), params=_PARAMS.replace("right_wheel_names: [right_wheel]", "")))

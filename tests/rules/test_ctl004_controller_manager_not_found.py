@@ -1,0 +1,28 @@
+"""CTL004: a spawner that asks another manager than there is."""
+
+import pytest
+from support.check import check
+from support.controlled_robot import launch, spawner
+
+_PARAMS = """
+    /**:
+      ros__parameters:
+        base: {type: my_controllers/Base}
+"""
+
+
+def test_a_manager_in_a_namespace() -> None:
+    tag = spawner("base -c /controller_manager")
+    text = "base -c /controller_manager"
+    expected = (
+        f"{' ' * tag.index(text)}{'^' * len(text)} warning[CTL004] controller manager '/controller_manager' is not in "
+        "this launch: /s waits for it; the launch has '/robot/controller_manager'"
+    )
+    check(launch(f"{tag}\n{expected}", params=_PARAMS, manager="/robot/controller_manager"))
+
+
+@pytest.mark.silent
+def test_the_manager_of_the_launch() -> None:
+    check(launch(spawner("base"), params=_PARAMS))
+    named = spawner("base -c /robot/controller_manager")
+    check(launch(named, params=_PARAMS, manager="/robot/controller_manager"))
