@@ -30,7 +30,7 @@ def test_what_newer_releases_have_given_up() -> None:
           ^^^^^^^^^^^^^^^^^^^^^^ info[LCH027] <master> is removed since ROS Fuerte; roslaunch ignores it
           <node pkg="tf" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 base laser 100"/>
                                ^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[LCH027] 'static_transform_publisher' of tf is
-          <node pkg="tf2_ros" type="static_transform_publisher" name="b" args="0 0 0 0 0 0 base laser"/>
+          <node pkg="tf2_ros" type="static_transform_publisher" name="b" args="0 0 0 0 0 0 base camera"/>
           <param name="use_gui" value="true"/>
                        ^^^^^^^ warning[LCH027] parameter 'use_gui' of joint_state_publisher is removed since ROS
           <node pkg="joint_state_publisher" type="joint_state_publisher" name="joints"/>
