@@ -36,6 +36,9 @@ class Executables:
     def is_build_target(self, package: str, name: str) -> bool:
         return False
 
+    def is_library_target(self, package: str, name: str) -> bool:
+        return False
+
     def made_of(self, package: str, name: str) -> None:
         return None
 

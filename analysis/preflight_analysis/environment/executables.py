@@ -56,6 +56,13 @@ class ExecutableIndex:
             return False
         return name in _words_of_lists(self._db, self._environment, package)
 
+    def is_library_target(self, package: str, name: str) -> bool:
+        """Whether a `CMakeLists.txt` of the package names the library (`vision` for `libvision.so`), likewise."""
+        if package not in self._environment.packages:
+            return False
+        built = _build(self._db, self._environment, package).library(name) is not None
+        return built or name in _words_of_lists(self._db, self._environment, package)
+
     def made_of(self, package: str, name: str) -> Made | None:
         """The file in the source of the package that the executable is made of, once it is built or installed."""
         return _build(self._db, self._environment, package).made_of(name)

@@ -295,4 +295,4 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
 def _building(context: Context, library: str) -> str | None:
     """The package that makes a library, as its build file says."""
     packages = context.environment.packages
-    return next((name for name in packages if context.executables.is_build_target(name, library)), None)
+    return next((name for name in packages if context.executables.is_library_target(name, library)), None)

@@ -40,6 +40,9 @@ class ExecutableNames(Executables, Protocol):
     def is_build_target(self, package: str, name: str) -> bool:
         """Whether building the package will make the executable."""
 
+    def is_library_target(self, package: str, name: str) -> bool:
+        """Whether building the package will make the library."""
+
     def names_are_all(self, package: str) -> bool:
         """Whether the package has no others than `names`, as far as its build files can be understood."""
 

@@ -116,7 +116,7 @@ def why_not_there(found: Interface, request: TraceRequest, environment: Environm
     if (lacking := _NO_LIBRARY.search(said)) is not None:
         library = os.path.basename(lacking[1]).removeprefix("lib").removesuffix(".so")
         own = any(package == each.name for each in workspace_packages(environment))
-        if own and ExecutableIndex(environment).is_build_target(package, library):
+        if own and ExecutableIndex(environment).is_library_target(package, library):
             return f"the library '{library}' of nodelet '{name}' is not built yet"
     elif (missing := _NO_CLASS.search(said)) is not None:
         # A class of nearly that name is the one that was meant.
