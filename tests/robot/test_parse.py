@@ -45,6 +45,13 @@ def test_what_is_no_robot() -> None:
     assert "line" not in broken.message.partition(" line ")[2]
 
 
+def test_what_xacro_has_yet_to_make_a_robot_of() -> None:
+    for within in ("<xacro:arm/>", '<link name="l"><xacro:box/></link>', '<link name="${side}_l"/>'):
+        raw = parse_description(f'<robot name="r" xmlns:xacro="http://wiki.ros.org/xacro">{within}</robot>')
+        assert (raw.kind, raw.links) == ("xacro", ())
+    assert parse_description('<robot xmlns:xacro="http://wiki.ros.org/xacro"><link name="l"/></robot>').kind == "robot"
+
+
 def test_entities_are_not_expanded() -> None:
     bomb = '<!DOCTYPE r [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><robot name="&b;"><link name="l">&b;</link></robot>'
     assert parse_description(bomb).links in ((), ("l",))

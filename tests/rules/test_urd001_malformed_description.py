@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from support.check import check, findings_of
+from support.check import apply, check, findings_of
 
 _LAUNCH = """
     <launch>
@@ -39,3 +39,28 @@ def test_what_is_taken(text: str) -> None:
 @pytest.mark.silent
 def test_a_command_that_was_not_run() -> None:
     check(_LAUNCH.format("", "{}"))
+
+
+_RAW = """
+    <launch>
+      <param name="robot_description" textfile="/p/arm.xacro"/>
+                   ^^^^^^^^^^^^^^^^^ warning[URD001] parameter '/robot_description' is raw xacro: no command
+    </launch>
+    //- /p/arm.xacro
+    {}
+"""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:base/><link name="arm"/>'
+        '<joint name="j" type="fixed"><parent link="base"/><child link="arm"/></joint></robot>',
+        '<robot><link name="${prefix}arm"/><link name="${prefix}base"/></robot>',
+    ],
+)
+def test_one_that_xacro_did_not_process_is_told_once(text: str) -> None:
+    fixture = _RAW.format(text)
+    (found,) = check(fixture)
+    said = apply(fixture, found.fixes[0].edits)["/main.launch"]
+    assert """name="robot_description" command="xacro '/p/arm.xacro'"/>""" in said

@@ -87,7 +87,8 @@ def _gaps(
     unread, unseen, unclear = list[str](), list[str](), list[str]()
     for node, interface, about, found in zip(nodes, interfaces, known, edges, strict=True):
         if is_state_publisher(node):
-            unread += [_named(node)] if _robot_of(tree, node) is None else []
+            robot = _robot_of(tree, node)
+            unread += [_named(node)] if robot is None or robot.description.kind != "robot" else []
         elif found or (about is not None and about.is_used):
             continue
         elif interface is None or not interface.known:

@@ -73,7 +73,8 @@ class Malformed:
 @dataclass(frozen=True, slots=True)
 class Description:
     """A robot description. Names are in the order of the text, repeated as there. `kind` is the tag of the root:
-    `robot` for URDF; of another one (`sdf`) nothing else is read, nor where the text is `malformed`."""
+    `robot` for URDF, `xacro` for what xacro has yet to make a URDF of. Of another one than `robot` (`sdf`) nothing
+    else is read, nor where the text is `malformed`."""
 
     kind: str
     name: str = ""

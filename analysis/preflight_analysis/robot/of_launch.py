@@ -60,7 +60,8 @@ def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
 
 
 def _unread(tree: LaunchTree) -> tuple[Param, ...]:
-    return tuple(param for param, _ in _params(tree) if isinstance(param.value, CommandValue))
+    raw = {id(robot.param) for robot in robots_of(tree) if robot.description.kind == "xacro"}
+    return tuple(param for param, _ in _params(tree) if isinstance(param.value, CommandValue) or id(param) in raw)
 
 
 def _params(tree: LaunchTree) -> Iterator[tuple[Param, tuple[LaunchNode, ...]]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -19,6 +20,8 @@ from preflight_analysis.robot.model import (
 )
 
 _KEPT = 32
+_XACRO = re.compile(r"\{http[^{}]*xacro/?\}")
+"""The namespaces that xacro has had, as lxml writes them before a tag (`xacro.XACRO_NS` of ROS 1 and ROS 2)."""
 _EMPTY = Description("")
 
 
@@ -46,6 +49,8 @@ def parse_description(text: str) -> Description:
         return _EMPTY
     if _tag(root) != "robot":
         return Description(_tag(root), _get(root, "name"))
+    if _is_raw(root):
+        return Description("xacro", _get(root, "name"))
     joints = tuple(map(_joint, _children(root, "joint")))
     gazebo = [(each, _get(each, "reference")) for each in _children(root, "gazebo")]
     meshes = (_get(mesh, "filename") for link in _children(root, "link") for mesh in link.iter("mesh"))
@@ -58,6 +63,13 @@ def parse_description(text: str) -> Description:
         tuple(map(_system, _children(root, "ros2_control"))),
         tuple(map(_transmission, _children(root, "transmission"))),
         tuple(_plugin(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
+    )
+
+
+def _is_raw(root: etree._Element) -> bool:
+    """Whether xacro did not process it: it leaves no element of its own, and computes each `${...}`."""
+    return any(_XACRO.match(_tag(each)) for each in root.iter()) or any(
+        "${" in _get(each, "name") for tag in ("link", "joint") for each in _children(root, tag)
     )
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.robot.model import Malformed
 from preflight_analysis.robot.of_launch import Robot, robots_of
 from preflight_analysis.robot.sources import files_of
-from preflight_analysis.rules.further_reading import URDF
+from preflight_analysis.rules.further_reading import URDF, XACRO
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.syntax import Tags
 
 _KINDS = ("robot", "sdf")
 """Tags of roots that robot_state_publisher takes; SDF by a plugin (sdformat_urdf)."""
@@ -24,6 +25,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         if description.malformed is not None:
             yield _malformed(rule, context, robot, description.malformed)
+        elif description.kind == "xacro":
+            yield _raw(rule, context, robot)
         elif description.kind and description.kind not in _KINDS:
             yield rule.finding(
                 f"root element of '{robot.param.name}' is <{description.kind}>, not <robot>",
@@ -49,17 +52,36 @@ def _malformed(rule: Rule, context: Context, robot: Robot, malformed: Malformed)
     return rule.finding(f"parameter '{robot.param.name}' is not well-formed XML: {malformed.message} ({where})", place)
 
 
+def _raw(rule: Rule, context: Context, robot: Robot) -> Finding:
+    """Nodes get what xacro was to read: its macros make no links, and its expressions are names for them."""
+    place = robot.param.place
+    tag = Tags(context.launch_files).around(place)
+    file = tag.action.attribute("textfile") if tag is not None else None
+    fixes: tuple[Fix, ...] = ()
+    if file is not None and "'" not in file.value.text:
+        edit = Edit(context.location(place.file, file.span), f"command=\"xacro '{file.value.text}'\"")
+        fixes = (Fix("Process it with xacro", (edit,), True),)
+    return rule.finding(
+        f"parameter '{robot.param.name}' is raw xacro: no command processes it",
+        place,
+        severity="warning",
+        related=include_chain(robot.param.origin),
+        fixes=fixes,
+    )
+
+
 RULE = Rule(
     id="URD001",
     name="malformed-description",
     severity="error",
     what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is neither "
-    "`<robot>` nor `<sdf>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file.",
+    "`<robot>` nor `<sdf>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file. "
+    "A description that xacro has yet to process is a warning, and the other rules do not read it.",
     why="`robot_state_publisher` ends with an error and publishes no frame. Controller managers and planners wait for "
     "a description or end too.",
     example='<param name="robot_description" textfile="$(find arm)/urdf/arm.yaml"/>',
     instead='<param name="robot_description" textfile="$(find arm)/urdf/arm.urdf"/>',
-    references=(URDF,),
+    references=(URDF, XACRO),
     check=_check,
     in_branches=True,
 )
