@@ -308,7 +308,8 @@ class LaunchedFileNotFound(UnreadablePath):
 
 
 class UnreadableInclude(UnreadablePath):
-    """An included file is binary, too large, a folder, not permitted to be read, or no launch file."""
+    """An included file is binary, too large, a folder, not permitted to be read, or no launch file of
+    the generation of ROS that includes it."""
 
     __slots__ = ()
 

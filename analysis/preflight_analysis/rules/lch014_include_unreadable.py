@@ -10,7 +10,7 @@ RULE = Rule(
     name="include-unreadable",
     severity="error",
     what="Checks for an `<include>` of a file that exists but cannot be used: a folder, binary, too large, without "
-    "permission, or no launch file.",
+    "permission, or no launch file. For a launch of ROS 1, a file of a ROS 2 package in the language of ROS 2 is none.",
     why="The launcher stops and starts nothing.",
     example='<include file="$(find camera)/launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',

@@ -8,6 +8,7 @@ from collections.abc import Set as AbstractSet
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.catalogued import in_catalogue
@@ -54,8 +55,10 @@ from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
+from preflight_analysis.launch.read import generation_of
 
 MAX_DEPTH = 150
 """Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
@@ -368,10 +371,25 @@ def _included(
         state.problem(IncludeCycle(path, (*above[above.index(path) :], path)), origin)
         return None
     found = state.read_launch_file(path)
+    if not isinstance(found, Unreadable) and _is_of_ros2(state.environment, path, found):
+        found = Unreadable(path, "is a launch file of ROS 2", "not-text")
     if isinstance(found, Unreadable):
         state.unreadable_include(path, found, origin)
         return None
     return found
+
+
+def _is_of_ros2(environment: Environment, path: str, launch_file: LaunchFile) -> bool:
+    """Whether a file speaks the language of ROS 2, in a package of it: what is wrong is the include alone."""
+    if not _has_marks_of_ros2(launch_file):
+        return False
+    package = package_around(environment, path)
+    return package is not None and package.is_ament
+
+
+@memoize_by_file
+def _has_marks_of_ros2(launch_file: LaunchFile) -> bool:
+    return generation_of(launch_file.document.path, launch_file.document.text) == 2
 
 
 def _check_machines(state: State) -> None:
