@@ -1,8 +1,11 @@
 """QOS001: publisher and subscriber of a topic whose QoS does not fit (ROS 2)."""
 
 import json
+from pathlib import Path
 
 import pytest
+from preflight_analysis.rules.registry import run_rules
+from support import package_elsewhere
 from support.check import check
 
 
@@ -70,3 +73,17 @@ def test_qos_that_fits_or_is_not_known() -> None:
                      "qos": {"scan": {"reliability": "best_effort"}}},
          "/map": {"subscribers": {"scan": "sensor_msgs/msg/LaserScan"}}}
     """)
+
+
+def test_a_display_of_rviz_is_a_warning(tmp_path: Path) -> None:
+    topic = "{Value: pointcloud, Reliability Policy: Reliable, Durability Policy: Transient Local}"
+    display = f"{{Class: rviz_default_plugins/PointCloud, Enabled: true, Topic: {topic}}}"
+    config = f"Visualization Manager: {{Displays: [{display}]}}"
+    text = """<launch>
+      <node pkg="rviz2" exec="send_lots_of_points_node"/>
+      <node pkg="rviz2" exec="rviz2" name="rviz" args="-d $(dirname)/a.rviz"/>
+    </launch>"""
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy", **{"a.rviz": config})
+    (finding,) = (each for each in run_rules(analysis.context) if each.rule == "QOS001")
+    assert (finding.severity, finding.confidence) == ("warning", "likely")
+    assert finding.location.file.endswith("/a.rviz")

@@ -1,8 +1,12 @@
 """TOP001: a node subscribes to what nobody publishes."""
 
 import json
+from pathlib import Path
 
 import pytest
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.registry import run_rules
+from support import package_elsewhere
 from support.check import apply, check, findings_of
 
 
@@ -433,3 +437,51 @@ def test_absence_after_a_made_up_answer_is_not_sure() -> None:
               "/m": {{"subscribers": {{"chater": "std_msgs/String"}}}}}}
         """)
         assert (finding.rule, finding.confidence) == ("TOP001", sure)
+
+
+_DISPLAY = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/LaserScan
+      Enabled: true
+      Topic:
+        Depth: 5
+        Value: /scna
+"""
+
+
+_BRIDGE = '<node pkg="ros_gz_bridge" exec="parameter_bridge" args="/scan@sensor_msgs/msg/LaserScan[gz.C"/>'
+
+
+def _findings_in_rviz(folder: Path, args: str, config: str, nodes: str = _BRIDGE) -> list[Finding]:
+    text = f'<launch>{nodes}<node pkg="rviz2" exec="rviz2" name="rviz" args="{args}"/></launch>'
+    analysis = package_elsewhere.analysed(folder, text, "a.launch.xml", **{"a.rviz": config})
+    return [finding for finding in run_rules(analysis.context) if finding.rule == "TOP001"]
+
+
+def test_a_near_miss_of_a_display_is_shown_in_the_configuration_of_rviz(tmp_path: Path) -> None:
+    (finding,) = _findings_in_rviz(tmp_path, "-d $(dirname)/a.rviz", _DISPLAY)
+    assert (finding.severity, finding.confidence) == ("warning", "possible")
+    assert "'/scna' has no publisher (subscriber: /rviz); did you mean '/scan'" in finding.message
+    (edit,) = finding.fixes[0].edits
+    span = edit.location.span
+    assert edit.location.file.endswith("/a.rviz")
+    assert _DISPLAY[: span.start] + edit.text + _DISPLAY[span.end :] == _DISPLAY.replace("/scna", "/scan")
+    assert _DISPLAY[finding.location.span.start :].startswith("Value: /scna")
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(("args", "enabled"), [("-d $(dirname)/a.rviz", "false"), ("", "true"), ("-d /b.rviz", "true")])
+def test_a_display_that_is_off_and_a_configuration_that_is_not_used(tmp_path: Path, args: str, enabled: str) -> None:
+    assert _findings_in_rviz(tmp_path, args, _DISPLAY.replace("Enabled: true", f"Enabled: {enabled}")) == []
+
+
+def test_a_display_without_a_publisher_is_a_hint(tmp_path: Path) -> None:
+    (finding,) = _findings_in_rviz(tmp_path, "-d $(dirname)/a.rviz", _DISPLAY.replace("/scna", "/rear/points"))
+    assert finding.severity == "hint"
+    assert "same type" not in finding.message
+
+
+@pytest.mark.silent
+def test_rviz_alone(tmp_path: Path) -> None:
+    assert _findings_in_rviz(tmp_path, "-d $(dirname)/a.rviz", _DISPLAY, nodes="") == []

@@ -1,6 +1,10 @@
 """TOP003: publisher and subscriber of a topic have different types."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.rules.registry import run_rules
+from support import package_elsewhere
 from support.action_interfaces import server
 from support.check import check, findings_of
 
@@ -100,3 +104,15 @@ def test_a_type_as_either_generation_spells_it() -> None:
         //- interfaces
         {"/a": {"publishers": {"/pose": "x/msg/Pose"}}, "/b": {"subscribers": {"/pose": "x/Pose"}}}
     """)
+
+
+def test_a_display_of_another_type_is_a_warning(tmp_path: Path) -> None:
+    config = (
+        "Visualization Manager: {Displays: [{Class: rviz_default_plugins/Path, Enabled: true, Topic: {Value: /scan}}]}"
+    )
+    bridge = '<node pkg="ros_gz_bridge" exec="parameter_bridge" args="/scan@sensor_msgs/msg/LaserScan[gz.C"/>'
+    text = f'<launch>{bridge}<node pkg="rviz2" exec="rviz2" name="rviz" args="-d $(dirname)/a.rviz"/></launch>'
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", **{"a.rviz": config})
+    (finding,) = (each for each in run_rules(analysis.context) if each.rule == "TOP003")
+    assert (finding.severity, finding.confidence) == ("warning", "likely")
+    assert finding.location.file.endswith("/a.rviz")

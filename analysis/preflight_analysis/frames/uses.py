@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -10,21 +9,19 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.documents.disk import Disk, text_of
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.evaluation.meanings import Known, KnownMeanings, meant_by, own_params
+from preflight_analysis.evaluation.rviz import rviz_config_of
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.frames.edges import plain, space_of
 from preflight_analysis.frames.model import Mention, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.tracing.interface import Interface
-from preflight_analysis.tracing.request import split_args
 
 _LEGAL = re.compile(r"/*[A-Za-z_][\w/.-]*\Z")
 _NAMES_A_FRAME = re.compile(r"(?:^|[._/])(?:\w*_)?frame(?:_?id|_?name)?$|[a-z]Frame(?:Id|ID|Name)?$")
 """The last part of the name of a parameter that has a frame for its value, whatever node has it."""
 _ASKED = re.compile(r"transform (\S+) <- (\S+?)(?: again and again)?, and was given")
 _FIXED_FRAME = re.compile(r"^ +Fixed Frame: *[\"']?([^\"'\s#]+)", re.MULTILINE)
-_RVIZ = (("rviz2", "rviz2"), ("rviz", "rviz"))
-_CONFIG = ("-d", "--display-config")
 
 
 def uses_of_node(
@@ -77,11 +74,8 @@ def is_frame(value: object) -> bool:
 
 def fixed_frame(node: LaunchNode, disk: Disk, generation: int) -> Use | None:
     """The fixed frame of the configuration that RViz is started with."""
-    if (node.package, node.executable) not in _RVIZ or node.unknowns:
-        return None
-    words = split_args(node.args)
-    path = next((value for word, value in itertools.pairwise(words) if word in _CONFIG), None)
-    if path is None or not os.path.isabs(path):
+    path = rviz_config_of(node)
+    if path is None:
         return None
     frame = _fixed_frame(disk.db, path)
     if frame is None or not is_frame(frame):

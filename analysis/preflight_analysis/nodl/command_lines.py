@@ -1,5 +1,5 @@
-"""Topics that nodes are given by their command lines: those of topic_tools, of bridges to Gazebo, rostopic's, and
-image_transport's.
+"""Topics that nodes are given by their command lines: those of topic_tools, of bridges to Gazebo, rostopic's,
+image_transport's, and of the configuration of RViz.
 
 http://wiki.ros.org/topic_tools, https://github.com/ros-tooling/topic_tools, http://wiki.ros.org/rostopic,
 https://docs.ros.org/en/jazzy/p/ros_gz_image/, http://wiki.ros.org/image_transport. Such a node takes any type, and its
@@ -16,10 +16,12 @@ from itertools import compress
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.bridges import config_file_of, is_bridge
+from preflight_analysis.evaluation.rviz import rviz_config_of
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.bridges import bridged
+from preflight_analysis.nodl.rviz import displayed
 from preflight_analysis.tracing.interface import Endpoint, Interface, Role
 from preflight_analysis.tracing.request import split_args
 
@@ -38,8 +40,9 @@ _TRANSPORTED = {
 def with_command_lines(
     tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document], kept: Kept
 ) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order, with what their command lines name, and the files of bridges."""
-    files = [documents.get(config_file_of(node) or "") if is_bridge(node) else None for node in tree.nodes]
+    """The interfaces of the nodes of `tree`, in order, with what their command lines name, and the files of bridges and
+    of RViz."""
+    files = [documents.get(_file_of(node) or "") for node in tree.nodes]
     found = kept.each_row(_endpoints, (tree.nodes, files), tree.ros.kinds_in_types)
     if not any(found):
         return interfaces
@@ -51,14 +54,22 @@ def with_command_lines(
             if tree.nodes[at].package == _IMAGES:
                 others = tuple(end for end in whole[at].endpoints if end.name not in _ENDS)
                 whole[at] = replace(whole[at], endpoints=(*others, *endpoints), source=source)
+            elif files[at] is not None and not is_bridge(tree.nodes[at]):
+                whole[at] = whole[at].with_more(source, endpoints, ())
             else:
                 whole[at] = replace(whole[at].with_more(source, endpoints, ()), whole=True)
     return whole
 
 
+def _file_of(node: LaunchNode) -> str | None:
+    return config_file_of(node) if is_bridge(node) else rviz_config_of(node)
+
+
 def _endpoints(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> tuple[Endpoint, ...]:
     if is_bridge(node):
         return tuple(bridged(node, config, kinds_in_types))
+    if config is not None:
+        return displayed(config, kinds_in_types)
     made = _MAKING.get(node.package)
     if made is None or node.unknowns:
         return ()

@@ -465,7 +465,9 @@ def _connection(connection: Connection, interface: Interface) -> str:
         text += f" {code(endpoint.type)}"
     if connection.remap is not None:
         text += f", remapped from {code(endpoint.name)}"
-    if endpoint.named_by is not None:
+    if endpoint.named_by is not None and endpoint.named_by.display:
+        text += f", of the display {code(endpoint.named_by.display)}"
+    elif endpoint.named_by is not None:
         text += f", named by the parameter {code(endpoint.named_by.parameter)}"
     text += _quality(endpoint)
     if endpoint.speculative:

@@ -15,10 +15,10 @@ from preflight_analysis.evaluation.ros2.spawners import (
     asked_of,
     is_spawner,
     with_spawned,
-    words_of,
 )
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.value_places import value_place
+from preflight_analysis.evaluation.words import words_of
 from preflight_analysis.findings.finding import Confidence
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import robots_of, unread_of

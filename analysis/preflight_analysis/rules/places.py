@@ -96,6 +96,8 @@ def related_param_read(read: ParamRead) -> Related:
 def _how_known(what: Endpoint | ParamUse) -> str:
     if what.similar:
         return " (from a run with other settings)"
+    if isinstance(what, Endpoint) and what.displayed:
+        return " (from its configuration)"
     if what.catalogued:
         return f" (from {what.catalogued})"
     return " (from its source)" if what.inferred else ""

@@ -13,8 +13,9 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.conditions import named_arguments
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
-from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_spawner, words_of
+from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.evaluation.words import words_of
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER

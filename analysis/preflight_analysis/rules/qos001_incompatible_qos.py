@@ -39,7 +39,7 @@ def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:
 def _finding(
     rule: Rule, channel: Channel, provider: Connection, consumer: Connection, problem: tuple[str, str]
 ) -> Finding:
-    assumed = consumer.endpoint.assumed or provider.endpoint.assumed
+    assumed = consumer.endpoint.assumed or consumer.endpoint.displayed or provider.endpoint.assumed
     return rule.finding(
         f"incompatible QoS on '{channel.name}': {provider.node.name} publishes {problem[0]}, "
         f"{consumer.node.name} requests {problem[1]}",
@@ -77,7 +77,8 @@ RULE = Rule(
     name="incompatible-qos",
     severity="error",
     what="Checks for a publisher and a subscriber of one topic with incompatible QoS: the subscriber requests more "
-    "than the publisher offers. It compares reliability, durability, liveliness and deadline.",
+    "than the publisher offers. It compares reliability, durability, liveliness and deadline. The finding is a "
+    "warning if the subscriber is a display in the configuration of RViz.",
     why="The middleware does not connect them, and no message arrives. At best each side logs a line about "
     "incompatible QoS.",
     example="<!-- the driver publishes /scan as best effort, the filter subscribes to it as reliable -->\n"

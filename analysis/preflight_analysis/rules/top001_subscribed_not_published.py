@@ -35,6 +35,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     explained = {id(pair.consumer) for pair in near} | remapped
     others = [each for each in dangling_consumers(context, "topics") if id(each) not in explained]
+    if len(graph.tree.nodes) == 1:
+        # RViz alone shows what another launch publishes.
+        others = [each for each in others if not each.endpoint.displayed]
     if others:
         elsewhere = context.once(used_elsewhere)
         for each in others:
@@ -42,7 +45,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield elsewhere_finding(rule, context, each, _lone_message(unknown, each), elsewhere[id(each)])
         others = [each for each in others if id(each) not in elsewhere]
         dangling = by_type(context, "topics", context.once(dangling_topic_providers))
-        of_types = [dangling.get(each.endpoint.type, ()) for each in others]
+        # Of what a display might show instead its type says nothing.
+        of_types = [() if each.endpoint.displayed else dangling.get(each.endpoint.type, ()) for each in others]
         lone = context.kept.each_row(lone_of_type, (others, of_types))
         yield from context.kept.each_row(_hint, (others, lone), rule, unknown, graph.complete)
 

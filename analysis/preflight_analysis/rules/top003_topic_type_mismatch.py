@@ -47,7 +47,8 @@ RULE = Rule(
     name="topic-type-mismatch",
     severity="error",
     what="Checks for a topic whose publisher and subscriber have different types, or different definitions (MD5 "
-    "sums) of one type. `*` matches any type. It also checks for one node that uses a topic with two types.",
+    "sums) of one type. `*` matches any type. It also checks for one node that uses a topic with two types. The "
+    "finding is a warning if the subscriber is a display in the configuration of RViz.",
     why="The two nodes refuse to connect, with one line in a log. No message arrives.",
     example="<!-- /pose: geometry_msgs/Pose published, geometry_msgs/PoseStamped subscribed -->\n"
     '<remap from="goal" to="/pose"/>',

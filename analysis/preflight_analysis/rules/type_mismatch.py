@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
-from preflight_analysis.findings.finding import Confidence, Finding
+from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.rules.channels import channels_of, of_all_kinds
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
@@ -30,7 +30,7 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
             f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} "
             f"{consumer.endpoint.type or 'an unknown type'}{difference}",
             connection_location(site),
-            severity="info" if _is_doubtful(consumer.endpoint, provider.endpoint) else None,
+            severity=_severity(consumer.endpoint, provider.endpoint),
             confidence=_confidence(graph, consumer, provider),
             related=(
                 related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
@@ -38,6 +38,13 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
             ),
             endpoints=endpoints_of(consumer, provider),
         )
+
+
+def _severity(consumer: Endpoint, provider: Endpoint) -> Severity | None:
+    """None for that of the rule. The robot moves without what a display shows."""
+    if _is_doubtful(consumer, provider):
+        return "info"
+    return "warning" if consumer.displayed else None
 
 
 def _is_doubtful(one: Endpoint, other: Endpoint) -> bool:
@@ -111,6 +118,6 @@ def _confidence(graph: Graph, *connections: Connection) -> Confidence:
     for connection in connections:
         index = next(i for i, node in enumerate(graph.tree.nodes) if node is connection.node)
         endpoint = connection.endpoint
-        if endpoint.speculative or endpoint.stood_in or graph.interfaces[index].source != "trace":
+        if endpoint.speculative or endpoint.displayed or endpoint.stood_in or graph.interfaces[index].source != "trace":
             return "likely"
     return "certain"

@@ -35,10 +35,12 @@ Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar",
 
 
 class NamedBy(NamedTuple):
-    """The parameter whose value is the name of an endpoint, and where that value is written."""
+    """The parameter whose value is the name of an endpoint, and where that value is written. `display` is the name of
+    the display of RViz whose property it is, in the configuration that the launch starts RViz with."""
 
     parameter: str
     place: Location
+    display: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +88,14 @@ class Endpoint:
         return self.similar or (self.inferred and self.conditional) or self.of_other_distribution
 
     @property
+    def displayed(self) -> bool:
+        """Whether a display of RViz makes it, which its user turns on and off."""
+        return self.named_by is not None and self.named_by.display != ""
+
+    @property
     def uncertain(self) -> bool:
         """Whether the real node may well not make it."""
-        return self.speculative or self.on_demand or self.assumed
+        return self.speculative or self.on_demand or self.assumed or self.displayed
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,6 +51,7 @@ from preflight_analysis.evaluation.ros1.tags import (
     evaluate_remap,
     namespace_of,
 )
+from preflight_analysis.evaluation.rviz import note_configs_of_rviz
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
 from preflight_analysis.incremental.database import Database
@@ -100,6 +101,7 @@ def evaluate(
         state.args = declared_args(scope, found)
         if (asked_for := names_asked_for(found)) is not None:
             report_undeclared(state, found, args, asked_for)
+    note_configs_of_rviz(state, state.nodes)
     _check_machines(state)
     if not outline:
         _check_language(state)

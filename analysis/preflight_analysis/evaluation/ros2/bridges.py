@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from preflight_analysis.evaluation.ros2.spawners import words_of
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.words import words_of
 
 if TYPE_CHECKING:
     from preflight_analysis.evaluation.ros2.state import State

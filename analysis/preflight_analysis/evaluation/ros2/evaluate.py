@@ -25,6 +25,7 @@ from preflight_analysis.evaluation.ros2.required import check_required, report_m
 from preflight_analysis.evaluation.ros2.simulated import note_files_of_spawners, simulated_managers
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk
+from preflight_analysis.evaluation.rviz import note_configs_of_rviz
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.launch.configurations import IMPLICIT
@@ -63,6 +64,7 @@ def evaluate_ros2(
         _launch(path, args, variables or {}, state)
     note_files_of_spawners(state)
     note_files_of_bridges(state)
+    note_configs_of_rviz(state, state.nodes)
     simulated = simulated_managers(state)
     return LaunchTree(
         os.path.normpath(path),

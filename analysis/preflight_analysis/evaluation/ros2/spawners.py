@@ -8,7 +8,6 @@ manager the parameter files of its controllers and their types (`NAME.type`, `ro
 from __future__ import annotations
 
 import os
-import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -17,6 +16,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, ParamSource, Remap
+from preflight_analysis.evaluation.words import words_of
 
 PACKAGE = "controller_manager"
 MANAGER = (PACKAGE, "ros2_control_node")
@@ -92,14 +92,6 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
             controllers.append(word)
     named = names.resolve(manager, spawner.name)
     return Asked(named, tuple(controllers), tuple(filter(None, files)), type_ or None, tuple(remaps), plain)
-
-
-def words_of(text: str) -> list[str]:
-    """The words of a command line; split at blanks where a quote is left open."""
-    try:
-        return shlex.split(text)
-    except ValueError:
-        return text.split()
 
 
 def _remaps(first: str, words: Iterator[str]) -> list[tuple[str, str]]:
