@@ -95,7 +95,7 @@ def test_qos(offered: str, requested: str, text: str | None) -> None:
 
 def test_another_domain() -> None:
     chain = only(ros2(b='<env name="ROS_DOMAIN_ID" value="7"/>'))
-    assert broken(chain) == ("environment", "ROS_DOMAIN_ID differs: /a has the default, /b has 7")
+    assert broken(chain) == ("environment", "ROS_DOMAIN_ID differs: /a has 0, /b has 7")
 
 
 def test_one_domain_for_all() -> None:
@@ -106,7 +106,7 @@ def test_a_master_of_its_own() -> None:
     chain = only(ros1(a='<env name="ROS_MASTER_URI" value="http://other:11311"/>'))
     assert broken(chain) == (
         "environment",
-        "ROS_MASTER_URI differs: /a has http://other:11311, /b has the default",
+        "ROS_MASTER_URI differs: /a has http://other:11311, /b has http://localhost:11311",
     )
 
 

@@ -15,6 +15,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.graph.domains import differences, domain_of, processes_of
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.qos import policies
 from preflight_analysis.rules.nearest import nearest
@@ -26,18 +27,6 @@ State = Literal["ok", "broken", "unknown"]
 
 KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
 _NOUN: Mapping[ChannelKind, str] = {"topics": "topic", "services": "service", "actions": "action"}
-_SEPARATING = {
-    1: ("ROS_MASTER_URI",),
-    2: (
-        "ROS_DOMAIN_ID",
-        "RMW_IMPLEMENTATION",
-        "ROS_AUTOMATIC_DISCOVERY_RANGE",
-        "ROS_LOCALHOST_ONLY",
-        "ROS_STATIC_PEERS",
-    ),
-}
-"""By generation the variables that keep nodes apart where they differ: the master of ROS 1; domain, middleware and
-discovery of ROS 2 (https://docs.ros.org/en/rolling/Tutorials/Advanced/Improved-Dynamic-Discovery.html)."""
 _LIFECYCLE = "LCH035"
 _LISTED = 8
 """Names in one text."""
@@ -224,7 +213,7 @@ def _chain(analysis: Analysis, graph: Graph, kind: ChannelKind, provider: Connec
         _name(analysis, kind, provider, consumer),
         _type(provider, consumer),
         *(_qos(provider, consumer) if kind == "topics" and graph.tree.ros.has_qos else ()),
-        *_environment(analysis, provider.node, consumer.node),
+        *_environment(analysis, graph, provider.node, consumer.node),
         *_clock(graph, consumer.node),
     )
     channel = consumer.name if provider.name == consumer.name else None
@@ -334,17 +323,17 @@ def qos_links(
         yield Link("qos", states[policy.fit], text, place)
 
 
-def _environment(analysis: Analysis, provider: LaunchNode, consumer: LaunchNode) -> Iterator[Link]:
-    for name in _SEPARATING[analysis.tree.generation]:
-        mine, theirs = (
-            dict(node.env).get(name, analysis.environment.variables.get(name)) for node in (consumer, provider)
-        )
-        if mine != theirs:
-            text = (
-                f"{name} differs: {provider.name} has {theirs or 'the default'}, "
-                f"{consumer.name} has {mine or 'the default'}"
-            )
-            yield Link("environment", "broken", text, consumer.location)
+def _environment(analysis: Analysis, graph: Graph, provider: LaunchNode, consumer: LaunchNode) -> Iterator[Link]:
+    processes = {id(node): process for node, process in zip(graph.tree.nodes, processes_of(graph.tree), strict=True)}
+    mine, theirs = (
+        domain_of(processes[id(node)], analysis.environment.variables, graph.tree.generation)
+        for node in (consumer, provider)
+    )
+    if mine is None or theirs is None:
+        return
+    for each in differences(theirs, mine):
+        text = f"{each.variable} differs: {provider.name} has {each.one}, {consumer.name} has {each.other}"
+        yield Link("environment", "broken", text, consumer.location)
 
 
 def _clock(graph: Graph, consumer: LaunchNode) -> Iterator[Link]:

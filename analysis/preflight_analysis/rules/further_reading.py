@@ -19,6 +19,7 @@ CONTROLLER_MANAGER = (
     "[ros2_control: Controller manager]"
     "(https://control.ros.org/master/doc/ros2_control/controller_manager/doc/userdoc.html)"
 )
+DOMAINS = f"[ROS 2: The ROS_DOMAIN_ID]({_DOCS}/Concepts/Intermediate/About-Domain-ID.html)"
 FILE_SYSTEM = f"[REP 122: Filesystem hierarchy layout]({_REP}/rep-0122.html)"
 FORMATS = (
     f"[ROS 2: Using XML, YAML, and Python for launch files]({_DOCS}/How-To-Guides/Launch-file-different-formats.html)"
