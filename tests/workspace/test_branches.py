@@ -145,6 +145,33 @@ def test_what_a_branch_implies_counts() -> None:
     )
 
 
+def test_what_a_branch_implies_below_a_condition_of_another_argument_is_in_doubt() -> None:
+    (found,) = check(
+        """
+        <launch>
+          <arg name="version" default="one"/>
+          <arg name="can" default="true"/>
+          <group if="$(eval version == 'two')"><include file="/effector.launch"/></group>
+          <group if="$(arg can)">
+            <include file="/can.launch"><arg name="version" value="$(arg version)"/></include>
+          </group>
+        </launch>
+        //- /effector.launch
+        <launch/>
+        //- /can.launch
+        <launch>
+          <arg name="version"/>
+          <rosparam file="$(find p)/$(arg version)/can.yaml" command="load"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] 'p/two/can.yaml' does not exist (if version:
+        </launch>
+        //- /p/one/can.yaml
+        {}
+        """,
+        branches=True,
+    )
+    assert found.confidence == "possible"
+
+
 def test_a_condition_that_cannot_be_read_backwards_is_assumed_and_in_doubt() -> None:
     findings = check(
         """

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import field, replace
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -24,8 +25,9 @@ from preflight_analysis.evaluation.inversion import Assignment, assignments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.incremental.query import Input
-from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.rules.problems import INCLUDED_HERE
+from preflight_analysis.rules.syntax import CONDITIONS
 from preflight_analysis.workspace.index import Root
 
 MAX_WHAT_IFS = 24
@@ -134,6 +136,8 @@ class _Search:
                     break
                 if takes(what_if.tree, left_out):
                     found = (each for each in what_if.found if not _is_given(each, what_if.documents))
+                    others = {name for name, text in wanted.items() if self._given.get(name) != text}
+                    found = (_unsure_of_others(each, left_out, others, what_if) for each in found)
                     self._note(found, _shown(wanted, self._given), what_if.documents)
                     queue.extend((wanted, what_if.tree, each) for each in _open(what_if.tree))
                     break
@@ -267,6 +271,37 @@ def _under(finding: Finding, condition: str) -> Finding:
 def _doubted(finding: Finding) -> Finding:
     less = SEVERITIES[max(0, SEVERITIES.index(finding.severity) - 1)]
     return replace(finding, severity=less, confidence="possible")
+
+
+def _unsure_of_others(finding: Finding, left_out: NotTaken, changed: AbstractSet[str], what_if: WhatIf) -> Finding:
+    """It as information where a value that is made of arguments stands outside of the tag that was left out,
+    below a condition of another argument than those that were changed: who changes these may change that one with them,
+    as a robot of another version has no such bus."""
+    if not _depends_beside(finding, left_out, what_if.documents):
+        return finding
+    chain = (related.location for related in finding.related if related.message == INCLUDED_HERE)
+    for place in (finding.location, *chain):
+        launch_file = what_if.launch_files.get(place.file)
+        for action in _around(launch_file.root if launch_file is not None else None, place):
+            conditions = (value for kind in CONDITIONS if (value := action.value(kind)) is not None)
+            if any((named := named_arguments(value)) and changed.isdisjoint(named) for value in conditions):
+                return replace(finding, severity="info", confidence="possible")
+    return finding
+
+
+def _depends_beside(finding: Finding, left_out: NotTaken, documents: Mapping[str, Document]) -> bool:
+    """Whether it is of a value that is made of arguments, outside of the tag that was left out."""
+    if finding.rule in _OF_ARGUMENTS or _stands_in(finding, left_out):
+        return False
+    return _ARGUMENT.search(_text(finding, documents)) is not None
+
+
+def _around(action: Action | None, place: Location) -> Iterator[Action]:
+    """The tags that a place is in, from the outside."""
+    while action is not None:
+        yield action
+        inside = (child for child in action.children if child.span.start <= place.span.start < child.span.end)
+        action = next(inside, None)
 
 
 def _is_given(finding: Finding, documents: Mapping[str, Document]) -> bool:
