@@ -15,7 +15,7 @@ def test_what_comes_with_it_is_right(package: str) -> None:
     found = knowledge_of(package)
     assert found is not None
     assert (found.package, found.problems) == (package, ())
-    assert {"repository", "commit", "files"} <= found.source.keys()
+    assert {"repository", "branch", "commit", "files"} <= found.source.keys()
     for entry in found.entries:
         assert entry.distributions
         assert KNOWN.issuperset(entry.distributions)
@@ -34,6 +34,7 @@ entries:
   - executables: [driver]
     parameters:
       scan_topic: {topic: publisher, type: sensor_msgs/LaserScan, default: scan}
+      publish_tf: {default: true}
       speed.topic: {topic: subscriber, type: {stamped: {"true": a/B, "false": c/D}}}
     broadcasts:
       - {parent: odom_frame, child: =base_link, when: {publish_tf: true}}
@@ -44,6 +45,7 @@ entries:
     assert entry.names == {"executables": ("driver",)}
     assert entry.meanings == (
         Meaning("scan_topic", "topic", "publisher", "sensor_msgs/LaserScan", default="scan"),
+        Meaning("publish_tf", "value", default=True),
         Meaning("speed.topic", "topic", "subscriber", type_by={"stamped": {"true": "a/B", "false": "c/D"}}),
     )
     assert entry.frames == (Frames("odom_frame", "=base_link", when={"publish_tf": True}),)
@@ -64,7 +66,7 @@ entries:
             "value of 'topic'",
         ),
         ("package: p\nentries:\n- executables: [e]\n  parameters:\n    x: {type: a/B}", 5, "'x' needs one of"),
-        ("package: p\nentries:\n- executables: [e]\n  parameters:\n    x: {frame: used, joint: used}", 5, "not both"),
+        ("package: p\nentries:\n- executables: [e]\n  parameters:\n    x: {frame: used, joint: read}", 5, "not both"),
         ("package: p\nentries:\n- executables: [e]\n  broadcasts: [{parent: a}]", 4, "needs parent and child"),
         ("package: [", 1, ""),
         ("package: p\nsource: !!python/name:os", 2, ""),

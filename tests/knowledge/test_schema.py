@@ -37,6 +37,8 @@ def test_the_example_of_the_page_fits() -> None:
         "{package: p, entries: [{executables: [e], parameters: {x: {topic: reader}}}]}",
         "{package: p, entries: [{executables: [e], parameters: {x: {type: a/B}}}]}",
         "{package: p, entries: [{executables: [e], broadcasts: [{parent: a}]}]}",
+        "{package: p, entries: [{executables: [e], parameters: {x: {file: map}}}]}",
+        "{package: p, entries: [{executables: [e], parameters: {x: {default: t, type: a/B}}}]}",
         "{package: p, more: 1}",
     ],
 )

@@ -11,26 +11,17 @@ from typing import Any, Literal
 
 from preflight_analysis.dataclass import dataclass
 
-Kind = Literal[
-    "topic", "service", "action", "frame", "joint", "interface", "controller", "plugin", "file", "node", "list", "value"
-]
+Kind = Literal["topic", "service", "action", "frame", "joint", "plugin", "value"]
 ROLES: Mapping[Kind, tuple[str, ...]] = {
     "topic": ("publisher", "subscriber"),
     "service": ("server", "client"),
     "action": ("server", "client"),
-    "frame": ("used", "named", "prefix"),
-    "joint": ("used", "commanded", "read", "optional"),
-    "interface": ("command", "state", "both"),
-    "controller": ("name", "namespace"),
-    "plugin": (),
-    "file": (),
-    "node": ("name",),
-    "list": (),
-    "value": (),
+    "frame": ("used", "named"),
+    "joint": ("commanded", "read"),
+    "plugin": ("type",),
 }
-"""What each kind of value may be for; any word where nothing is listed. A frame that is `used` has to be there, one
-that is `named` is only written into messages, `prefix` is put before the names of others. A joint is `commanded` or
-`read` by a controller, `optional` where another one may stand in for it."""
+"""What each kind of value is for. A frame that is `used` has to be there, one that is `named` is only written into
+messages. A joint is `commanded` or `read` by a controller. A `value` is for nothing by itself; its default counts."""
 EntryKind = Literal["executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins"]
 ENTRY_KINDS: tuple[EntryKind, ...] = (
     "executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins",
@@ -41,12 +32,12 @@ ENTRY_KINDS: tuple[EntryKind, ...] = (
 class Meaning:
     """What the values of the parameters of a pattern stand for.
 
-    `pattern` has the names of parameters with dots between: `odom{N}` stands for `odom0`, `odom1`, ...; `{topics}.type`
-    for `front.type` where the parameter `topics` lists `front`; `*` for one name or for each item of a list. `role` is
-    one of `ROLES`; of a plugin its base class, of a file what kind of one, of a list what each item's section has to
-    have. `type` is that of a topic, service or action as `package/Name`; `type_by` has it by the value of another
-    parameter. `default` is the value where the parameter is not set, `$x` that of the parameter `x`. `when` are values
-    that other parameters must have, one of several where it is a list; `!x` is any value but `x`.
+    `pattern` has the names of parameters with dots between: `odom{N}` stands for `odom0`, `odom1`, ...;
+    `{topics}.type` for `front.type` where the parameter `topics` lists `front`; `*` for one name or for each item of
+    a list. `role` is one of `ROLES`. `type` is that of a topic, service or action as `package/Name`, of a joint its
+    interfaces; `type_by` has it by the value of another parameter. `default` is the value where the parameter is not
+    set, `$x` that of the parameter `x`. `when` are values that other parameters must have, one of several where it is
+    a list; `!x` is any value but `x`.
     """
 
     pattern: str
@@ -55,7 +46,6 @@ class Meaning:
     type: str | None = None
     type_by: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     default: Any = None
-    required: bool = False
     when: Mapping[str, Any] = field(default_factory=dict)
     qos: Mapping[str, Any] = field(default_factory=dict)
     append: str = ""
@@ -76,15 +66,14 @@ class Frames:
 class Entry:
     """What is known of some executables, components, ... of a package: `names` has them by their kind.
 
-    `base` is the base class of plugins, `within` what other nodes there are in the process, by their full name below
-    the namespace of the process, with the component or plugin that says what they are.
+    `within` has what other nodes there are in the process, by their full name below the namespace of the process, with
+    the component or plugin that says what they are.
     """
 
     names: Mapping[EntryKind, tuple[str, ...]]
     meanings: tuple[Meaning, ...] = ()
     frames: tuple[Frames, ...] = ()
     distributions: tuple[str, ...] = ()
-    base: str | None = None
     within: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -98,8 +87,8 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What a file says of a package. `source` is where that was read: repository, commit, files; empty for a user's
-    own. What is wrong in it is left out and stands in `problems`."""
+    """What a file says of a package. `source` is where that was read: repository, branch, commit, files; empty for a
+    user's own. What is wrong in it is left out and stands in `problems`."""
 
     package: str = ""
     entries: tuple[Entry, ...] = ()

@@ -81,12 +81,10 @@ class _Reader:
                 given["frames"] = tuple(each for each in frames if each is not None)
             elif key.value == "distributions":
                 given["distributions"] = self._texts(value, "distributions")
-            elif key.value == "base":
-                given["base"] = self._text(value, "base")
             elif key.value == "within":
                 given["within"] = {k.value: self._text(v, k.value) for k, v in self._pairs(value, "within")}
             else:
-                known = (*ENTRY_KINDS, "parameters", "broadcasts", "distributions", "base", "within")
+                known = (*ENTRY_KINDS, "parameters", "broadcasts", "distributions", "within")
                 self._unknown(key, "an entry", known)
         if not names:
             self._wrong(node, f"an entry needs one of: {', '.join(ENTRY_KINDS)}")
@@ -103,21 +101,21 @@ class _Reader:
                 kind = name.value
                 given["role"] = self._text(value, name.value)
                 roles = ROLES[kind]
-                if roles and given["role"] not in roles:
+                if given["role"] not in roles:
                     self._wrong(value, f"invalid value of '{kind}': expected {' or '.join(roles)}")
                     return None
             elif name.value == "type":
                 given |= self._type(value)
             elif name.value == "default":
                 given["default"] = self._plain(value)
-            elif name.value == "required":
-                given["required"] = self._plain(value) is True
             elif name.value in ("when", "qos"):
                 given[name.value] = {k.value: self._plain(v) for k, v in self._pairs(value, name.value)}
             elif name.value == "append":
                 given["append"] = self._text(value, "append")
             else:
-                self._unknown(name, f"'{key.value}'", (*ROLES, "type", "default", "required", "when", "qos", "append"))
+                self._unknown(name, f"'{key.value}'", (*ROLES, "type", "default", "when", "qos", "append"))
+        if kind is None and given.keys() == {"default"}:
+            kind = "value"
         if kind is None:
             self._wrong(key, f"'{key.value}' needs one of: {', '.join(ROLES)}")
             return None

@@ -24,13 +24,12 @@ def schema() -> dict[str, Any]:
     meaning = _object(
         "What the values of these parameters stand for.",
         {
-            **{kind: {"enum": list(roles)} if roles else _TEXT for kind, roles in ROLES.items()},
+            **{kind: {"enum": list(roles)} for kind, roles in ROLES.items()},
             "type": {
                 "description": "The type of a topic, service or action, or types by the value of another parameter.",
                 "anyOf": [_TEXT, {"type": "object", "additionalProperties": _of_texts()}],
             },
             "default": {"description": "The value where the parameter is not set."},
-            "required": {"type": "boolean"},
             "when": _CONDITIONS,
             "qos": {"type": "object"},
             "append": _TEXT,
@@ -50,12 +49,14 @@ def schema() -> dict[str, Any]:
                 "description": "Patterns of names: odom{N}, sources.*.topic, {sources}.topic.",
                 "additionalProperties": {
                     **meaning,
-                    "anyOf": [{"required": [kind]} for kind in ROLES],
+                    "anyOf": [
+                        *({"required": [kind]} for kind in ROLES),
+                        {"required": ["default"], "maxProperties": 1},
+                    ],
                 },
             },
             "broadcasts": {"type": "array", "items": broadcast},
             "distributions": _TEXTS,
-            "base": _TEXT,
             "within": _of_texts(),
         },
     )
