@@ -54,6 +54,7 @@ from preflight_analysis.evaluation.ros1.tags import (
 from preflight_analysis.evaluation.rviz import note_configs_of_rviz
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
+from preflight_analysis.generation import ros
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
@@ -391,7 +392,7 @@ def _is_of_ros2(environment: Environment, path: str, launch_file: LaunchFile) ->
 
 @memoize_by_file
 def _has_marks_of_ros2(launch_file: LaunchFile) -> bool:
-    return generation_of(launch_file.document.path, launch_file.document.text) == 2
+    return ros(generation_of(launch_file.document.path, launch_file.document.text)).ament
 
 
 def _check_machines(state: State) -> None:
