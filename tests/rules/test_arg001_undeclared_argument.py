@@ -7,6 +7,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check
+from support.python_launch_harness import PythonHarness
 
 
 def test_an_undeclared_argument_is_reported_in_its_own_file() -> None:
@@ -192,3 +193,29 @@ def test_the_command_line_chooses_what_is_declared() -> None:
     """
         + mode.format("error")
     )
+
+
+FORGOTTEN = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    declared = DeclareLaunchArgument("port", default_value="1")
+    node = Node(package="p", executable="e", arguments=[LaunchConfiguration("port")])
+    return LaunchDescription([{}])
+"""
+
+
+@pytest.mark.ros
+@pytest.mark.parametrize(("actions", "said"), [("node", True), ("node, declared", True), ("declared, node", False)])
+def test_a_declaration_that_does_not_reach_the_launch_description(tmp_path: Path, actions: str, said: bool) -> None:
+    harness = PythonHarness(tmp_path)
+    path = harness.write("launch/a.launch.py", FORGOTTEN.format(actions))
+    messages = [each.message for each in harness.launch(path).findings if each.rule == "ARG001"]
+    assert messages == said * [
+        "argument 'port' is not declared here: its DeclareLaunchArgument is not in the LaunchDescription, or comes "
+        "after this action"
+    ]

@@ -31,6 +31,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if elsewhere:
             later = elsewhere[0].span.start > place.span.start
             where = "before this line" if later else "in this scope: another <group> or a condition declares it"
+            if launch_file is not None and launch_file.is_python:
+                where = "here: its DeclareLaunchArgument is not in the LaunchDescription, or comes after this action"
             declared = Related("declared here", context.location(place.file, elsewhere[0].head_span))
             chosen = asked and not later and _may_be_chosen(context, elsewhere)
             message = f"{message} {where}" + ("; a command-line argument decides" if chosen else "")
