@@ -286,7 +286,7 @@ def _values(name: str, settings: Settings) -> Iterator[tuple[str, Any, Param | N
         elif isinstance(param.value, (list, dict)):
             words = parameter.split(".")
             if len(words) < len(wanted) and _compiled(".".join(wanted[: len(words)])).fullmatch(parameter):
-                for value in _within(param.value, wanted[len(words) :]):
+                for value in within(param.value, wanted[len(words) :]):
                     yield parameter, value, param
 
 
@@ -297,7 +297,7 @@ def _compiled(pattern: str) -> re.Pattern[str]:
     return re.compile("".join({_NUMBER: r"\d+", "*": r"[^.]+"}.get(part, re.escape(part)) for part in parts))
 
 
-def _within(value: Any, wanted: Sequence[str]) -> Iterator[Any]:
+def within(value: Any, wanted: Sequence[str]) -> Iterator[Any]:
     """What stands in a list or dictionary of ROS 1 where the rest of a pattern says."""
     if not wanted:
         yield value
@@ -308,4 +308,4 @@ def _within(value: Any, wanted: Sequence[str]) -> Iterator[Any]:
     else:
         values = value if isinstance(value, list) and first == "*" else []
     for each in values:
-        yield from _within(each, rest)
+        yield from within(each, rest)

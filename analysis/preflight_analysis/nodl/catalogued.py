@@ -18,6 +18,7 @@ from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import within
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
@@ -171,20 +172,7 @@ def _of_pattern(name: str, value: Any, pattern: str, *, series: bool) -> Iterato
     elif "*" in pattern:
         words, wanted = _WORDS.split(name), _WORDS.split(pattern)
         if len(words) <= len(wanted) and all(want in ("*", word) for word, want in zip(words, wanted, strict=False)):
-            yield from _within(value, wanted[len(words) :])
-
-
-def _within(value: Any, wanted: Sequence[str]) -> Iterator[Any]:
-    if not wanted:
-        yield value
-        return
-    first, *rest = wanted
-    if isinstance(value, dict):
-        values = value.values() if first == "*" else [value[first]] if first in value else []
-    else:
-        values = value if isinstance(value, list) and first == "*" else []
-    for each in values:
-        yield from _within(each, rest)
+            yield from within(value, wanted[len(words) :])
 
 
 def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...]:

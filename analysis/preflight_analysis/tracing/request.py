@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.ros2.param_files import Section
 from preflight_analysis.evaluation.ros2.remaps import before_remaps, renames_nodes
+from preflight_analysis.evaluation.words import words_of
 from preflight_analysis.generation import Generation, ros
 
 
@@ -132,7 +132,4 @@ def _is_same(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 
 def split_args(text: str) -> tuple[str, ...]:
     """A node's arguments as roslaunch hands them over; split at blanks where a quote is left open."""
-    try:
-        return tuple(shlex.split(text))
-    except ValueError:
-        return tuple(text.split())
+    return tuple(words_of(text))
