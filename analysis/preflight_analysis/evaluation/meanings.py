@@ -50,7 +50,7 @@ class KnownMeanings:
 
     def of_node(self, node: LaunchNode) -> Known | None:
         """What is known of a node; None where nothing is."""
-        package, kind, name = _place(node)
+        package, kind, name = place_of(node)
         return self.of(package, kind, name)
 
     def within(self, node: LaunchNode, process: LaunchNode) -> Known | None:
@@ -92,7 +92,8 @@ class KnownMeanings:
         return len(known) > 1 or "noetic" in known
 
 
-def _place(node: LaunchNode) -> tuple[str, EntryKind, str]:
+def place_of(node: LaunchNode) -> tuple[str, EntryKind, str]:
+    """Package, kind and name under which the data about packages has a node."""
     if node.plugin is not None:
         return node.package, "components", node.plugin.removeprefix("::")
     if node.package == "nodelet" and node.executable == "nodelet":

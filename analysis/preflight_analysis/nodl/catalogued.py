@@ -18,7 +18,7 @@ from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.meanings import within
+from preflight_analysis.evaluation.meanings import place_of, within
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
@@ -71,7 +71,7 @@ def _filled_in(
 ) -> Interface:
     if interface.known or interface.pending or not node.package or _is_annotated(node):
         return interface
-    package, kind, name = _place(node)
+    package, kind, name = place_of(node)
     here = environment.packages.get(package)
     if here is not None and here.is_within(environment.workspace):
         return interface
@@ -181,18 +181,6 @@ def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...
     name = node.name.rpartition("/")[2]
     first = own or (MadeNode(name, name, inferred=True),)
     return (*(replace(made, full=node.name) for made in first), *(made for each in others for made in each))
-
-
-def _place(node: LaunchNode) -> tuple[str, str, str]:
-    """Package, kind and name under which the catalogue has a node."""
-    if node.plugin is not None:
-        return node.package, "components", node.plugin.removeprefix("::")
-    if node.package == "nodelet" and node.executable == "nodelet":
-        words = node.args.split()
-        if len(words) > 1 and words[0] in ("load", "standalone"):
-            # By convention the name begins with that of the package.
-            return words[1].partition("/")[0], "nodelets", words[1]
-    return node.package, "executables", node.executable
 
 
 @lru_cache(maxsize=_KEPT)
