@@ -13,7 +13,7 @@ LUA = $(shell git ls-files '*.lua')
 PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth fuzz endurance wheel release vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -99,6 +99,10 @@ attacks: setup ## what a hostile node meets in the sandbox, as root and as a use
 catalogue: SOURCES = $(realpath ../.mirror)
 catalogue: $(READY) ## what is known of packages that are not installed, written anew from SOURCES=FOLDER, snapshots of public repositories
 	$(BIN)/python tests/tools/catalogue --sources "$(SOURCES)"
+
+knowledge: SOURCES = $(realpath ../.mirror)
+knowledge: $(READY) ## which distributions the knowledge files hold in, by the branches of SOURCES=FOLDER; WRITE=1 adds those
+	$(BIN)/python tests/tools/knowledge_branches.py --sources "$(SOURCES)" $(if $(WRITE),--write)
 
 catalogue-truth: SOURCES = $(realpath ../.mirror)
 catalogue-truth: setup ## the catalogue beside runs of Debian's nodes, as far as they are installed, and of those in Python in SOURCES=FOLDER: docs/catalogue.md

@@ -19,6 +19,17 @@ def test_what_comes_with_it_is_right(package: str) -> None:
     for entry in found.entries:
         assert entry.distributions
         assert KNOWN.issuperset(entry.distributions)
+    also = found.source.get("also", {})
+    assert {each for entry in found.entries for each in entry.distributions}.issuperset(also)
+
+
+def test_each_distribution_has_its_own_evidence() -> None:
+    found = knowledge_of("robot_localization")
+    assert found is not None
+    assert found.evidence("humble").endswith("at 72f9e93)")
+    assert found.evidence("noetic").endswith("at 7bebbed)")
+    assert found.evidence("rolling") == found.evidence(None)
+    assert found.evidence(None).endswith("at 1cb9533)")
 
 
 def test_a_package_without_one() -> None:

@@ -77,12 +77,12 @@ class KnownMeanings:
         for said in self.own:
             entry = said.entry(kind, name, self.distro) if said.package == package else None
             if entry is not None:
-                return Known(entry, package, said.evidence, True)
+                return Known(entry, package, said.evidence(self.distro), True)
         common = knowledge_of(package)
         entry = common.entry(kind, name, self.distro) if common is not None else None
         if common is None or entry is None or DISTRIBUTIONS[self.generation].keys().isdisjoint(entry.distributions):
             return None
-        return Known(entry, package, common.evidence, self._is_used(entry))
+        return Known(entry, package, common.evidence(self.distro), self._is_used(entry))
 
     def _is_used(self, entry: Entry) -> bool:
         if self.distro is not None:

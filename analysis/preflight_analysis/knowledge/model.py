@@ -87,8 +87,8 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What a file says of a package. `source` is where that was read: repository, branch, commit, files; empty for a
-    user's own. What is wrong in it is left out and stands in `problems`."""
+    """What a file says of a package. `source` is where that was read: repository, branch, commit, files, and `also` the
+    commits of other distributions; empty for a user's own. What is wrong in it is left out and stands in `problems`."""
 
     package: str = ""
     entries: tuple[Entry, ...] = ()
@@ -98,10 +98,11 @@ class Knowledge:
     path: str = ""
     """The path of a user's own file."""
 
-    @property
-    def evidence(self) -> str:
-        """Where that is from, in words."""
-        repository, commit = self.source.get("repository"), str(self.source.get("commit", ""))
+    def evidence(self, distro: str | None) -> str:
+        """Where that is from, in words: for a distribution that was read by itself, its commit."""
+        repository, also = self.source.get("repository"), self.source.get("also")
+        of_distro = also.get(distro) if isinstance(also, dict) else None
+        commit = str(of_distro or self.source.get("commit", ""))
         if not repository:
             return f"the knowledge file of {self.package}"
         return f"what is known of {self.package} ({repository} at {commit[:7]})"
