@@ -9,6 +9,7 @@ from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.installed import lack_of_build, lack_of_made, lack_said
+from preflight_analysis.tracing.interface import telling_line
 from support.check import analyse, check, findings_of, read_fixture, run_rules
 
 
@@ -476,3 +477,77 @@ def test_a_recording_on_a_disk_that_is_not_here() -> None:
         //- interfaces
         {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
     """)
+
+
+def test_a_crash_for_what_the_launch_sets_to_a_value_that_is_not_known() -> None:
+    (crash,) = [
+        f
+        for f in findings_of("""
+        <launch>
+          <param name="robot_description" command="$(find nowhere)/xacro r.xacro"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1,
+                "stderr": ["Could not find parameter robot_description on parameter server"]}}
+    """)
+        if f.rule == "TRC001"
+    ]
+    assert crash.severity == "info"
+    assert crash.message.endswith("it reads '/robot_description', which is unresolved")
+
+
+def test_a_crash_for_a_parameter_that_an_unresolved_include_may_set() -> None:
+    found = findings_of("""
+        <launch>
+          <include file="$(find nowhere)/launch/load.launch"/>
+          <node pkg="p" type="t" name="n"/>
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1,
+                "stderr": ["Could not find parameter robot_description on parameter server"]}}
+    """)
+    (crash,) = [f for f in found if f.rule == "TRC001"]
+    assert crash.severity == "info"
+    assert crash.message.endswith("it reads a parameter, which an unresolved part of the launch may set")
+
+
+@pytest.mark.parametrize(
+    ("args", "said", "severity"),
+    [
+        ("--db $(arg path)", "IOError: no input file", "info"),
+        ("--db $(arg path) $(arg other)", "Usage: read FILE", "info"),
+        ("--db $(arg other)", "Usage: read FILE", "warning"),
+        ("--db $(arg path)", "ValueError: 12", "warning"),
+    ],
+)
+def test_a_crash_for_an_argument_that_is_empty_until_it_is_given(args: str, said: str, severity: str) -> None:
+    (finding,) = findings_of(f"""
+        <launch>
+          <arg name="path" default=""/>
+          <arg name="other" default="x"/>
+          <param name="other" value="$(arg path)$(arg other)"/>
+          <node pkg="p" type="t" name="n" args="{args}"/>
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"], "params": {{"/other": "x"}}}}}}
+    """)
+    assert (finding.rule, finding.severity) == ("TRC001", severity)
+    assert finding.message.endswith("; argument 'path' is empty") == (severity == "info")
+
+
+def test_a_crash_of_a_program_that_the_node_starts_does_not_say_what_that_lacks() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] Command '['git', 'rev-parse']' returned
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr":
+                ["subprocess.CalledProcessError: Command '['git', 'rev-parse']' returned non-zero exit status 1"]}}
+    """)
+
+
+def test_what_the_logger_says_of_itself_is_not_why_a_node_ended() -> None:
+    lines = ("[ERROR] [1.5]: Error opening file: /x/a.log", "log4cxx: Please initialize the log4cxx system properly.")
+    assert telling_line(lines) == "Error opening file: /x/a.log"

@@ -23,13 +23,22 @@ from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outc
 from preflight_analysis.tracing.request import split_args
 
 _WORD = re.compile(r"\w+")
+_NO_PARAM = re.compile(r"(?i)\b(?:could not|cannot|can't|failed to|no|not|missing|without)\b.*\bparam(?:eter)?s?\b")
+"""How a program says that a parameter is not set, whose name it may not say."""
+_ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
+_WANTS = re.compile(r"(?i)\busage\b|\bargument|\bfile|\bpath\b|\bIndexError\b|\brequired\b|\bopen\b|\binput\b|\boption")
+"""How a program says that it is not told what to read."""
 _KILLED = re.compile(
     r": line \d+: +\d+ (?:Trace/breakpoint trap|Segmentation fault|Illegal instruction|Bus error|Aborted|Killed)"
     r"(?: +\(core dumped\))? +([^\s]+)"
 )
 
-_IN_LOG = "The traceback for the exception was written to the log file"
-"""The last line of a roslaunch that a node starts: its launch file is checked as others are."""
+_OF_CALLED = re.compile(
+    r"The traceback for the exception was written to the log file"
+    r"|CalledProcessError\b|returned non-zero exit status"
+)
+"""The last line of a roslaunch that a node starts, whose launch file is checked as others are, and of a node in Python
+for which another program failed: what that lacked (a repository, a device) is not said."""
 _EXIT = re.compile(r"it ended with exit code \d+: ")
 _EXCEPTION = re.compile(r"\A(?:\w+\.)+\w+: (?=\S)")
 
@@ -45,6 +54,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         reads = [read for read in context.graph.param_reads if read.node is node]
         lacking = next(filter(None, map(lost.why, reads)), None)
         lacking = lacking or next((why for read in reads if (why := lost.possible_cause(read, outcome))), None)
+        told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
+        lacking = lacking or lost.named_in(told)
         # Of a parameter that is missing another rule says more, as a warning.
         reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
@@ -53,18 +64,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or outcome.lacks is not None
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
-            or _IN_LOG in telling_line(outcome.stderr_tail)
+            or _OF_CALLED.search(telling_line(outcome.stderr_tail)) is not None
             or any(e.speculative for e in interface.endpoints)
             or node.kind == "test"
             or "$(" in node.args
             or is_unknown(node.args)
         )
-        told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
         absent = absent_top_said(context.disk, told)
         made = lacks_recording(told) or any(is_ignored(context.disk, path) for path in paths_said(told))
-        empty = _empty_param(node, told)
+        empty = _empty_param(node, told) or _empty_argument(context, node, told)
         message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
-        message += f"; parameter '{empty}' is empty" if empty is not None else ""
+        message += f"; {empty} is empty" if empty is not None else ""
         found = rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
             node.location,
@@ -98,7 +108,22 @@ def _is_of_another_program(outcome: Outcome) -> bool:
 def _empty_param(node: LaunchNode, told: str) -> str | None:
     """The parameter that the node names before it ends, and which is empty until somebody gives it a value."""
     words = set(_WORD.findall(told))
-    return next((param.name for param in node.params if param.value == "" and names.leaf(param.name) in words), None)
+    empty = (param.name for param in node.params if param.value == "" and names.leaf(param.name) in words)
+    return next((f"parameter '{name}'" for name in empty), None)
+
+
+def _empty_argument(context: Context, node: LaunchNode, told: str) -> str | None:
+    """The argument of the launch file that stands in the node's command line and is empty until somebody gives it a
+    value, of a node that ends for a file or an argument."""
+    span = node.tag.span_of("args")
+    written = context.text(context.location(node.location.file, span)) if span is not None else ""
+    if "$(arg" not in written or _WANTS.search(told) is None:
+        return None
+    parts = _ARGUMENT.split(written)
+    pattern = "".join(re.escape(part) if at % 2 == 0 else "(.*?)" for at, part in enumerate(parts))
+    found = re.fullmatch(pattern, node.args, re.DOTALL)
+    given = zip(parts[1::2], found.groups(), strict=True) if found is not None else ()
+    return next((f"argument '{name}'" for name, value in given if not value.strip()), None)
 
 
 def _waits(node: LaunchNode, outcome: Outcome) -> bool:
@@ -143,6 +168,15 @@ class _LostParams:
             if below or found:
                 return f"'{read.name}', which is unresolved: {reason}"
         return None
+
+    def named_in(self, told: str) -> str | None:
+        """The same of one that the node names at its end, whatever it was seen to read."""
+        words = set(_WORD.findall(told))
+        for name in (*self._reasons, *sorted(self._commands)):
+            if names.leaf(name) in words and "_" in names.leaf(name) and name not in self._set:
+                return f"'{name}', which is unresolved"
+        unset = not self._complete and _NO_PARAM.search(told) is not None
+        return "a parameter, which an unresolved part of the launch may set" if unset else None
 
     def possible_cause(self, read: ParamRead, outcome: Outcome) -> str | None:
         """The same of one that nobody sets and of which the node complained at its end, where something else may set
@@ -200,7 +234,8 @@ RULE = Rule(
     "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "
     "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
     "ignores. A module that the program reports as missing, an argument without a value, "
-    "a `<test>`, a program that a signal kills in a shell script, and a `roslaunch` that fails, are information too.",
+    "a `<test>`, a program that a signal kills in a shell script, and another program that fails (`roslaunch`, `git`), "
+    "are information too. So is a crash that names a parameter without a known value, or an argument that is empty.",
     why="With these parameters and arguments the node most likely exits on the robot too. What it does "
     "later is unknown.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',

@@ -28,6 +28,8 @@ PENDING = "its run has not ended yet"
 REASON_COLUMNS = 200
 """How much of a line of a node's output stands in the reason of an outcome."""
 _STAMP = re.compile(r"\A\[ *[A-Z]+\] \[[\d., ]+\]: ")
+_OF_LOGGER = "log4cxx:"
+"""How the library behind rosconsole begins what it says of itself, mostly when the node has ended."""
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault|NotFound)\b(: .*)?\Z")
 _THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
 _WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
@@ -220,7 +222,8 @@ def telling_line(lines: Sequence[str]) -> str:
             # rcl's complaints of names end by a colon, and the name stands on a line of its own.
             more = f" {lines[at + 1].strip()}" if what[1].endswith(":") and at + 1 < len(lines) else ""
             return (f"{thrown[2]}: " if thrown else "") + what[1] + more
-    return next((line for text in reversed(lines) if (line := without_stamp(text))), "")
+    said = (line for text in reversed(lines) if not text.startswith(_OF_LOGGER) and (line := without_stamp(text)))
+    return next(said, "")
 
 
 @dataclass(frozen=True, slots=True)
