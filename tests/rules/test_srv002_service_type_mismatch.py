@@ -1,5 +1,7 @@
 """SRV002: client and server of a service have different types."""
 
+from pathlib import Path
+
 import pytest
 from support.check import check, findings_of
 
@@ -51,3 +53,18 @@ def test_types_of_one_definition_can_be_called() -> None:
     """)
         == []
     )
+
+
+@pytest.mark.parametrize(("file", "severity"), [("GetList", "info"), ("Get", "error")])
+def test_a_type_that_its_package_has_no_file_for(tmp_path: Path, file: str, severity: str) -> None:
+    (tmp_path / "q" / "srv").mkdir(parents=True)
+    (tmp_path / "q" / "srv" / f"{file}.srv").touch()
+    text = f"""
+        //- {tmp_path}/main.launch
+        <launch><node pkg="p" type="t" name="base"/><node pkg="p" type="t" name="dock"/></launch>
+        //- {tmp_path}/q/package.xml
+        <package/>
+        //- interfaces
+        {{"/base": {{"services": {{"get": "core/Get"}}}}, "/dock": {{"clients": {{"get": "q/Get"}}}}}}
+    """
+    assert [f.severity for f in findings_of(text)] == [severity]

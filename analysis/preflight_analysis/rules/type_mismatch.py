@@ -8,6 +8,7 @@ from itertools import chain
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.rules.channels import channels_of, of_all_kinds
+from preflight_analysis.rules.interface_files import lacks_type
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -30,7 +31,7 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
             f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} "
             f"{consumer.endpoint.type or 'an unknown type'}{difference}",
             connection_location(site),
-            severity=_severity(consumer.endpoint, provider.endpoint),
+            severity=_severity(context, consumer.endpoint, provider.endpoint),
             confidence=_confidence(graph, consumer, provider),
             related=(
                 related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
@@ -40,9 +41,11 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
         )
 
 
-def _severity(consumer: Endpoint, provider: Endpoint) -> Severity | None:
-    """None for that of the rule. The robot moves without what a display shows."""
-    if _is_doubtful(consumer, provider):
+def _severity(context: Context, consumer: Endpoint, provider: Endpoint) -> Severity | None:
+    """None for that of the rule. The robot moves without what a display shows. A type for which its package has no
+    file is from another module than the program seems to have it from."""
+    unfounded = any(lacks_type(context, each.type) for each in (consumer, provider))
+    if _is_doubtful(consumer, provider) or unfounded:
         return "info"
     return "warning" if consumer.displayed else None
 
