@@ -1,5 +1,7 @@
 """LCH030: the launch runs on simulated time, and nobody tells the time."""
 
+from pathlib import Path
+
 import pytest
 from support.check import check, findings_of
 
@@ -77,3 +79,16 @@ def test_a_node_that_waits_for_the_time_does_not_hide_that_nobody_tells_it() -> 
 """
     found = [f for f in findings_of(_TRUE + waits) if f.rule == "LCH030"]
     assert [(f.severity, f.confidence) for f in found] == [("warning", "possible")]
+
+
+def test_the_project_has_a_launch_file_that_starts_a_simulator(tmp_path: Path) -> None:
+    text = f"""
+        //- {tmp_path}/main.launch
+        <launch><param name="/use_sim_time" value="true"/><node pkg="p" type="t" name="n"/></launch>
+        //- {tmp_path}/package.xml
+        <package><name>p</name></package>
+    """
+    (tmp_path / "main.launch").touch()
+    assert [f.severity for f in findings_of(text + _INTERFACES) if f.rule == "LCH030"] == ["warning"]
+    (tmp_path / "world.launch").write_text('<include file="$(find gazebo_ros)/launch/empty_world.launch"/>')
+    assert [f.severity for f in findings_of(text + _INTERFACES) if f.rule == "LCH030"] == ["info"]

@@ -1,5 +1,7 @@
 """PRM001: a parameter is set and nobody reads it."""
 
+from pathlib import Path
+
 import pytest
 from support.check import apply, check, findings_of
 
@@ -495,3 +497,22 @@ def test_a_file_that_is_loaded_one_namespace_too_high(ns: str, also: str, told: 
     assert [(finding.rule, finding.severity) for finding in found] == [("PRM001", "warning")] * told
     assert all("4 parameters of this file" in each.message for each in found)
     assert all(each.message.endswith("it reads them in 'local_costmap'") for each in found)
+
+
+@pytest.mark.parametrize(("reader", "severity"), [("q", "info"), ("p", "warning")])
+def test_a_parameter_that_a_plugin_of_another_package_may_read(tmp_path: Path, reader: str, severity: str) -> None:
+    for name in ("p", "q"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "p" / "main.launch").touch()
+    (tmp_path / reader / "plugin.cpp").write_text('rho_ = nh_->param<double>("rho", 1.268);')
+    text = f"""
+        //- {tmp_path}/p/main.launch
+        <launch><param name="rho" value="1.2"/><node pkg="p" type="t" name="n"/></launch>
+        //- {tmp_path}/p/package.xml
+        <package><name>p</name></package>
+        //- {tmp_path}/q/package.xml
+        <package><name>q</name></package>
+        //- interfaces
+        {{"/n": {{"params": {{"~rho": 1.5}}}}}}
+    """
+    assert [f.severity for f in findings_of(text) if f.rule == "PRM001"] == [severity]

@@ -1,6 +1,7 @@
 """TOP004: a remap of a name that its node does not use."""
 
 import json
+from pathlib import Path
 
 import pytest
 from support.check import apply, check, findings_of
@@ -261,3 +262,20 @@ def test_a_name_that_the_node_uses_is_given_to_itself_out_of_habit() -> None:
                      "publishers": {"fix": "sensor_msgs/NavSatFix"}}}
     """)
     assert "TOP004" not in [finding.rule for finding in findings]
+
+
+def test_a_name_that_a_module_of_the_package_has_may_be_used_later(tmp_path: Path) -> None:
+    text = f"""
+        //- {tmp_path}/main.launch
+        <launch><node pkg="p" type="t" name="n"><remap from="align/cancel" to="control/cancel"/></node></launch>
+        //- {tmp_path}/package.xml
+        <package><name>p</name></package>
+        //- interfaces
+        {{"/n": {{"publishers": {{"follow/cancel": "std_msgs/Empty"}}}}}}
+    """
+    (tmp_path / "main.launch").touch()
+    assert [f.severity for f in findings_of(text) if f.rule == "TOP004"] == ["warning"]
+    (tmp_path / "states.py").write_text('State("align/cancel", Trigger)')
+    (finding,) = [f for f in findings_of(text) if f.rule == "TOP004"]
+    assert finding.severity == "hint"
+    assert finding.message.endswith("before its event loop; a source of its package has the name")

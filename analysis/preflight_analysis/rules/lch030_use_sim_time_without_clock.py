@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -9,6 +10,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import CLOCK
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.written_elsewhere import in_workspace
 
 _SIMULATORS = (
     "gazebo",
@@ -23,6 +25,12 @@ _SIMULATORS = (
     "isaac",
     "mujoco",
 )
+
+_OF_TIME = (
+    re.compile(r"""["'(/ ](gazebo_ros|gzserver|stage_ros|stageros|morse|webots_ros|vrep_\w+|carla_\w+)\b"""),
+    re.compile(r"(--clock)\b"),
+)
+"""What a launch file names that starts a simulator or plays a recording with its time."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -39,10 +47,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         or any(map(publishes_clock, graph.tree.nodes))
     ):
         return
+    # Beside it another launch of the project runs the simulator, or plays a recording.
+    beside = in_workspace(context, _OF_TIME)
     yield rule.finding(
         "'/use_sim_time' is true, but '/clock' has no publisher in this launch; time does not advance without a "
         "simulator or `rosbag play --clock`",
         param.place,
+        severity="info" if beside else None,
         confidence="likely" if graph.complete else "possible",
         related=include_chain(param.origin),
     )
@@ -59,7 +70,8 @@ RULE = Rule(
     name="use-sim-time-without-clock",
     severity="warning",
     what="Checks for `/use_sim_time` set to true in a launch where all nodes are known and none publishes `/clock`. "
-    "Simulators, `rosbag play --clock` and `/clock` among `external.topics` count as publishers.",
+    "Simulators, `rosbag play --clock` and `/clock` among `external.topics` count as publishers. The finding is "
+    "information if another launch file of the workspace starts a simulator or plays a recording with its time.",
     why="Timers, rates and timeouts wait for the first message on `/clock`. The nodes start and do nothing, without "
     "an error.",
     example='<param name="/use_sim_time" value="true"/>\n<node pkg="amcl" type="amcl" name="amcl"/>',

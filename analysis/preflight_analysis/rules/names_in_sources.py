@@ -72,6 +72,15 @@ def meant_in_sources(context: Context, connection: Connection) -> tuple[str, int
 
 
 @query
+def writes_name(db: Database, share: str, name: str) -> bool:
+    """Whether a source of the package has the name in quotes, without regard to `~` and slashes at its ends."""
+    paths = [path for path in files_in(Disk(db), share, deep=True) if path.endswith(_SUFFIXES)]
+    pattern = re.compile(rf"""["'][~/]*{re.escape(name.strip("~/"))}/?["']""")
+    texts = (Disk(db).text(path) for path in paths[:_MOST])
+    return any(isinstance(each, Document) and pattern.search(each.text) is not None for each in texts)
+
+
+@query
 def _in_workspace(db: Database, environment: Environment) -> Mapping[Named, int]:
     installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     shares = {each.share for each in environment.packages.values() if not each.share.startswith(installed)}

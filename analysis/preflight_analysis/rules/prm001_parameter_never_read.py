@@ -15,6 +15,7 @@ from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, RO
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.nearest import nearest_typo
 from preflight_analysis.rules.parameters import namespace_of, renamed
+from preflight_analysis.rules.params_in_sources import is_asked_beside
 from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -261,11 +262,20 @@ def _finding(
     return rule.finding(
         message,
         param.place,
-        severity="warning" if unread.alone else "info",
+        severity="warning" if unread.alone and not _may_be_read(context, unread, read) else "info",
         confidence=sure,
         related=(related_param_read(read), *include_chain(param.origin)),
         fixes=renamed(context, param, name) if unread.alone and set_too is None else (),
     )
+
+
+def _may_be_read(context: Context, unread: Unread, read: ParamRead) -> bool:
+    """Whether a parameter that is of no node may be that of a program or a plugin in another package than the node's
+    that reads it elsewhere, as its source asks for one of that name."""
+    package = context.environment.packages.get(read.node.package or "")
+    if unread.holder is not None or package is None:
+        return False
+    return is_asked_beside(context.disk.db, context.environment, package.share, names.leaf(unread.param.name))
 
 
 def _default(read: ParamRead) -> str:
@@ -283,7 +293,8 @@ RULE = Rule(
     "too few, or global instead of private. Otherwise it is a hint, and only for a node that is known up to its "
     "event loop. Reading a namespace reads all parameters in it. Of a node that the catalogue or its source "
     "describes in part, only typos are reported. Its source also shows the same name in another namespace. A file "
-    "is a warning if its node reads most of it one namespace below. A parameter of a node that begins with `_` is a "
+    "is a warning if its node reads most of it one namespace below. It is information if a source of another "
+    "package reads the name. A parameter of a node that begins with `_` is a "
     "warning, because that form belongs on the command line.",
     why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',

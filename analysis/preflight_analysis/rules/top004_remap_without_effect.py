@@ -11,6 +11,7 @@ from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps
+from preflight_analysis.rules.names_in_sources import writes_name
 from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -21,10 +22,21 @@ _DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "se
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     idle = context.once(idle_remaps)
     documents = [context.documents.get(each.remap.source_location.file) for each in idle]
-    yield from context.kept.each_row(_finding, (idle, documents), rule)
+    written = [each.meant is not None and _is_written(context, each) for each in idle]
+    yield from context.kept.each_row(_finding, (idle, documents, written), rule)
 
 
-def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
+def _is_written(context: Context, idle: IdleRemap) -> bool:
+    """Whether a source of a node's package has the name, which the node may use later, or by a module that is not
+    followed."""
+    packages = [context.environment.packages.get(node.package or "") for node in idle.nodes]
+    name = context.text(idle.remap.source_location)
+    return "$" not in name and any(
+        package is not None and writes_name(context.disk.db, package.share, name) for package in packages
+    )
+
+
+def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Rule) -> Finding:
     remap, meant = idle.remap, idle.meant
     source = names.resolve(remap.source, idle.nodes[0].name)
     one = len(idle.nodes) == 1
@@ -35,6 +47,14 @@ def _finding(idle: IdleRemap, document: Document | None, rule: Rule) -> Finding:
             f"{message} {idle.known_by}",
             remap.source_location,
             severity=_lone_severity(idle),
+            confidence="possible",
+            related=include_chain(remap.origin),
+        )
+    if written:
+        return rule.finding(
+            f"{message} {idle.known_by}; a source of its package has the name",
+            remap.source_location,
+            severity="hint",
             confidence="possible",
             related=include_chain(remap.origin),
         )
@@ -91,7 +111,8 @@ RULE = Rule(
     "information if only the catalogue knows the node and no argument decides what it does. It is a warning if "
     "`from` is also in a namespace without any name of the node. A remap from a name to itself is reported if the "
     "node has an unconnected endpoint with the same last part, or of the type that another node uses under the name. "
-    "Otherwise it is a hint, because the node or a library may use the name later. Namespaces of names in use, and "
+    "Otherwise it is a hint, as it is if a source of the package has the name, because the node or a library "
+    "may use the name later. Namespaces of names in use, and "
     "names below one, count as used: actions, image transports and `dynamic_reconfigure` create such names.",
     why="A remap of an unused name is ignored without an error, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',

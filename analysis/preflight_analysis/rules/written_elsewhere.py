@@ -37,6 +37,18 @@ def around(context: Context, patterns: Patterns) -> Mapping[str, int]:
     return _around(context.disk.db, context.environment, context.root, patterns)
 
 
+def in_workspace(context: Context, patterns: Patterns) -> bool:
+    """Whether a pattern finds something in a launch file of any package of the workspace."""
+    return _in_workspace(context.disk.db, context.environment, patterns)
+
+
+@query
+def _in_workspace(db: Database, environment: Environment, patterns: Patterns) -> bool:
+    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
+    shares = sorted({each.share for each in environment.packages.values() if not each.share.startswith(installed)})
+    return any(_in_folder(db, share, patterns) for share in shares)
+
+
 @query
 def _around(db: Database, environment: Environment, root: str, patterns: Patterns) -> Mapping[str, int]:
     package = package_around(environment, root)
