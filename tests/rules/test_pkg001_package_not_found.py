@@ -46,6 +46,17 @@ def test_a_name_from_before_a_rename() -> None:
     assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' with 'ca_tools'", False)]
 
 
+def test_a_like_name_without_the_program_that_is_started() -> None:
+    check("""
+        <launch>
+          <node pkg="dmp" type="dmp_server" name="n"/>
+                     ^^^ info[PKG001] no package.xml of the workspace names it
+        </launch>
+        //- /rob_dmp/package.xml
+        <package/>
+    """)
+
+
 def test_a_word_that_the_folder_of_the_project_has_is_no_likeness() -> None:
     (finding,) = check("""
         //- /rpg_svo/svo/launch/live.launch

@@ -82,3 +82,13 @@ def test_a_package_of_another_repository_of_the_same_project() -> None:
         //- /smarc_scenarios/tutorial/package.xml
         <package format="2"><name>tutorial</name><depend>smarc_msgs</depend></package>
     """)
+
+
+@pytest.mark.silent
+def test_a_name_of_the_system_with_another_short_word_is_none_of_a_slip() -> None:
+    check("""
+        //- /robot/launch/all.launch
+        <launch/>
+        //- /robot/package.xml
+        <package><name>robot</name><depend>libdmtx-dev</depend></package>
+    """)

@@ -153,6 +153,14 @@ def test_what_eclipse_starts_programs_with_is_no_launch_file(harness: Harness) -
     assert paths(tuple(harness.build().entries)) == ["robot.launch"]
 
 
+def test_a_world_of_a_simulator_is_no_launch_file(harness: Harness) -> None:
+    (harness.folder / "launch").mkdir()
+    harness.write("launch/world.launch", '<?xml version="1.0"?>\n<!-- x -->\n<sdf version="1.4"><world/></sdf>')
+    harness.write("robot.launch", LEAF)
+    harness.write("broken.launch", "<lunch/>")
+    assert paths(tuple(harness.build().entries)) == ["broken.launch", "robot.launch"]
+
+
 def test_tests_of_other_tools_are_no_launch_files(harness: Harness) -> None:
     harness.write("fuzzer.test", "RUN: %cpp_compiler %S/Fuzzer.cpp -o %t && %t\nCHECK: Done\n")
     harness.write("broken.test", "half a line\n<launch>")

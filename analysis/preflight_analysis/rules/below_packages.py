@@ -45,6 +45,13 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
     return (having[0], paths[0]) if len(having) == 1 else None
 
 
+def lacks_a_program_of(context: Context, file: str, name: str, other: str) -> bool:
+    """Whether `file` starts a program of package `name` that package `other` does not have."""
+    document = context.documents.get(file)
+    programs = _started_of(document.text, name) if isinstance(document, Document) else set()
+    return not all(_has_program(context, other, program) for program in programs)
+
+
 def _started_of(text: str, name: str) -> set[str]:
     """The programs of the package that tags start, but for those that are not written out."""
     of_package = re.compile(rf"""\bpkg\s*=\s*["']{re.escape(name)}["']""")

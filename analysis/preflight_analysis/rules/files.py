@@ -164,7 +164,9 @@ def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:
             path, reason = shown(problem.kind.path, context), problem.kind.reason
             # ros2 launch warns of the file of a node and goes on: an argument may stay empty that users give one by.
             severity: Severity | None = None if problem.fatal else "warning" if path else "info"
-            yield problem_finding(rule, problem, f"{what} '{path}' cannot be read: {reason}", severity=severity)
+            # The reason of a file goes on from its name, that of a path without one is a sentence.
+            told = f"'{path}' {reason}" if path else f"'' cannot be read: {reason}"
+            yield problem_finding(rule, problem, f"{what} {told}", severity=severity)
 
     return check
 

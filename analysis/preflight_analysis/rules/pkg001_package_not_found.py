@@ -12,7 +12,7 @@ from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.below_packages import has_what_is_asked_of
+from preflight_analysis.rules.below_packages import has_what_is_asked_of, lacks_a_program_of
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import (
     debian_package_of,
@@ -108,7 +108,10 @@ def _not_here(
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
         if context.once(_strangers) == {name}:
             near = _of_like_words(context, name)
-            near = None if near is None or is_of_family(context, name, near) else near
+            if near is not None and (
+                is_of_family(context, name, near) or lacks_a_program_of(context, location.file, name, near)
+            ):
+                near = None
             text += did_you_mean(near)
             fixes = rename(context, location, name, near, preferred=False) if near is not None else ()
             lack, severity = None, "info" if near is None else "warning"

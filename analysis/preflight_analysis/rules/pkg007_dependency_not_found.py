@@ -15,7 +15,7 @@ from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.installed import is_installed, is_of_family, near_package
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words, nearest
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
@@ -68,7 +68,7 @@ def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[Span, 
 def _near_key(name: str) -> str | None:
     """The package of the operating system of whose name this is a slip."""
     near = nearest(name, system_keys()) if name not in system_keys() else None
-    return near if near is not None and len(name) >= _LONG and is_slip(name, near) else None
+    return near if near is not None and len(name) >= _LONG and is_slip_of_words(name, near) else None
 
 
 _LONG = 8

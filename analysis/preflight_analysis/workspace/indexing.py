@@ -35,8 +35,10 @@ _MAX_UPSTREAM = 100
 _HEAD = 2_000
 _PARAMETERS = re.compile(r"^\s+ros__parameters:", re.MULTILINE)
 _YAML_LAUNCH = re.compile(r"^launch:", re.MULTILINE)
-_ECLIPSE = "<launchConfiguration"
-"""The outermost element, which stands in that many characters."""
+_ROOT = re.compile(r"\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^>]*>\s*)*<([\w:.-]+)", re.DOTALL)
+"""The outermost element of a document that begins so."""
+_OTHER_ROOTS = frozenset(("launchConfiguration", "sdf", "gazebo", "robot", "COLLADA", "html", "opencv_storage"))
+"""Those of documents that programs beside ROS read: Eclipse, simulators, robot models, OpenCV."""
 _log = logging.getLogger(__name__)
 
 Report = Callable[[int, int, str], None]
@@ -291,6 +293,7 @@ def launch_files(folder: str, workspace: Workspace) -> list[str]:
             path = os.path.join(place, name)
             if name.endswith(LAUNCH_SUFFIXES):
                 is_one = not (ignored and _is_of_ament(path, workspace.sources))
+                is_one = is_one and not _is_document_of_other(path, workspace.sources)
                 is_one = is_one and (in_launch_folder or not _is_of_other(path, workspace.sources))
                 is_one = is_one and not is_loaded_module(workspace.sources, path)
             else:
@@ -313,9 +316,8 @@ def _makes_launch_description(path: str, sources: Sources) -> bool:
 
 
 def _is_of_other(path: str, sources: Sources) -> bool:
-    """Whether a `.launch` is how Eclipse (and what is made of it, for microcontrollers) starts a program, a `.test` is
-    no XML (LLVM's are command lines), a YAML file one of parameters, or a Python file a module that helps to make
-    launch files."""
+    """Whether a `.test` is no XML (LLVM's are command lines), a YAML file one of parameters, or a Python file a module
+    that helps to make launch files."""
     found = sources.text(path) if path.endswith((".launch", ".test", *YAML_SUFFIXES, PYTHON_SUFFIX)) else None
     if found is None or isinstance(found, Unreadable):
         return False
@@ -323,8 +325,15 @@ def _is_of_other(path: str, sources: Sources) -> bool:
         return _PARAMETERS.search(found.text) is not None and _YAML_LAUNCH.search(found.text) is None
     if path.endswith(PYTHON_SUFFIX):
         return is_module(path, found.text)
-    is_text = bool(found.text.strip()) and not found.text.lstrip().startswith("<") and "<launch" not in found.text
-    return is_text or _ECLIPSE in found.text[:_HEAD]
+    return bool(found.text.strip()) and not found.text.lstrip().startswith("<") and "<launch" not in found.text
+
+
+def _is_document_of_other(path: str, sources: Sources) -> bool:
+    """Whether a `.launch` is XML of another kind: Eclipse, and what is made of it for microcontrollers, starts programs
+    by such, and the world of a simulator may be called so."""
+    found = sources.text(path) if path.endswith((".launch", ".test")) else None
+    root = _ROOT.match(found.text[:_HEAD]) if found is not None and not isinstance(found, Unreadable) else None
+    return root is not None and root[1] in _OTHER_ROOTS
 
 
 def _is_of_ament(path: str, sources: Sources) -> bool:
