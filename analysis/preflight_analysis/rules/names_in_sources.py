@@ -16,6 +16,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.launch.read import LAUNCH_SUFFIXES
 from preflight_analysis.rules.dangling import GENERIC_PACKAGES
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.rule import Context
@@ -73,8 +74,10 @@ def meant_in_sources(context: Context, connection: Connection) -> tuple[str, int
 
 @query
 def writes_name(db: Database, share: str, name: str) -> bool:
-    """Whether a source of the package has the name in quotes, without regard to `~` and slashes at its ends."""
-    paths = [path for path in files_in(Disk(db), share, deep=True) if path.endswith(_SUFFIXES)]
+    """Whether a source of the package, beside its launch files, has the name in quotes, without regard to `~` and
+    slashes at its ends."""
+    files = files_in(Disk(db), share, deep=True)
+    paths = [path for path in files if path.endswith(_SUFFIXES) and not path.endswith(LAUNCH_SUFFIXES)]
     pattern = re.compile(rf"""["'][~/]*{re.escape(name.strip("~/"))}/?["']""")
     texts = (Disk(db).text(path) for path in paths[:_MOST])
     return any(isinstance(each, Document) and pattern.search(each.text) is not None for each in texts)
