@@ -194,6 +194,12 @@ def test_programs_get_one_finding_for_each_cause() -> None:
     assert to_json(report)["rules"] == {"ABC001": {"error": 9}}
 
 
+def test_how_much_of_a_launch_is_known_is_no_part_of_the_cause() -> None:
+    said = "'/scan' has no publisher; {} of 9 nodes not fully analysed; did you mean '/scans'?"
+    same = [finding("warning", f"/{n}.launch", 1, said.format(n)) for n in range(3)]
+    assert len(to_json(Report.of(same, {}, Coverage()))["findings"]) == 1
+
+
 def test_what_names_nothing_is_of_one_cause_in_one_file() -> None:
     given = [finding("warning", file, at, "no effect in <include>") for file in ("/a", "/b") for at in (1, 5)]
     assert [f["file"] for f in to_json(Report.of(given, {}, Coverage()))["findings"]] == ["/a", "/b"]

@@ -97,6 +97,21 @@ def test_an_include_that_passes_what_is_never_used() -> None:
     """)
 
 
+def test_what_several_files_are_passed_may_be_what_they_agreed_on() -> None:
+    check("""
+        <launch>
+          <arg name="robot" default="red"/>
+          <include if="$(eval robot == 'red')" file="/red.launch"><arg name="rate" value="1"/></include>
+                                                                             ^^^^ info[ARG008] argument 'rate' has no
+          <include unless="$(eval robot == 'red')" file="/green.launch"><arg name="rate" value="1"/></include>
+        </launch>
+        //- /red.launch
+        <launch><arg name="rate"/></launch>
+        //- /green.launch
+        <launch><arg name="rate"/><param name="rate" value="$(arg rate)"/></launch>
+    """)
+
+
 @pytest.mark.silent
 def test_files_of_which_one_is_chosen_have_to_declare_what_the_others_use() -> None:
     check("""

@@ -33,5 +33,10 @@ def test_one_is_only_loaded(option: str) -> None:
 
 
 @pytest.mark.silent
+def test_two_spawners_of_one_controller() -> None:
+    check(launch(spawner("base"), spawner("base", "t"), params=_PARAMS))
+
+
+@pytest.mark.silent
 def test_other_joints() -> None:
     check(launch(spawner("base wheels"), params=_PARAMS.replace("right_wheel_names: [right_wheel]", "")))

@@ -28,6 +28,26 @@ def test_the_name_of_roslaunch_itself() -> None:
     )
 
 
+def test_a_spawner_with_the_name_of_its_controller_ends() -> None:
+    """The process of the manager makes the controller's node, too."""
+    made = """
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="controller_manager" exec="ros2_control_node" name="manager"/>
+          <node pkg="controller_manager" exec="{}" name="base"/>
+        </launch>
+        //- interfaces
+        {{"/manager": {{"nodes": [{{"name": "manager", "given": "manager", "full": "/manager"}},
+                                {{"name": "base", "given": "base", "full": "/base"}}]}}}}
+    """
+    for executable, severity in (("spawner", "info"), ("other", "warning")):
+        (found,) = [each for each in findings_of(made.format(executable)) if each.rule == "LCH016"]
+        assert (found.severity, found.message) == (
+            severity,
+            "duplicate node name '/base': the process of /manager creates it",
+        )
+
+
 def test_two_nodes_of_one_name() -> None:
     findings = findings_of("""
         <launch>

@@ -38,6 +38,21 @@ def test_what_a_node_of_another_launch_publishes(tmp_path: Path, file: str) -> N
     assert message.endswith("did you mean 'as_status', which a source file uses with this type?")
 
 
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("sonar.urdf.xacro", "<remapping>~/out:=as_state</remapping>"),
+        ("arm.sdf", "<topicName>/as_state</topicName>"),
+        ("sim.launch.py", "arguments=['as_state@my_msgs/msg/State[gz.msgs.State']"),
+    ],
+)
+def test_what_a_simulator_publishes_is_no_slip(tmp_path: Path, file: str, text: str) -> None:
+    sources = {"a.py": OFFERED["a.py"], file: text}
+    ((_, severity, _),) = _told(tmp_path, sources, "subscribers", "as_state", "my_msgs/State")
+    assert severity == "hint"
+
+
 def test_a_service_that_a_node_of_another_launch_offers(tmp_path: Path) -> None:
     sources = {"a.py": "rospy.Service('topological_localisation/tagged', GetTagged, self.tagged)"}
     name = "/opological_localisation/tagged"

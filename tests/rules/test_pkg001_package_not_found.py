@@ -72,6 +72,18 @@ def test_a_word_that_the_folder_of_the_project_has_is_no_likeness() -> None:
     assert finding.fixes == ()
 
 
+def test_drivers_of_two_makes_are_not_alike() -> None:
+    (finding,) = check("""
+        <launch>
+          <include file="$(find acme2_camera)/launch/mini.launch"/>
+                         ^^^^^^^^^^^^^^^^^^^^ info[PKG001] no package.xml of the workspace names it
+        </launch>
+        //- /orbbec_camera/package.xml
+        <package/>
+    """)
+    assert finding.fixes == ()
+
+
 @pytest.mark.parametrize(("file", "severity"), [("base.yaml", "warning"), ("other.yaml", "hint")])
 def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     tmp_path: Path, file: str, severity: str

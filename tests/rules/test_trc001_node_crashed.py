@@ -126,6 +126,23 @@ def test_a_crash_for_want_of_a_value_that_is_reported_itself_is_a_consequence(se
     assert any(each.stops_launch for each in found)
 
 
+def test_the_description_under_the_name_that_a_remap_gives() -> None:
+    (crash,) = (
+        each
+        for each in findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="n"><remap from="robot_description" to="/arm_description"/></node>
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "params": {"/arm_description": {"access": "search"}},
+                "stderr": ["Could not find parameter robot_description on parameter server"]}}
+    """)
+        if each.rule == "TRC001"
+    )
+    assert (crash.severity, crash.confidence) == ("info", "possible")
+    assert "'/arm_description', which another launch may set" in crash.message
+
+
 def test_a_crash_for_want_of_a_private_value_that_is_reported_itself_is_a_consequence() -> None:
     check("""
         <launch>

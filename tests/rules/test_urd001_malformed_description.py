@@ -37,6 +37,12 @@ def test_what_is_taken(text: str) -> None:
 
 
 @pytest.mark.silent
+@pytest.mark.parametrize("name", ["/ghost/robot_description", "arm_description"])
+def test_the_name_of_the_parameter_with_the_description(name: str) -> None:
+    check(f'<launch><param name="publisher/robot_description" value="{name}"/></launch>')
+
+
+@pytest.mark.silent
 def test_a_command_that_was_not_run() -> None:
     check(_LAUNCH.format("", "{}"))
 

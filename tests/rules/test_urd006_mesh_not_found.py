@@ -34,6 +34,14 @@ def test_a_file_by_its_path(package: str, tmp_path: Path) -> None:
     check(of_urdf(_URDF.format(f"file://{tmp_path}/arms/meshes/wrist.stl"), written + package))
 
 
+def test_a_folder_that_is_missing_is_told_once(package: str) -> None:
+    meshes = [f"package://arms/parts/{name}.stl" for name in ("elbow", "wrist")]
+    first = _expected(meshes[0], "folder 'arms/parts' of a mesh does not exist")
+    written = first.replace("</robot>", f'<mesh filename="{meshes[1]}"/></robot>')
+    links = _URDF.format(meshes[0]).replace("</link>", f'<collision><mesh filename="{meshes[1]}"/></collision></link>')
+    check(of_urdf(links, written + package))
+
+
 def test_a_slip_in_the_package(package: str) -> None:
     mesh = "package://armss/meshes/elbow.STL"
     text = of_urdf(_URDF.format(mesh), _expected(mesh, "package 'armss' of a mesh does not exist") + package)

@@ -36,6 +36,7 @@ def lacks(*said: str, status: str = "crashed", wrote: tuple[str, ...] = ()) -> s
         ("socket.gaierror: [Errno -3] Temporary failure in name resolution", "network"),
         ("serial.SerialException: could not open port /dev/ttyUSB0: No such file", "the device /dev/ttyUSB0"),
         ("/ws/bin/httpd: error while loading shared libraries: libssl.so.1.0.0: cannot open", "shared library"),
+        ("OSError: [Errno 8] Exec format error: '/ws/lib/p/driver'", "a processor of another kind"),
         ("EOFError: EOF when reading a line", "a terminal"),
         ("termios.error: (25, 'Inappropriate ioctl for device')", "a terminal"),
         ("ERROR: Wrong input topic (or topic field): /imu", "publish a topic"),

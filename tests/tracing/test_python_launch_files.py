@@ -143,6 +143,12 @@ def test_a_wrong_keyword_is_a_finding_on_its_line(harness: PythonHarness) -> Non
     assert "node_executable" in text[line_of(analysis)[1] - 1]
 
 
+def test_a_function_is_no_condition(harness: PythonHarness) -> None:
+    analysis = harness.launch(_described(harness, "Node(package='p', executable='x', condition=lambda context: True)"))
+    (finding,) = [each for each in analysis.findings if each.rule == "LCH032"]
+    assert finding.message == "AttributeError: 'function' object has no attribute 'evaluate'"
+
+
 def test_an_exception_in_a_helper_leads_to_the_call(harness: PythonHarness) -> None:
     harness.write("p/__init__.py", "")
     harness.write("p/helper.py", "def made():\n    return {}['nothing']\n")

@@ -191,6 +191,9 @@ def _by_rule(report: Report) -> dict[str, list[Severity]]:
 _NAMED = re.compile(r"'|(?<!<)/\w")
 """In a message that says what is wrong with something of a name, not only what kind of mistake it is."""
 
+_COUNTED = re.compile(r"; \d+ of \d+ nodes not fully analysed")
+"""What a message says of the launch, not of the cause."""
+
 
 def _causes(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
     """Findings that say the same of several places, or of which each points at the other's place, together. What names
@@ -199,7 +202,7 @@ def _causes(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
     pointing: dict[tuple[str, Location, Location], list[Finding]] = {}
     for finding in findings:
         where = "" if _NAMED.search(finding.message) else finding.location.file
-        key = finding.rule, finding.severity, finding.message, where
+        key = finding.rule, finding.severity, _COUNTED.sub("", finding.message), where
         same = found.get(key)
         to = [(related.location, finding.location) for related in finding.related]
         back = (pointing.get((finding.rule, there, here)) for there, here in to)

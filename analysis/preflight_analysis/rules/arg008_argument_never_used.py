@@ -108,18 +108,33 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
     # Of files of which one is chosen, each has to declare what all of them are passed.
     if action is None or file is None or any(part.command not in _FIXED for part in file.substitutions):
         return
+    assert includer is not None
     for given in action.children:
         value = given.value("name")
         if given.kind == "arg" and value is not None and value.text == name:
             where = shown(str(include.path), context)
             left_out = _is_left_out(context, declared.file, name)
+            in_common = len(_files_given(includer).get(name, ())) > 1
             yield rule.finding(
                 f"argument '{name}' has no effect: '{where}' "
                 + ("uses it only in a comment" if left_out else "declares it but never uses it"),
                 context.location(include.origin[-1].file, value.span),
-                severity="info" if left_out else "warning",
+                severity="info" if left_out or in_common else "warning",
                 related=(Related("declared here", declared),),
             )
+
+
+@memoize_by_file
+def _files_given(launch_file: LaunchFile) -> Mapping[str, set[str]]:
+    """The files that the includes of a file pass each argument: where they are several, they may agree on what all of
+    them declare."""
+    given: dict[str, set[str]] = {}
+    for action in launch_file.root.walk() if launch_file.root is not None else ():
+        for child in action.children if action.kind == "include" else ():
+            name, file = child.value("name"), action.value("file")
+            if child.kind == "arg" and name is not None and file is not None:
+                given.setdefault(name.text, set()).add(file.text)
+    return given
 
 
 def _passed_around(context: Context, path: str) -> Counter[str]:
@@ -315,7 +330,7 @@ RULE = Rule(
     "included files see the argument, so only a launch of a single file is checked. An include that passes an "
     "argument which the included file declares and never uses is a warning. If that include is in another launch of "
     "the package, the finding is at the declaration. It is information if a comment of the file mentions the "
-    "argument.",
+    "argument, or if the includer passes the argument to several files.",
     why="The argument has no effect when it is set on the command line. An argument is visible only in the file "
     "that declares it. An included file gets it only if the include passes it.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',

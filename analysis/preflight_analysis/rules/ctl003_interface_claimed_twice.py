@@ -21,7 +21,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         for claim, name in _commanded(each):
             owner = owners.setdefault((each.manager, name), each)
-            if owner is each or owner.spawner is None:
+            if owner.name == each.name or owner.spawner is None:
                 continue
             yield rule.finding(
                 f"command interface '{name}' is claimed by '{owner.name}' and by '{each.name}': only one of them can "

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode, Problem
+from preflight_analysis.evaluation.ros2.spawners import is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.catalogued import as_sure
@@ -48,10 +49,12 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         other = first.setdefault(node.name, node)
         if node.name_from_code and other is not node:
+            # A spawner ends when the controller is there.
+            brief = is_spawner(node) or is_spawner(other)
             yield rule.finding(
                 f"duplicate node name '{node.name}': {_why(node)}",
                 context.location(node.location.file, node.action.kind_span),
-                severity="info" if node.name_inferred else "warning",
+                severity="info" if node.name_inferred or brief else "warning",
                 confidence="possible" if node.name_inferred or other.name_inferred else "likely",
                 related=(Related("the first node", other.location), *include_chain(node.origin)),
             )

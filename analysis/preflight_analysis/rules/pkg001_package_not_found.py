@@ -27,8 +27,11 @@ from preflight_analysis.rules.problems import include_chain, problems_of, rename
 from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, Rule
 
-_GENERIC = frozenset(("cpp", "driver", "msgs", "node", "py", "ros", "ros2", "srvs"))
-"""Words that packages of all kinds have in their names."""
+_GENERIC = frozenset(
+    ("cpp", "driver", "msgs", "node", "py", "ros", "ros2", "srvs",
+     "camera", "gnss", "gps", "imu", "laser", "lidar", "radar", "sensor", "sensors")
+)  # fmt: skip
+"""Words that packages of all kinds have in their names, and those of drivers of all makes."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

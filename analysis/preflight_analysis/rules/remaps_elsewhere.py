@@ -29,6 +29,14 @@ _IN_USE = (
     re.compile(r"""<(?:param|arg)\b[^<>]*?\b(?:value|default)\s*=\s*["'](/[\w/]+)["']"""),
 )
 """Absolute names that tags of ROS 1 and 2 give or take, or that parameters hand to nodes."""
+_BRIDGED = (re.compile(r"""["'\s](/?\w[\w/]*)@\w+/[\w/]+[@\[\]]"""),)
+"""Topics in the arguments of a bridge to a simulator."""
+_SIMULATED = (
+    re.compile(r""">\s*(/?\w[\w/]*)\s*</\w*[tT]opic(?:_?[nN]ame)?>"""),
+    re.compile(r""":=\s*(/?\w[\w/]*)\s*</(?:remapping|argument)>"""),
+)
+"""Topics that plugins of simulators are given."""
+_ROBOTS_AND_WORLDS = (".xacro", ".urdf", ".sdf", ".world", ".gazebo")
 _ENOUGH = 2
 """Files that have to agree on a name."""
 
@@ -44,12 +52,18 @@ class Elsewhere:
 
 
 def in_use_around(context: Context, connections: Sequence[Connection]) -> list[bool]:
-    """Whether several launch files around write the name of each end: it is no slip, whoever is to be at its other
-    end."""
+    """Whether several launch files around write the name of each end, or a simulator makes it in some launch: it is no
+    slip, whoever is to be at its other end."""
     if not connections:
         return []
-    known = around(context, _IN_USE)
-    return [known.get(connection.name, 0) >= _ENOUGH for connection in connections]
+    known, bridged = around(context, _IN_USE), around(context, _BRIDGED)
+    simulated = {
+        name.strip("/") for found in (bridged, around(context, _SIMULATED, _ROBOTS_AND_WORLDS)) for name in found
+    }
+    return [
+        known.get(connection.name, 0) >= _ENOUGH or connection.name.strip("/") in simulated
+        for connection in connections
+    ]
 
 
 def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
@@ -57,7 +71,9 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     theirs is a slip of it, several launch files around have it, and no other one has theirs. Likewise, of consumers
     without a remap, what the sources of the workspace offer. Ask through `context.once`."""
     consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
-    slips = [each for each in consumers if meant_in_sources(context, each) is not None]
+    partial = {path for path, launch_file in context.launch_files.items() if launch_file.partial}
+    read = [each for each in consumers if each.node.location.file not in partial]  # where each remap is known
+    slips = [each for each in read if meant_in_sources(context, each) is not None]
     slips = [each for each, in_use in zip(slips, in_use_around(context, slips), strict=True) if not in_use]
     by_source = {
         id(each): Elsewhere(*meant, in_source=True)

@@ -184,10 +184,14 @@ class _LostParams:
         description of the robot."""
         if read.name in self._set or read.use.has_default:
             return None
-        beside = (is_for_tools(read.name) or describes_robot(read.name)) and names.leaf(read.name) not in self._leaves
+        # The process has the name to which a remap leads, and what it says before it ends is its own.
+        remapped = (each.source for each in read.node.remaps if each.target == read.name)
+        written = (read.name, *remapped)
+        known = any(is_for_tools(name) or describes_robot(name) for name in written)
+        beside = known and names.leaf(read.name) not in self._leaves
         if self._complete and not beside:
             return None
-        leaf = re.compile(rf"(?<!\w){re.escape(names.leaf(read.name))}(?!\w)")
+        leaf = re.compile(rf"(?<!\w)(?:{'|'.join(re.escape(names.leaf(name)) for name in written)})(?!\w)")
         said = any(leaf.search(line) for line in (outcome.reason or "", *outcome.stderr_tail))
         setter = "another launch" if self._complete else "an unresolved part of the launch"
         return f"'{read.name}', which {setter} may set" if said else None

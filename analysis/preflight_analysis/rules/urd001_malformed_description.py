@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
@@ -14,6 +15,8 @@ from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
+_NAME = re.compile(r"[~/]?[A-Za-z][\w/]*")
+"""Of the parameter or topic that has the description, which is what some nodes call so."""
 _KINDS = ("robot", "sdf")
 """Tags of roots that robot_state_publisher takes; SDF by a plugin (sdformat_urdf)."""
 
@@ -21,7 +24,7 @@ _KINDS = ("robot", "sdf")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for robot in robots_of(context.tree):
         description, text = robot.description, robot.text.strip()
-        if not text:
+        if not text or _NAME.fullmatch(text):
             continue
         if description.malformed is not None:
             yield _malformed(rule, context, robot, description.malformed)
@@ -76,7 +79,8 @@ RULE = Rule(
     severity="error",
     what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is neither "
     "`<robot>` nor `<sdf>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file. "
-    "A description that xacro has yet to process is a warning, and the other rules do not read it.",
+    "A description that xacro has yet to process is a warning, and the other rules do not read it. A value that is a "
+    "name is not checked: some nodes get the name of the parameter with the description.",
     why="`robot_state_publisher` ends with an error and publishes no frame. Controller managers and planners wait for "
     "a description or end too.",
     example='<param name="robot_description" textfile="$(find arm)/urdf/arm.yaml"/>',

@@ -21,10 +21,12 @@ _FILE = "file://"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for robot in robots(context):
+        said = set[str]()  # a folder that is missing is of many meshes
         for mesh in robot.description.meshes:
             found = _missing(context, mesh)
-            if found is None:
+            if found is None or found[0] in said:
                 continue
+            said.add(found[0])
             message, old, near, severity = found
             place, related = written(context, robot, "mesh", "filename", mesh)
             path = mesh.removeprefix(_FILE)
@@ -59,6 +61,9 @@ def _missing(context: Context, mesh: str) -> tuple[str, str, str, Severity | Non
         return f"{message}; git ignores it, so each machine may create it", "", "", "info"
     near_path = nearest_file(context.disk, path, context.environment)
     if near_path is None:
+        folder = os.path.dirname(path)
+        if not context.disk.exists(located(context.disk, context.environment, folder)):
+            message = f"folder '{shown(folder, context)}' of a mesh does not exist"
         return message, "", "", None
     same_folder = os.path.dirname(near_path) == os.path.dirname(path)
     old, new = (os.path.basename(path), os.path.basename(near_path)) if same_folder else ("", "")

@@ -1,4 +1,4 @@
-"""Names that the launch files around one write, whatever launch they are of."""
+"""Names that the files around a launch file write, whatever launch they are of."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from preflight_analysis.rules.rule import Context
 Patterns = tuple[re.Pattern[str], ...]
 """Several: one that begins with a certain text is found faster than a choice of them."""
 _MOST = 500
-"""Launch files of one package that are read."""
+"""Files of one package that are read."""
 _MOST_PACKAGES = 30
 """Packages beside one that are looked at."""
 
@@ -29,12 +29,13 @@ _MOST_PACKAGES = 30
 def in_package(context: Context, patterns: Patterns) -> Mapping[str, int]:
     """In how many launch files of the package of the root each name is that a pattern finds, as its group."""
     package = package_around(context.environment, context.root)
-    return _in_folder(context.disk.db, package.share, patterns) if package is not None else {}
+    return _in_folder(context.disk.db, package.share, patterns, LAUNCH_SUFFIXES) if package is not None else {}
 
 
-def around(context: Context, patterns: Patterns) -> Mapping[str, int]:
-    """As `in_package`, with the packages beside that: a robot's description, navigation, ... mostly are."""
-    return _around(context.disk.db, context.environment, context.root, patterns)
+def around(context: Context, patterns: Patterns, suffixes: tuple[str, ...] = LAUNCH_SUFFIXES) -> Mapping[str, int]:
+    """As `in_package`, with the packages beside that: a robot's description, navigation, ... mostly are. Files with
+    other `suffixes` are read likewise."""
+    return _around(context.disk.db, context.environment, context.root, patterns, suffixes)
 
 
 def in_workspace(context: Context, patterns: Patterns) -> bool:
@@ -50,7 +51,9 @@ def _in_workspace(db: Database, environment: Environment, patterns: Patterns) ->
 
 
 @query
-def _around(db: Database, environment: Environment, root: str, patterns: Patterns) -> Mapping[str, int]:
+def _around(
+    db: Database, environment: Environment, root: str, patterns: Patterns, suffixes: tuple[str, ...]
+) -> Mapping[str, int]:
     package = package_around(environment, root)
     if package is None:
         return {}
@@ -58,13 +61,13 @@ def _around(db: Database, environment: Environment, root: str, patterns: Pattern
     shares = {each.share for each in environment.packages.values() if os.path.dirname(each.share) == beside}
     counts: Counter[str] = Counter()
     for share in shares if len(shares) <= _MOST_PACKAGES else (package.share,):
-        counts.update(_in_folder(db, share, patterns))
+        counts.update(_in_folder(db, share, patterns, suffixes))
     return dict(counts)
 
 
 @query
-def _in_folder(db: Database, folder: str, patterns: Patterns) -> Mapping[str, int]:
-    paths = [path for path in files_in(Disk(db), folder, deep=True) if path.endswith(LAUNCH_SUFFIXES)]
+def _in_folder(db: Database, folder: str, patterns: Patterns, suffixes: tuple[str, ...]) -> Mapping[str, int]:
+    paths = [path for path in files_in(Disk(db), folder, deep=True) if path.endswith(suffixes)]
     return dict(Counter(chain.from_iterable(_in_file(db, path, patterns) for path in paths[:_MOST])))
 
 

@@ -35,6 +35,7 @@ _SIGNS = (
         "a network",
     ),
     (r"Namespace \w+ not available", "a library of GObject introspection that is not installed here"),
+    (r"Exec format error", "a processor of another kind, for which the program was built"),
     (r"error while loading shared libraries", "a shared library that is not installed here"),
     (r"EOFError: EOF when reading a line|Inappropriate ioctl for device", "a terminal, from which it reads"),
     (r"not a git repository", "the git repository, which the sandbox hides"),

@@ -190,6 +190,8 @@ class Serializer:
         known = isinstance(condition, (IfCondition, LaunchConfigurationEquals))
         if known and not overrides(condition, "evaluate"):
             self.attribute(condition.attribute, condition.expression)  # type: ignore[attr-defined]
+        elif not hasattr(condition, "evaluate"):
+            raise AttributeError(f"{type(condition).__name__!r} object has no attribute 'evaluate'")
         else:
             self._open[-1]["a"]["if"] = [_own(condition)]
 
