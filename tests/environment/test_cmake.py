@@ -86,6 +86,20 @@ def test_executables_and_the_libraries_of_the_package_they_are_linked_with(harne
     assert build.library("demo_core.so") is library and build.library("other") is None
 
 
+def test_programs_of_tests(harness: Harness) -> None:
+    build = harness.build(
+        """
+        project(demo)
+        if(CATKIN_ENABLE_TESTING)
+          catkin_add_gtest(${PROJECT_NAME}-unit test/unit.cpp)
+          add_rostest_gtest(${PROJECT_NAME}_test test/demo.test test/demo.cpp)
+        endif()
+        """
+    )
+    assert build.executable("demo-unit") is not None
+    assert harness.sources(build, "demo_test") == ["test/demo.cpp"]
+
+
 def test_a_program_of_cartographer_s_macro_has_the_library_of_its_project(harness: Harness) -> None:
     build = harness.build(
         """

@@ -53,6 +53,21 @@ def test_a_remap_is_looked_up_with_the_resolved_name() -> None:
     assert graph.topics["/robot/scan_filtered"].types == ("x/Y", "x/Z")
 
 
+def test_arguments_are_remaps_which_tags_override() -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t" name="n" args="5 a:=/front b:=/back _c:=c __name:=d">
+            <remap from="b" to="/rear"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/n": {"subscribers": {"a": "x/Y", "b": "x/Y", "c": "x/Y"}}}
+    """
+    graph = graph_of(text)
+    assert sorted(graph.topics) == ["/c", "/front", "/rear"]
+    assert graph.topics["/front"].consumers[0].remap is None
+
+
 def test_a_remapped_name_is_not_remapped_again() -> None:
     graph = graph_of("""
         <launch>

@@ -82,6 +82,16 @@ def test_images_that_are_published_in_another_transport(
     assert {name for name, each in topics.items() if each.consumers} == {subscribed}
 
 
+def test_remaps_that_stand_among_the_arguments(tmp_path: Path) -> None:
+    node = '<node pkg="topic_tools" type="relay" name="tool" args="scan out out:=/laser _lazy:=true"/>'
+    assert topics_of(tmp_path, node) == ({"/laser"}, {"/scan"})
+    node = '<node pkg="image_transport" type="republish" name="n" args="compressed in:=/front raw out:=image"/>'
+    graph = package_elsewhere.analysed(tmp_path, f"<launch>{node}</launch>", "b.launch", "noetic").graph
+    assert graph is not None
+    assert {"/image", "/front/compressed"} <= graph.topics.keys()
+    assert graph.topics.keys().isdisjoint({"/in", "/in/compressed", "/out"})
+
+
 BRIDGES = """
 - {ros_topic_name: odom, gz_topic_name: /model/odom, ros_type_name: nav_msgs/msg/Odometry, direction: GZ_TO_ROS}
 - {topic_name: /cmd_vel, ros_type_name: geometry_msgs/msg/Twist, direction: ROS_TO_GZ}

@@ -34,27 +34,30 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
     assert "$(find rospy_tutorials)/x" in apply(text, find.fixes[0].edits)["/main.launch"]
 
 
-def test_a_name_from_before_a_rename() -> None:
-    (finding,) = check("""
+def test_a_name_from_before_a_rename(tmp_path: Path) -> None:
+    (tmp_path / "ca_tools" / "config").mkdir(parents=True)
+    (finding,) = check(f"""
         <launch>
-          <include file="$(find create_tools)/launch/joy.launch"/>
-                         ^^^^^^^^^^^^^^^^^^^^ warning[PKG001] names it; did you mean 'ca_tools'?
+          <arg name="pad" default=""/>
+          <rosparam file="$(find create_tools)/config/joy_$(arg pad).yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^ warning[PKG001] names it; did you mean 'ca_tools'?
         </launch>
-        //- /ca_tools/package.xml
+        //- {tmp_path}/ca_tools/package.xml
         <package/>
     """)
     assert [(fix.title, fix.preferred) for fix in finding.fixes] == [("Replace 'create_tools' with 'ca_tools'", False)]
 
 
-def test_a_like_name_without_the_program_that_is_started() -> None:
-    check("""
-        <launch>
-          <node pkg="dmp" type="dmp_server" name="n"/>
-                     ^^^ info[PKG001] no package.xml of the workspace names it
-        </launch>
+@pytest.mark.parametrize(
+    "tag", ['node pkg="dmp" type="dmp_server" name="n"', 'rosparam file="$(find dmp)/config/a.yaml"']
+)
+def test_a_like_name_without_what_is_asked_of_it(tag: str) -> None:
+    found = findings_of(f"""
+        <launch><{tag}/></launch>
         //- /rob_dmp/package.xml
         <package/>
     """)
+    assert [(f.severity, "did you mean" in f.message) for f in found if f.rule == "PKG001"] == [("info", False)]
 
 
 def test_a_word_that_the_folder_of_the_project_has_is_no_likeness() -> None:

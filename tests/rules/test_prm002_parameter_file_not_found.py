@@ -69,6 +69,10 @@ def test_a_name_that_says_that_it_has_to_be_given() -> None:
           <arg name="robot" default="$(optenv ROBOT !!NO_ROBOT_SET!!)"/>
           <rosparam file="$(find p)/$(arg robot)/arm.yaml"/>
                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] parameter file 'p/!!NO_ROBOT_SET!!/arm.yaml'
+          <rosparam file="$(find p)/PASS THE CONFIG FILE.yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] a part of the path has to be set
+          <rosparam file="$(find p)/TODO: find_arm.yaml"/>
+                          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM002] a part of the path has to be set
           <rosparam file="$(find p)/note_settings/arm.yaml"/>
                           ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[PRM002]
           <rosparam>robot: !!NO_ROBOT_SET!!</rosparam>

@@ -568,3 +568,21 @@ def test_a_crash_of_a_program_that_the_node_starts_does_not_say_what_that_lacks(
 def test_what_the_logger_says_of_itself_is_not_why_a_node_ended() -> None:
     lines = ("[ERROR] [1.5]: Error opening file: /x/a.log", "log4cxx: Please initialize the log4cxx system properly.")
     assert telling_line(lines) == "Error opening file: /x/a.log"
+
+
+@pytest.mark.parametrize(("other", "severity"), [("q", "info"), ("", "warning")])
+def test_a_crash_for_a_module_that_two_packages_have(tmp_path: Path, other: str, severity: str) -> None:
+    for package in filter(None, ("p", other)):
+        (tmp_path / package / "src" / "sonar").mkdir(parents=True)
+    said = "ImportError: cannot import name 'sonar' from 'sonar' (unknown location)"
+    found = findings_of(f"""
+        //- {tmp_path}/main.launch
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- {tmp_path}/p/package.xml
+        <package/>
+        //- {tmp_path}/q/package.xml
+        <package/>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
+    """)
+    assert [f.severity for f in found if f.rule == "TRC001"] == [severity]

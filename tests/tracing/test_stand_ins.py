@@ -585,3 +585,10 @@ def test_what_debian_has_for_nodes_of_ros1_is_nothing_for_those_of_ros2(tmp_path
     assert interface.outcome.status == "spinning"
     assert {"rclpy", "std_srvs", "tf2_ros"} <= {*interface.stand_ins}
     assert ("service", "reset", "std_srvs/srv/Trigger") in own(interface)
+
+
+def test_a_key_of_a_configuration_that_the_build_makes(tmp_path: Path) -> None:
+    start = "import rospy\nfrom dynamic_reconfigure.server import Server\nrospy.init_node('n')\n"
+    text = "Server(object, lambda config, level: '{speed}'.format(**config))\n"
+    assert trace_without(write_node(tmp_path, start + text)).outcome.lacks == "the Python module dynamic_reconfigure"
+    assert trace_without(write_node(tmp_path, start + "rospy.get_param('speed')\n")).outcome.lacks is None

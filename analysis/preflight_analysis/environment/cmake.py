@@ -223,6 +223,10 @@ class _Lists:
                 patterns = [os.path.join(where, f"*{ending}") for ending in SOURCES]
                 found = globbed(self._disk, patterns, folder, False)
                 variables[variable] = joined([variables.get(variable, ""), *found])
+            case (("catkin_add_gtest" | "catkin_add_gmock" | "catkin_add_executable_with_gtest"), [target, *rest]):
+                self._target(target, "executable", rest, folder)
+            case (("add_rostest_gtest" | "add_rostest_gmock"), [target, _, *rest]):
+                self._target(target, "executable", rest, folder)
             case ("add_executable" | "add_library") as kind, [target, *rest]:
                 self._target(target, "executable" if kind == "add_executable" else "library", rest, folder)
             case "google_binary", [target, *rest]:  # cartographer's, which links the library of the project

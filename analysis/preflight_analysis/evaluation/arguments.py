@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from preflight_analysis.evaluation import names
+
 _REMAP = re.compile(r"([~/A-Za-z]|_|__)[\w/]*:=.*\Z", re.DOTALL)
 
 
@@ -22,6 +24,12 @@ def parse_arguments(words: Iterable[str]) -> dict[str, str]:
         if name and value and not private:
             found[name] = value
     return found
+
+
+def remaps_in(words: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    """The remaps among the arguments of a node of ROS 1: `scan:=base_scan`. What begins with `_` is none."""
+    pairs = (word.partition(":=") for word in words if ":=" in word and not word.startswith(("_", "-")))
+    return tuple((name, value) for name, _, value in pairs if names.is_legal(name) and names.is_legal(value))
 
 
 def parse_ros2_arguments(words: Iterable[str]) -> dict[str, str]:

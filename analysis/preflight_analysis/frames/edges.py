@@ -35,7 +35,7 @@ def plain(frame: str) -> str:
 
 def space_of(node: LaunchNode, generation: int) -> str:
     """The namespace of the topic that a node has for `/tf`: "" for that itself, `/robot1` where it is remapped."""
-    if not node.remaps:
+    if not node.remaps and ":=" not in node.args:
         return ""
     remap = effective_remaps(node, generation).get("/tf")
     return remap[1].removesuffix("/tf") if remap is not None else ""

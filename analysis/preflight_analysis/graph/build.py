@@ -11,6 +11,7 @@ from itertools import chain
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.arguments import remaps_in
 from preflight_analysis.evaluation.ros2.remaps import source_for
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.generation import ros
@@ -21,6 +22,7 @@ from preflight_analysis.graph.processes import each_node
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.nodelets import manager_of
+from preflight_analysis.tracing.request import split_args
 
 _PROVIDERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
@@ -113,12 +115,16 @@ def _of_node(node: LaunchNode, interface: Interface, manager: LaunchNode | None,
     return _Made(tuple(topics), tuple(services), tuple(actions), reads)
 
 
-def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap, str]]:
+def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap | None, str]]:
     """Resolved source to the remap and its resolved target; of two for one name the later wins in ROS 1, the first one
-    in ROS 2, as in the clients."""
+    in ROS 2, as in the clients. In ROS 1 arguments of a node are remaps as well, before those of tags and without one
+    (http://wiki.ros.org/Remapping%20Arguments)."""
     rules = ros(generation)
     ordered = reversed(node.remaps) if rules.first_remap_wins else node.remaps
-    found = {}
+    found: dict[str, tuple[Remap | None, str]] = {}
+    if not rules.ament and ":=" in node.args:
+        for given, target in remaps_in(split_args(node.args)):
+            found[names.resolve(given, node.name)] = None, names.resolve(target, node.name)
     for remap in ordered:
         source = source_for(remap.source, node.name) if rules.remaps_of_nodes else remap.source
         if source is not None:
@@ -127,8 +133,8 @@ def effective_remaps(node: LaunchNode, generation: int) -> dict[str, tuple[Remap
 
 
 def _within(
-    outer: Mapping[str, tuple[Remap, str]], own: Mapping[str, tuple[Remap, str]]
-) -> dict[str, tuple[Remap, str]]:
+    outer: Mapping[str, tuple[Remap | None, str]], own: Mapping[str, tuple[Remap | None, str]]
+) -> dict[str, tuple[Remap | None, str]]:
     """The remaps of a nodelet whose manager has `outer`. roscpp applies those of its process to both sides of what a
     handle is given, so that the manager's win (`ros::NodeHandle::initRemappings`, seen with a real manager)."""
 
@@ -138,7 +144,7 @@ def _within(
     return {**outer, **{moved(source): (remap, moved(target)) for source, (remap, target) in own.items()}}
 
 
-def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Remap, str]]) -> Connection:
+def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Remap | None, str]]) -> Connection:
     full = names.resolve(endpoint.name, node.name)
     if full in remaps:
         remap, target = remaps[full]
@@ -147,7 +153,7 @@ def _connect(node: LaunchNode, endpoint: Endpoint, remaps: Mapping[str, tuple[Re
 
 
 def _connect_action(
-    node: LaunchNode, action: ActionEndpoint, remaps: Mapping[str, tuple[Remap, str]], *, as_a_whole: bool
+    node: LaunchNode, action: ActionEndpoint, remaps: Mapping[str, tuple[Remap | None, str]], *, as_a_whole: bool
 ) -> tuple[list[Connection], list[Connection]]:
     """The action and what it is made of. It is none any more, but topics and services, where remaps move those apart.
 

@@ -15,6 +15,7 @@ from itertools import compress
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.arguments import remaps_in
 from preflight_analysis.evaluation.ros2.bridges import config_file_of, is_bridge
 from preflight_analysis.evaluation.rviz import rviz_config_of
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
@@ -109,7 +110,8 @@ def _of_republish(node: LaunchNode, words: list[str], kinds_in_types: bool) -> _
     behind the remapped one. Without the second all transports are published."""
     if kinds_in_types or node.executable != "republish" or not words:
         return
-    remapped = names.resolve_remaps(tuple((remap.source, remap.target) for remap in node.remaps), node.name)
+    tagged = tuple((remap.source, remap.target) for remap in node.remaps)
+    remapped = names.resolve_remaps((*remaps_in(split_args(node.args)), *tagged), node.name)
     roles: tuple[Role, Role] = ("subscriber", "publisher")
     for role, name, transport in zip(roles, _ENDS, (words[0], (*words[1:], "raw")[0]), strict=True):
         resolved = names.resolve(name, node.name, remapped)

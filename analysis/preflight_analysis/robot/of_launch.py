@@ -45,10 +45,16 @@ def robot_of(tree: LaunchTree, node: LaunchNode) -> Robot | None:
     return found[0] if len(found) == 1 else None
 
 
+def _is_name(value: str) -> bool:
+    """Whether a parameter has the name of the description's own one (`/arm/robot_description`), which programs ask for
+    that by."""
+    return value.startswith("/") and names.is_legal(value)
+
+
 def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
     found: dict[str, Robot] = {}
     for param, nodes in _params(tree):
-        if not isinstance(param.value, str):
+        if not isinstance(param.value, str) or _is_name(param.value):
             continue
         known = found.get(param.value)
         if known is None:

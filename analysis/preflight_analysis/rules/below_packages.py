@@ -45,11 +45,16 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
     return (having[0], paths[0]) if len(having) == 1 else None
 
 
-def lacks_a_program_of(context: Context, file: str, name: str, other: str) -> bool:
-    """Whether `file` starts a program of package `name` that package `other` does not have."""
+def lacks_what_is_asked_of(context: Context, file: str, name: str, other: Package) -> bool:
+    """Whether `file` starts a program of package `name` that another package does not have, or asks for paths that are
+    written out, of which the other has none."""
     document = context.documents.get(file)
-    programs = _started_of(document.text, name) if isinstance(document, Document) else set()
-    return not all(_has_program(context, other, program) for program in programs)
+    if not isinstance(document, Document):
+        return False
+    paths = set(asked_below(document.text, name, {}))
+    if paths and not any(context.disk.exists(os.path.join(other.share, path)) for path in paths):
+        return True
+    return not all(_has_program(context, other.name, program) for program in _started_of(document.text, name))
 
 
 def _started_of(text: str, name: str) -> set[str]:

@@ -23,6 +23,10 @@ from preflight_analysis.rules.problems import problem_finding, problems_of, quot
 from preflight_analysis.rules.rule import Check, Context, Rule
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
+_TO_DO = re.compile(
+    r"\b(?:TODO|FIXME|TBD)\b|\b(?:CHANGE|REPLACE)_?ME\b|(?:\b[A-Z]{2,}\b[ _]?){4,}|\bPATH_TO_|\bpath/to/"
+)
+"""What people write where somebody else is to write a name: a note, or a sentence in capitals."""
 
 _HOME = re.compile(r"\bHOME\b|\bexpanduser\b|\.home\(\)")
 _OPTIONAL = re.compile(r"\$\(optenv (\w+) *\)")
@@ -153,7 +157,7 @@ def _absent_top(context: Context, path: str) -> str | None:
 def says_not_set(text: str) -> bool:
     """Whether a value is there to be replaced, as `$(optenv ROBOT !!NO_ROBOT_SET!!)` is: by a variable, or by an
     argument whose default it is."""
-    return _NOT_SET.search(text) is not None
+    return _NOT_SET.search(text) is not None or _TO_DO.search(text) is not None
 
 
 def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:

@@ -12,7 +12,7 @@ from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.below_packages import has_what_is_asked_of, lacks_a_program_of
+from preflight_analysis.rules.below_packages import has_what_is_asked_of, lacks_what_is_asked_of
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
 from preflight_analysis.rules.installed import (
     debian_package_of,
@@ -112,11 +112,11 @@ def _not_here(
         if context.once(_strangers) == {name}:
             near = _of_like_words(context, name)
             if near is not None and (
-                is_of_family(context, name, near) or lacks_a_program_of(context, location.file, name, near)
+                is_of_family(context, name, near.name) or lacks_what_is_asked_of(context, location.file, name, near)
             ):
                 near = None
-            text += did_you_mean(near)
-            fixes = rename(context, location, name, near, preferred=False) if near is not None else ()
+            text += did_you_mean(near.name if near is not None else None)
+            fixes = rename(context, location, name, near.name, preferred=False) if near is not None else ()
             lack, severity = None, "info" if near is None else "warning"
     return rule.finding(
         text,
@@ -138,7 +138,7 @@ def _strangers(context: Context) -> frozenset[str]:
     return frozenset(name for name in names if name not in named and not distributions_with(name, generation))
 
 
-def _of_like_words(context: Context, name: str) -> str | None:
+def _of_like_words(context: Context, name: str) -> Package | None:
     """The one package of the workspace whose name differs in one word, or has some more: as before a rename. A word
     that all packages of the project may have, as its folder has it, tells nothing."""
     generic = _GENERIC | context.once(words_of_folders)
@@ -152,7 +152,7 @@ def _of_like_words(context: Context, name: str) -> str | None:
         differing = sum(a != b for a, b in zip(words, others, strict=False))
         one_word = len(words) == len(others) > 1 and differing == 1
         if (one_word or set(words) < set(others)) and not generic.issuperset(set(words) & set(others)):
-            here.append(package.name)
+            here.append(package)
     return here[0] if len(here) == 1 else None
 
 

@@ -25,6 +25,7 @@ from preflight_analysis.tracing.request import split_args
 _WORD = re.compile(r"\w+")
 _NO_PARAM = re.compile(r"(?i)\b(?:could not|cannot|can't|failed to|no|not|missing|without)\b.*\bparam(?:eter)?s?\b")
 """How a program says that a parameter is not set, whose name it may not say."""
+_NOT_IN_MODULE = re.compile(r"ImportError: cannot import name '\w+' from '(\w+)")
 _ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
 _WANTS = re.compile(r"(?i)\busage\b|\bargument|\bfile|\bpath\b|\bIndexError\b|\brequired\b|\bopen\b|\binput\b|\boption")
 """How a program says that it is not told what to read."""
@@ -64,6 +65,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or outcome.lacks is not None
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
+            or _is_of_two_modules(context, telling_line(outcome.stderr_tail))
             or _OF_CALLED.search(telling_line(outcome.stderr_tail)) is not None
             or any(e.speculative for e in interface.endpoints)
             or node.kind == "test"
@@ -124,6 +126,16 @@ def _empty_argument(context: Context, node: LaunchNode, told: str) -> str | None
     found = re.fullmatch(pattern, node.args, re.DOTALL)
     given = zip(parts[1::2], found.groups(), strict=True) if found is not None else ()
     return next((f"argument '{name}'" for name, value in given if not value.strip()), None)
+
+
+def _is_of_two_modules(context: Context, telling: str) -> bool:
+    """Whether a name was not found in a module of which two packages of the workspace have one: which of them is
+    imported is decided by the order in which they are built."""
+    found = _NOT_IN_MODULE.search(telling)
+    if found is None:
+        return False
+    module = f"src/{found[1]}"
+    return sum(context.disk.is_folder(f"{each.share}/{module}") for each in context.environment.packages.values()) > 1
 
 
 def _waits(node: LaunchNode, outcome: Outcome) -> bool:

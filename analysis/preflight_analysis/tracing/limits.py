@@ -31,7 +31,7 @@ _SIGNS = (
     ),
     (
         r"Network is unreachable|No route to host|Name or service not known|Temporary failure in name resolution"
-        r"|Errno -[23]\b|Max retries exceeded|Could not resolve host",
+        r"|Errno -[23]\b|Max retries exceeded|Could not resolve host|Cannot assign requested address",
         "a network",
     ),
     (r"Namespace \w+ not available", "a library of GObject introspection that is not installed here"),

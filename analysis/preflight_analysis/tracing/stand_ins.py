@@ -21,6 +21,9 @@ _MOST_NAMED = 3
 _OURS = re.compile(r"(Attribute|Type|Import|ModuleNotFound|NotImplemented|Recursion)Error\b")
 """What a stand-in that is not like the real thing would make a node end for."""
 
+_CONFIG = "dynamic_reconfigure"
+"""What a build makes of its files is not here: which keys there are."""
+_KEY = re.compile(r"KeyError: '([A-Za-z_]\w*)'")
 _INSTALL = re.compile(
     r"(?i)\bpip3? install\b|\bnot (?:be )?(?:installed|available|found|imported)\b|\b(?:un|in)available\b"
     r"|\bis missing\b|\brequire[sd]?\b|'NoneType' object|\bname '\w+' is not defined"
@@ -51,6 +54,8 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
         outcome, failed = replace(outcome, status="crashed"), True
     ours = found.unknown or _OURS.search(outcome.reason or "") is not None
     modules = sorted(found.stand_ins) if ours else []
+    if not modules and _CONFIG in found.stand_ins and _lacks_key(outcome, found):
+        modules = [_CONFIG]
     if not modules and _INSTALL.search(f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"):
         modules = sorted(found.lacked)
     if not failed or not modules:
@@ -58,6 +63,12 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     more = f" and {len(modules) - _MOST_NAMED} more" if len(modules) > _MOST_NAMED else ""
     plural = "s" if len(modules) > 1 else ""
     return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")
+
+
+def _lacks_key(outcome: Outcome, found: Gathered) -> bool:
+    """Whether it ended for a key that is no parameter, such as one of a configuration."""
+    key = _KEY.search(outcome.reason or "")
+    return key is not None and all(use.name.rpartition("/")[2].strip("~") != key[1] for use, _ in found.params.values())
 
 
 def hides_all(found: Gathered) -> bool:
