@@ -141,3 +141,12 @@ def test_what_of_a_description_is_a_plugin(text: str, count: int) -> None:
 
 def test_a_description_of_unclosed_tags_is_read_in_linear_time() -> None:
     assert plugins_in('<plugin name="gz_ros2_control"><ros><parameters>' * 100_000) == ()
+
+
+def test_a_manager_that_the_launch_starts_beside_the_simulator(tmp_path: Path) -> None:
+    node = '<node pkg="controller_manager" exec="ros2_control_node"><param from="$(dirname)/c.yaml"/></node>'
+    found = analysed(tmp_path, "<parameters>@/c.yaml</parameters>", PUBLISHER + SPAWN + node).findings
+    (twice,) = [each for each in found if each.rule == "LCH016"]
+    assert twice.severity == "warning"
+    assert twice.message.startswith("duplicate node name '/controller_manager': the simulator creates it for the robot")
+    assert [each.message for each in twice.related] == ["the robot is spawned here"]

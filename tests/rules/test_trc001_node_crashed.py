@@ -131,7 +131,7 @@ def test_the_description_under_the_name_that_a_remap_gives() -> None:
         each
         for each in findings_of("""
         <launch>
-          <node pkg="p" type="t" name="n"><remap from="robot_description" to="/arm_description"/></node>
+          <node pkg="p" type="t" name="n"><remap from="robot_description" to="arm_description"/></node>
         </launch>
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "params": {"/arm_description": {"access": "search"}},

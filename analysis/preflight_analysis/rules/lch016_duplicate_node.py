@@ -48,7 +48,19 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
         if not (node.named or node.name_from_code) or node.unknowns:
             continue
         other = first.setdefault(node.name, node)
-        if node.name_from_code and other is not node:
+        if node.within is not None and node.within == other.within and node is not other:
+            continue  # two processes of one name, of which each makes them all
+        simulated = next((each for each in (node, other) if each.kind == "simulated"), None)
+        if simulated is not None and other is not node:
+            started = other if simulated is node else node
+            yield rule.finding(
+                f"duplicate node name '{node.name}': the simulator creates it for the robot, and this launch starts it",
+                context.location(started.location.file, started.action.kind_span),
+                severity="warning",
+                confidence="likely",
+                related=(Related("the robot is spawned here", simulated.location), *include_chain(started.origin)),
+            )
+        elif node.name_from_code and other is not node:
             # A spawner ends when the controller is there.
             brief = is_spawner(node) or is_spawner(other)
             yield rule.finding(
@@ -98,7 +110,9 @@ RULE = Rule(
     name="duplicate-node",
     severity="error",
     what="Checks for a second node with the same full name, in this file or an included file. In a Python launch "
-    "file it also checks nodes that are made in one branch of an `if`. Those findings are information.",
+    "file it also checks nodes that are made in one branch of an `if`. Those findings are information. So is a spawner "
+    "that has the name of its controller, because it ends. A controller manager that the launch starts beside that of "
+    "the simulator is a warning.",
     why="`roslaunch` stops, because names are unique in the graph: a second node shuts the first one down. `ros2 "
     "launch` only warns. Both nodes run, and a request to one of them by its name may reach the other. `ros2 "
     "launch` does not notice duplicate names of nodes without a `name`.",

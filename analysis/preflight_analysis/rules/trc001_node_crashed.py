@@ -197,7 +197,8 @@ class _LostParams:
         if read.name in self._set or read.use.has_default:
             return None
         # The process has the name to which a remap leads, and what it says before it ends is its own.
-        remapped = (each.source for each in read.node.remaps if each.target == read.name)
+        node = read.node
+        remapped = (each.source for each in node.remaps if names.resolve(each.target, node.name) == read.name)
         written = (read.name, *remapped)
         known = any(is_for_tools(name) or describes_robot(name) for name in written)
         beside = known and names.leaf(read.name) not in self._leaves
