@@ -206,6 +206,11 @@ ROBOT = b"""<robot><gazebo><plugin filename="gz_ros2_control-system" name="gz_ro
 <parameters>/a/b.yaml</parameters><controller_manager_name>cm</controller_manager_name><!-- <plugin> -->
 <ros><namespace>left</namespace><remapping>/tf:=tf</remapping></ros></plugin></gazebo></robot>
 """
+SRDF = b"""<robot name="r"><virtual_joint name="world" type="fixed" parent_frame="world" child_link="base"/>
+<group name="arm"><chain base_link="base" tip_link="tool"/><joint name="${prefix}elbow"/><group name="hand"/></group>
+<group_state name="home" group="arm"><joint name="elbow" value="0"/></group_state><passive_joint name="elbow"/>
+<end_effector name="hand" parent_link="tool" group="hand"/><disable_collisions link1="base" link2="tool"/></robot>
+"""
 NODL = b"""nodl_version: 2
 include: [{ref: 'local://common.nodl.yaml'}]
 parameters: {rate: {type: double, default_value: 10.0}}

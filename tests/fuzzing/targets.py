@@ -68,6 +68,7 @@ from preflight_analysis.queries.signature import signature
 from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.queries.tokens import tokens
 from preflight_analysis.robot.parse import parse_description
+from preflight_analysis.robot.semantic import parse_semantic
 from preflight_analysis.robot.sources import source_file
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.snapshot import report as snapshot_report
@@ -475,6 +476,13 @@ def robot_description(data: bytes) -> None:
         assert written.may_be(written.value) or not written.is_literal
 
 
+def semantic_description(data: bytes) -> None:
+    """What it says of the groups of a robot."""
+    found = parse_semantic(text_of(data))
+    for named in (*found.links, *found.joints, *found.group_names) if found is not None else ():
+        assert named.value and "$" not in named.value
+
+
 def setup_py(data: bytes) -> None:
     text = text_of(data)
     for name in ("setup.py", "setup.cfg", "pyproject.toml"):
@@ -714,6 +722,7 @@ TARGETS = (
         seeds.PYTHON,
     ),
     Target("gazebo-bridges", gazebo_bridges, lambda: [seeds.BRIDGES], seeds.YAML),
+    Target("semantic-description", semantic_description, lambda: [seeds.SRDF], seeds.XML),
     Target("robot-description", robot_description, lambda: [seeds.ROBOT], seeds.XML),
     Target("settings", settings, lambda: [seeds.SETTINGS], seeds.YAML),
     Target("cache-entries", cache_entries, _entries, seeds.JSON),

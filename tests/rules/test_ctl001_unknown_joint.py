@@ -1,7 +1,7 @@
 """CTL001: a joint of a controller that the robot does not have."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 from support.controlled_robot import launch, spawner
 
 _PARAMS = """
@@ -29,3 +29,9 @@ def test_joints_that_are_there() -> None:
 @pytest.mark.silent
 def test_a_controller_that_nobody_loads() -> None:
     check(launch(params=_PARAMS))
+
+
+def test_a_controller_of_another_variant_of_the_robot() -> None:
+    params = _PARAMS.replace("[left_wheel]", "[gripper_jaw]").replace("[right_weel]", "[gripper_finger]")
+    found = findings_of(launch(spawner("base"), params=params))
+    assert [(each.rule, each.severity) for each in found] == [("CTL001", "info")] * 2

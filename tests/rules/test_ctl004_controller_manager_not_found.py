@@ -26,3 +26,23 @@ def test_the_manager_of_the_launch() -> None:
     check(launch(spawner("base"), params=_PARAMS))
     named = spawner("base -c /robot/controller_manager")
     check(launch(named, params=_PARAMS, manager="/robot/controller_manager"))
+
+
+@pytest.mark.silent
+def test_a_namespace_that_the_spawner_is_given() -> None:
+    for args in ("base -n robot", "base --namespace=/robot -c controller_manager", "--controller base -n /robot"):
+        check(launch(spawner(args), params=_PARAMS, manager="/robot/controller_manager"))
+
+
+@pytest.mark.silent
+def test_a_program_that_may_have_the_manager() -> None:
+    """https://github.com/DoosanRobotics/doosan-robot2: mujoco_ros2_control has a manager in it."""
+    simulator = (
+        '<node pkg="p" exec="simulator" namespace="/sim"><param name="robot_description" value="&lt;robot/>"/></node>'
+    )
+    check(launch(simulator, spawner("base -c /sim/controller_manager"), params=_PARAMS))
+
+
+@pytest.mark.silent
+def test_a_controller_that_the_other_manager_does_not_have() -> None:
+    check(launch(spawner("other -c /sim/controller_manager"), params=_PARAMS))

@@ -105,7 +105,6 @@ def test_what_is_known_or_may_be() -> None:
           {_MANAGER}
           <node pkg="controller_manager" exec="spawner" name="a" args="twist_controller joint_state_broadcaster"/>
           <node pkg="controller_manager" exec="spawner" name="b" args="x -c /robot/controller_manager"/>
-                                                                       ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[CTL004]
           <node pkg="controller_manager" exec="spawner" name="c" args="other --param-file other"/>
           <node pkg="controller_manager" exec="spawner" name="d" args="other -t a/Type"/>
           <node pkg="controller_manager" exec="spawner" name="f" args="--switch-timeout 5 twist_controller --ros-args"/>

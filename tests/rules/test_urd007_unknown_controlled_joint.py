@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from preflight_analysis.rules.registry import run_rules
-from support.check import analyse, apply, check, read_fixture
+from support.check import analyse, apply, check, findings_of, read_fixture
 from support.robot_launch import of_urdf, robot
 
 _URDF = """<link name="a"/><link name="b"/>
@@ -57,3 +57,12 @@ def test_newer_distributions_refuse_the_description() -> None:
 @pytest.mark.silent
 def test_joints_that_exist() -> None:
     check(of_urdf(_URDF.format("shoulder_joint", "shoulder_joint")))
+
+
+def test_a_transmission_of_ros2_is_not_read() -> None:
+    escaped = f"<robot>{_URDF.format('shoulder_joint', 'elbow')}</robot>".replace("<", "&lt;").replace('"', "&quot;")
+    found = findings_of(f"""
+        //- /main.launch.xml
+        <launch><node pkg="p" exec="rsp" name="rsp"><param name="robot_description" value="{escaped}"/></node></launch>
+    """)
+    assert [(each.rule, each.severity) for each in found] == [("URD007", "info")]

@@ -85,7 +85,7 @@ class KnownMeanings:
         return Known(entry, package, common.evidence(self.distro), self._is_used(entry))
 
     def _is_used(self, entry: Entry) -> bool:
-        if self.distro is not None:
+        if self.distro in entry.distributions or self.distro in DISTRIBUTIONS[self.generation]:
             return self.distro in entry.distributions
         # What several distributions have alike is likely so in the one that is not known; of ROS 1 that is the last.
         known = DISTRIBUTIONS[self.generation].keys() & set(entry.distributions)

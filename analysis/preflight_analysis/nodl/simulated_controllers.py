@@ -11,16 +11,15 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros1.spawners import asked_of
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.nodl.catalogued import catalogued
 from preflight_analysis.tracing.interface import Endpoint, Interface
-from preflight_analysis.tracing.request import split_args
 
 _SIMULATOR = frozenset({("gazebo_ros", name) for name in ("gazebo", "gzserver", "debug")})
 _PLUGIN = re.compile(r"<plugin\b[^>]*gazebo_ros_control.{0,2000}?(?:</plugin>|/>)", re.DOTALL)
@@ -32,19 +31,11 @@ _PACKAGES = (
     *("velocity_controllers", "gripper_action_controller", "diff_drive_controller", "ackermann_steering_controller"),
 )
 """Of controllers that the catalogue has; that of some has another name than their package."""
-_WITH_VALUE = ("--namespace", "--timeout", "--shutdown-timeout", "--wait-for")
 _SERVICES = (
     *((name, name) for name in ("list_controllers", "list_controller_types", "load_controller", "unload_controller")),
     ("switch_controller", "switch_controller"),
     ("reload_controller_libraries", "reload_controller_libraries"),
 )
-
-
-class _Asked(NamedTuple):
-    """What a script asks a manager for: its namespace, and the names of controllers below that."""
-
-    space: str
-    controllers: tuple[str, ...]
 
 
 def with_simulated_controllers(
@@ -55,44 +46,22 @@ def with_simulated_controllers(
     at = next((at for at, node in enumerate(tree.nodes) if (node.package, node.executable) in _SIMULATOR), None)
     if at is None or interfaces[at].complete:
         return interfaces
-    asked = [each for node in tree.nodes if (each := _asked_of(node)) is not None]
+    asked = [each for node in tree.nodes if (each := asked_of(node)) is not None]
     spaces = _spaces(tree, tree.nodes[at]) if asked else None
     found: list[Endpoint] = []
     for each in asked:
-        if spaces is None or each.space in spaces:
-            found += _of_manager(each.space)
-            for name in each.controllers:
-                type_ = tree.params.get(names.join(each.space, f"{name}/type"))
+        if spaces is None or (each.namespace or "/") in spaces:
+            found += _of_manager(each.namespace or "/")
+            for name in map(each.full, each.controllers):
+                type_ = tree.params.get(f"{name}/type")
                 if type_ is not None and isinstance(type_.value, str):
-                    found += _of_controller(names.join(each.space, name), type_.value, environment)
+                    found += _of_controller(name, type_.value, environment)
     if not found:
         return interfaces
     whole = list(interfaces)
     more = {(end.role, end.name): end for end in found}
     whole[at] = whole[at].with_more("catalogue", tuple(more.values()), ())
     return whole
-
-
-def _asked_of(node: LaunchNode) -> _Asked | None:
-    if node.package != "controller_manager" or node.unknowns or "$(" in node.args:
-        return None
-    words = [*split_args(node.args)]
-    if node.executable == "controller_manager":
-        command, *words = words or [""]
-        if command not in ("spawn", "load"):
-            return None
-    elif node.executable != "spawner":
-        return None
-    space, controllers = "", []
-    given = iter(words)
-    for word in given:
-        option, equals, value = word.partition("=")
-        if option in _WITH_VALUE:
-            value = value if equals else next(given, "")
-            space = value if option == "--namespace" else space
-        elif not word.startswith(("-", "_")) and ":=" not in word:
-            controllers.append(word)
-    return _Asked(names.join(node.namespace, space).rstrip("/") or "/", tuple(controllers))
 
 
 def _spaces(tree: LaunchTree, simulator: LaunchNode) -> set[str] | None:

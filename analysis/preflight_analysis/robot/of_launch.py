@@ -3,15 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Protocol
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.parse import parse_description
+from preflight_analysis.robot.semantic import Semantic, parse_semantic
 
 DESCRIPTION = "robot_description"
 """The name of the parameter that robot_state_publisher, controller managers and planners read."""
+SEMANTIC = "robot_description_semantic"
+"""The name of the parameter that MoveIt reads for the groups of a robot."""
+
+
+class Described(Protocol):
+    """A text that describes a robot, and the first parameter that has it."""
+
+    @property
+    def text(self) -> str:
+        """The text."""
+
+    @property
+    def param(self) -> Param:
+        """The parameter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +36,16 @@ class Robot:
     (ROS 2) or below whose namespace it is (ROS 1: `/arm/robot_description` is for the nodes in `/arm`)."""
 
     description: Description
+    text: str
+    param: Param
+    nodes: tuple[LaunchNode, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SemanticRobot:
+    """What MoveIt is given of a robot beside its description, as `Robot` has that."""
+
+    semantic: Semantic
     text: str
     param: Param
     nodes: tuple[LaunchNode, ...]
@@ -45,6 +71,35 @@ def robot_of(tree: LaunchTree, node: LaunchNode) -> Robot | None:
     return found[0] if len(found) == 1 else None
 
 
+def semantics_of(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
+    """The semantic descriptions that the launch has, each once for the nodes that get it."""
+    return tree.once(_semantics)
+
+
+def given_robot(tree: LaunchTree, node: LaunchNode) -> Robot | None:
+    """The robot whose description is for certain the one that a node of MoveIt works with: it gets it as a parameter,
+    or all of the launch is known and there is one robot."""
+    robots = [robot for robot in robots_of(tree) if robot.description.kind == "robot"]
+    mine = [robot for robot in robots if any(each is node for each in robot.nodes)]
+    if not mine and tree.complete and not node.unknowns and not unread_of(tree):
+        mine = robots
+    return mine[0] if len(mine) == 1 else None
+
+
+def _semantics(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
+    found: dict[str, SemanticRobot] = {}
+    for param, nodes in _params(tree, SEMANTIC):
+        semantic = parse_semantic(param.value) if isinstance(param.value, str) else None
+        if semantic is None or not isinstance(param.value, str):
+            continue
+        known = found.get(param.value)
+        before = known.nodes if known is not None else ()
+        more = tuple(node for node in nodes if all(node is not each for each in before))
+        first = known.param if known is not None else param
+        found[param.value] = SemanticRobot(semantic, param.value, first, before + more)
+    return tuple(found.values())
+
+
 def _is_name(value: str) -> bool:
     """Whether a parameter has the name of the description's own one (`/arm/robot_description`), which programs ask for
     that by."""
@@ -53,7 +108,7 @@ def _is_name(value: str) -> bool:
 
 def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
     found: dict[str, Robot] = {}
-    for param, nodes in _params(tree):
+    for param, nodes in _params(tree, DESCRIPTION):
         if not isinstance(param.value, str) or _is_name(param.value):
             continue
         known = found.get(param.value)
@@ -67,17 +122,18 @@ def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
 
 def _unread(tree: LaunchTree) -> tuple[Param, ...]:
     raw = {id(robot.param) for robot in robots_of(tree) if robot.description.kind == "xacro"}
-    return tuple(param for param, _ in _params(tree) if isinstance(param.value, CommandValue) or id(param) in raw)
+    given = (param for param, _ in _params(tree, DESCRIPTION))
+    return tuple(param for param in given if isinstance(param.value, CommandValue) or id(param) in raw)
 
 
-def _params(tree: LaunchTree) -> Iterator[tuple[Param, tuple[LaunchNode, ...]]]:
+def _params(tree: LaunchTree, wanted: str) -> Iterator[tuple[Param, tuple[LaunchNode, ...]]]:
     if tree.ros.own_parameters:
         for node in tree.nodes:
             for param in node.params:
-                if param.name == DESCRIPTION:
+                if param.name == wanted:
                     yield param, (node,)
         return
     for name, param in tree.params.items():
-        if names.leaf(name) == DESCRIPTION:
+        if names.leaf(name) == wanted:
             space = names.parent(name)
             yield param, tuple(node for node in tree.nodes if node.name.startswith(space))

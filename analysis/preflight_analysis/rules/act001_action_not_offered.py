@@ -6,6 +6,7 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.dangling import dangling_consumers
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
+from preflight_analysis.rules.moveit import unserved
 from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
@@ -22,7 +23,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    near, unknown = near_misses(context, "actions"), not_analysed(graph)
+    # MVT001 reports them, by more than the name.
+    of_moveit = {(id(each.known.node), each.known.action) for each in context.once(unserved)}
+    pairs, unknown = near_misses(context, "actions"), not_analysed(graph)
+    near = [each for each in pairs if (id(each.consumer.node), each.consumer.name) not in of_moveit]
     for pair in near:
         message = (
             f"action '{pair.consumer.name}' has no server (client: {pair.consumer.node.name}); did you mean "
@@ -32,6 +36,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield near_miss_finding(rule, pair, message, _VERBS, _fixes(context, pair), weighed)
     explained = {id(pair.consumer) for pair in near}
     for connection in dangling_consumers(context, "actions"):
+        if (id(connection.node), connection.name) in of_moveit:
+            continue
         if id(connection) not in explained and not graph.blind:
             action, client = with_type(connection), connection.node.name
             message = f"action {action} has no server in this launch (client: {client}){unknown}"

@@ -19,7 +19,7 @@ from preflight_analysis.evaluation.ros2.spawners import (
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.evaluation.words import words_of
-from preflight_analysis.findings.finding import Confidence
+from preflight_analysis.findings.finding import Confidence, Severity
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import robots_of, unread_of
 from preflight_analysis.rules.rule import Context
@@ -51,11 +51,18 @@ class Controller(NamedTuple):
     claims: tuple[Claim, ...]
     spawner: LaunchNode | None
     is_active: bool
+    params: tuple[Param, ...] = ()
+    """Its own, by the names by which it asks for them."""
 
     @property
     def confidence(self) -> Confidence:
         """How sure it is what the parameters mean."""
         return "likely" if self.known is not None and self.known.is_used else "possible"
+
+    @property
+    def severity(self) -> Severity | None:
+        """That of a finding about the parameters: information where it is not sure what they mean."""
+        return None if self.confidence == "likely" else "info"
 
 
 def controllers_of(context: Context) -> tuple[Controller, ...]:
@@ -124,7 +131,7 @@ def _of_manager(
         spawner, is_active = spawned.get((name, controller), (None, False))
         node = of_name(manager, names.join(manager.namespace, controller), context.documents, inferred=False)
         claims = tuple(_claims(context, known, node)) if known is not None else ()
-        yield Controller(controller, param.value, name, manager.name, known, claims, spawner, is_active)
+        yield Controller(controller, param.value, name, manager.name, known, claims, spawner, is_active, node.params)
 
 
 def _claims(context: Context, known: Known, node: LaunchNode) -> Iterator[Claim]:

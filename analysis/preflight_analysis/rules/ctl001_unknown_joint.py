@@ -11,7 +11,7 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.model import Description
 from preflight_analysis.rules.controllers import Controller, controllers_of, place_of, robot_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -27,6 +27,8 @@ def _of_controller(rule: Rule, context: Context, controller: Controller, robot: 
     parts = {part.name for system in robot.systems for part in (*system.joints, *system.sensors, *system.gpios)}
     joints = {joint.name for joint in robot.joints}
     reported: set[str] = set()
+    # A controller of which the robot has no joint at all is for another variant of it.
+    is_of_robot = any(claim.joint in joints | parts for claim in controller.claims)
     for claim in controller.claims:
         if claim.joint in joints | parts | reported or "/" in claim.joint:
             continue
@@ -37,6 +39,9 @@ def _of_controller(rule: Rule, context: Context, controller: Controller, robot: 
             f"joint '{claim.joint}' does not exist: '{controller.name}' ({controller.type}) uses it"
             f"{did_you_mean(near)}",
             place,
+            severity=controller.severity
+            if is_of_robot or (near is not None and is_slip(claim.joint, near))
+            else "info",
             confidence=controller.confidence,
             related=[Related(f"'{controller.name}' is spawned here", spawner.location)] if spawner is not None else (),
             fixes=rename(context, place, claim.joint, near) if near is not None else (),
@@ -49,7 +54,8 @@ RULE = Rule(
     severity="error",
     what="Checks for a joint in the parameters of a controller that the robot description of the launch does not have. "
     "The controller is one of ros2_controllers, and the launch spawns it. A name that contains a slash is an interface "
-    "of another controller and is not checked here.",
+    "of another controller and is not checked here. If the robot has none of the joints of the controller and none "
+    "of a similar name, it is another variant of the robot, and the finding is information.",
     why="The controller cannot be configured or activated, because no hardware has interfaces of that joint. The robot "
     "does not move.",
     example="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_whel_joint]",
@@ -58,4 +64,5 @@ RULE = Rule(
     settings=("knowledge",),
     generations=(2,),
     check=_check,
+    every_root=True,
 )

@@ -39,6 +39,7 @@ def _of_controller(
                 f"joint '{claim.joint}' has no {kind} interface '{interface}', which '{controller.name}' "
                 f"({controller.type}) claims; {has}",
                 place_of(context, claim.param, claim.joint),
+                severity=controller.severity,
                 confidence=controller.confidence,
             )
 
@@ -56,4 +57,5 @@ RULE = Rule(
     settings=("knowledge",),
     generations=(2,),
     check=_check,
+    every_root=True,
 )

@@ -27,6 +27,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"command interface '{name}' is claimed by '{owner.name}' and by '{each.name}': only one of them can "
                 "be active",
                 spawner.location,
+                severity=each.severity if context.tree.complete else "info",
                 confidence=each.confidence,
                 related=(
                     Related(f"'{each.name}' has the joint here", claim.param.place),
@@ -48,7 +49,7 @@ RULE = Rule(
     severity="warning",
     what="Checks for two controllers that spawners of the launch activate in one controller manager and that claim the "
     "same command interface of a joint. A controller that is spawned with `--inactive` claims nothing, and there is no "
-    "finding where the launch also starts an unspawner.",
+    "finding where the launch also starts an unspawner. If the launch is not known completely, it is information.",
     why="The controller manager activates the first controller and refuses the second one. Which one is first depends "
     "on the order in which the spawners reach it.",
     example='<node pkg="controller_manager" exec="spawner" args="position_controller"/>\n'

@@ -33,6 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"chained controller '{controller}' does not exist: '{each.name}' claims '{claim.joint}'"
                 + (did_you_mean(near) if near is not None else f"; {each.manager} has {quoted(sorted(others))}"),
                 place_of(context, claim.param, claim.joint),
+                severity=each.severity if near is not None or context.tree.complete else "info",
                 confidence=each.confidence,
             )
 
@@ -50,4 +51,5 @@ RULE = Rule(
     settings=("knowledge",),
     generations=(2,),
     check=_check,
+    every_root=True,
 )

@@ -43,6 +43,15 @@ MIDDLEWARE = (
 MIGRATING_LAUNCH = (
     f"[ROS 2: Migrating launch files]({_DOCS}/How-To-Guides/Migrating-from-ROS1/Migrating-Launch-Files.html)"
 )
+MOVEIT_CONTROLLERS = (
+    "[MoveIt: Low level controllers]"
+    "(https://moveit.picknik.ai/main/doc/examples/controller_configuration/controller_configuration_tutorial.html)"
+)
+MOVEIT_KINEMATICS = (
+    "[MoveIt: Kinematics configuration]"
+    "(https://moveit.picknik.ai/main/doc/examples/kinematics_configuration/kinematics_configuration_tutorial.html)"
+)
+MOVEIT_SRDF = "[MoveIt: URDF and SRDF](https://moveit.picknik.ai/main/doc/examples/urdf_srdf/urdf_srdf_tutorial.html)"
 NAMES = f"[ROS 1: Names]({_WIKI}/Names)"
 NAV2 = "[Nav2: Configuration guide](https://docs.nav2.org/configuration/index.html)"
 NODELET = f"[ROS 1: nodelet]({_WIKI}/nodelet)"

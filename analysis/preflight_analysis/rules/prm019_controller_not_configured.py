@@ -9,13 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.conditions import named_arguments
+from preflight_analysis.evaluation.ros1.spawners import asked_of as asked_of_script
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
-from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.evaluation.words import words_of
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
@@ -24,9 +23,6 @@ from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
-_LOADING = {"spawner": (), "controller_manager": ("load", "spawn"), "spawner.py": ()}
-"""ROS 1: the programs of `controller_manager` that load controllers, each with the words that say so."""
-_WITH_VALUE = ("--namespace", "--wait-for", "--timeout", "--shutdown-timeout")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -38,17 +34,18 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
     all is known that the launch sets, only a slip of one of these is told."""
     params = context.tree.params
     for node in context.tree.nodes:
-        if node.package != PACKAGE or node.executable not in _LOADING or node.unknowns:
+        asked = asked_of_script(node)
+        if asked is None:
             continue
-        namespace, controllers = _loaded_by(node)
+        namespace = asked.namespace
         types = [
             param
             for name, param in params.items()
             if name.startswith(f"{namespace}/") and name.endswith("/type") and _is_plugin(param.value)
         ]
         known = [param.name.removeprefix(f"{namespace}/").removesuffix("/type") for param in types]
-        for controller in controllers if known else ():
-            full = names.resolve(controller, f"{namespace}/{PACKAGE}")
+        for controller in asked.controllers if known else ():
+            full = asked.full(controller)
             if f"{full}/type" in params:
                 continue
             if context.tree.complete or nearest(controller, known) is not None:
@@ -63,22 +60,6 @@ def _is_of_one_variant(context: Context, params: Iterable[Param]) -> bool:
     tags = (action_at(context.launch_files[at.file], at.span.start) for at in places)
     files = (tag.value("file") for tag in tags if tag is not None and tag.kind.lower() == "rosparam")
     return any(named_arguments(file) for file in files if file is not None)
-
-
-def _loaded_by(node: LaunchNode) -> tuple[str, list[str]]:
-    """The namespace of the manager, without a slash at its end, and the controllers that are asked of it."""
-    words, namespace, found = iter(words_of(node.args)), node.namespace, list[str]()
-    verbs = _LOADING[node.executable]
-    if verbs and next(words, "") not in verbs:
-        return "", []
-    for word in words:
-        option, equals, value = word.partition("=")
-        if option in _WITH_VALUE:
-            value = value if equals else next(words, "")
-            namespace = names.resolve(value, node.name) if option == "--namespace" and value else namespace
-        elif names.is_legal(word) and word:
-            found.append(word)
-    return namespace.rstrip("/"), found
 
 
 def _is_plugin(value: object) -> bool:

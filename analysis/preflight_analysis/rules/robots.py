@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Related
-from preflight_analysis.robot.of_launch import Robot, robots_of
+from preflight_analysis.robot.of_launch import Described, Robot, robots_of
 from preflight_analysis.robot.sources import place_of
 from preflight_analysis.rules.rule import Context
 
@@ -17,7 +18,7 @@ def robots(context: Context) -> Iterator[Robot]:
 
 
 def written(
-    context: Context, robot: Robot, tag: str, attribute: str, value: str, within: str = ""
+    context: Context, robot: Described, tag: str, attribute: str, value: str, within: str = ""
 ) -> tuple[Location, tuple[Related, ...]]:
     """Where an attribute of the description is written, and the parameter that holds the description; that parameter
     alone where the place is not known."""
@@ -25,4 +26,4 @@ def written(
     place = place_of(robot, context.disk, context.environment, tag, attribute, value, within)
     if place is None:
         return parameter, ()
-    return place, (Related("robot_description of this launch", parameter),)
+    return place, (Related(f"{names.leaf(robot.param.name)} of this launch", parameter),)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import rename
@@ -38,10 +38,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
                 place,
-                severity="error" if refused and tag == "ros2_control" else None,
+                severity=_severity(context, tag, refused),
                 related=related,
                 fixes=rename(context, place, joint, near) if near is not None else (),
             )
+
+
+def _severity(context: Context, tag: str, refused: bool) -> Severity | None:
+    """In ROS 2 only ros2_control reads transmissions, and only those within its own element."""
+    if tag == "transmission":
+        return "info" if context.tree.ros.ament else None
+    return "error" if refused else None
 
 
 RULE = Rule(
@@ -49,7 +56,8 @@ RULE = Rule(
     name="unknown-controlled-joint",
     severity="warning",
     what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have. It is "
-    "an error with ros2_control of Jazzy and newer, which refuses such a description.",
+    "an error with ros2_control of Jazzy and newer, which refuses such a description. A `<transmission>` in ROS 2 is "
+    "information, because nothing reads it there.",
     why="The joint is not moved: the simulator skips it, and controllers that claim it report positions of no joint. "
     "ros2_control of Jazzy and newer does not load the hardware at all.",
     example='<ros2_control name="arm" type="system">\n  <joint name="sholder_joint"/>\n</ros2_control>',

@@ -40,6 +40,7 @@ from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.command_lines import with_command_lines
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.nodl.loaded_plugins import LoadedPlugins
+from preflight_analysis.nodl.moveit_clients import with_moveit_clients
 from preflight_analysis.nodl.named_endpoints import with_named_endpoints
 from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
@@ -389,7 +390,7 @@ class Workspace:
         interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
         interfaces = with_command_lines(tree, interfaces, documents, kept)
         known = KnownMeanings(self.own_knowledge.files, environment.distro, tree.generation)
-        return with_named_endpoints(tree, interfaces, known, kept)
+        return with_named_endpoints(tree, with_moveit_clients(tree, interfaces), known, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

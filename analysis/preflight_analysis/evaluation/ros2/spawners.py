@@ -34,9 +34,11 @@ _MANAGER = ("-c", "--controller-manager")
 _FILE = ("-p", "--param-file")
 _TYPE = ("-t", "--controller-type")
 _ROS_ARGS = "--controller-ros-args"
-_WITH_VALUE = (
-    "-n", "--namespace", "--controller-manager-timeout", "--switch-timeout", "--service-call-timeout",
-)  # fmt: skip
+_NAMESPACE = ("-n", "--namespace")
+"""Until Jazzy: the namespace of the manager, where its name does not begin with a slash."""
+_CONTROLLER = "--controller"
+"""Before the name of a controller that has options of its own."""
+_WITH_VALUE = ("--controller-manager-timeout", "--switch-timeout", "--service-call-timeout")
 _WITHOUT_VALUE = (
     "--load-only", "--stopped", "--inactive", "-u", "--unload-on-kill", "--activate-as-group", "--switch-asap",
 )  # fmt: skip
@@ -64,7 +66,7 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
     """What the arguments of a spawner say; None where they are not all known."""
     if spawner.unknowns or "$(" in spawner.args:
         return None
-    manager, type_, plain = PACKAGE, None, True
+    manager, type_, plain, caller = PACKAGE, None, True, spawner.name
     controllers: list[str] = []
     files: list[str] = []
     remaps: list[tuple[str, str]] = []
@@ -78,6 +80,11 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
             plain = False
         elif option in _TYPE:
             type_, plain = value if equals else next(words, ""), False
+        elif option in _NAMESPACE:
+            space = value if equals else next(words, "")
+            caller = f"{names.resolve(space, '/')}/{PACKAGE}" if space else caller
+        elif option == _CONTROLLER:
+            controllers.append(value if equals else next(words, ""))
         elif option == _ROS_ARGS:
             remaps += _remaps(value if equals else next(words, ""), words)
             plain = False
@@ -90,8 +97,10 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
             plain = plain and word in _WITHOUT_VALUE
         else:
             controllers.append(word)
-    named = names.resolve(manager, spawner.name)
-    return Asked(named, tuple(controllers), tuple(filter(None, files)), type_ or None, tuple(remaps), plain)
+    named = names.resolve(manager, caller)
+    return Asked(
+        named, tuple(filter(None, controllers)), tuple(filter(None, files)), type_ or None, tuple(remaps), plain
+    )
 
 
 def _remaps(first: str, words: Iterator[str]) -> list[tuple[str, str]]:

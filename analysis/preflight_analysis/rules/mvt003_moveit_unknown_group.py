@@ -1,0 +1,102 @@
+"""MVT003: a group or a joint in the parameters of MoveIt that is a slip of one that the robot has.
+
+MoveIt asks for the parameters of the groups and joints that it knows: others stay without effect
+(kinematics_plugin_loader.cpp, planning_context_manager.cpp and robot_model_loader.cpp of moveit/moveit2 8fcb5d23).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.moveit import is_move_group, moveit_params
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.robot.of_launch import SemanticRobot, given_robot, semantics_of
+from preflight_analysis.rules.further_reading import MOVEIT_KINEMATICS
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.yaml_places import place_in_yaml
+
+_KINEMATICS = re.compile(r"robot_description_kinematics[./]([^./]+)[./]kinematics_solver")
+_PLANNERS = re.compile(r"(?:.+[./])?([^./]+)[./]planner_configs")
+_LIMITS = re.compile(r"robot_description_planning[./]joint_limits[./]([^./]+)[./]\w+")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    semantics = semantics_of(context.tree)
+    for node in filter(is_move_group, context.tree.nodes):
+        params = _params(context, node)
+        semantic = [each for each in semantics if any(one is node for one in each.nodes)]
+        if len(semantic) == 1:
+            groups = semantic[0].semantic.groups
+            at = (semantic[0],)
+            yield from _slips(rule, context, "group", _named(_KINEMATICS, params), groups, at)
+            yield from _slips(rule, context, "group", _named(_PLANNERS, params), groups, at)
+        robot = given_robot(context.tree, node)
+        if robot is not None:
+            joints = [joint.name for joint in robot.description.joints]
+            yield from _slips(rule, context, "joint", _named(_LIMITS, params), joints, ())
+
+
+def _params(context: Context, node: LaunchNode) -> Mapping[str, Param]:
+    """Those of the node, in ROS 1 with those of the robot description, which are beside it in its namespace."""
+    tree = context.tree
+    if tree.ros.own_parameters:
+        return moveit_params(tree, node)
+    space = names.parent(node.name)
+    around = {name.removeprefix(space): param for name, param in tree.params.items() if name.startswith(space)}
+    return {**around, **moveit_params(tree, node)}
+
+
+def _named(pattern: re.Pattern[str], params: Mapping[str, Param]) -> dict[str, Param]:
+    """The groups or joints that parameters are for, each with the first of them."""
+    found: dict[str, Param] = {}
+    for name, param in params.items():
+        match = pattern.fullmatch(name)
+        if match is not None:
+            found.setdefault(match[1], param)
+    return found
+
+
+def _slips(
+    rule: Rule,
+    context: Context,
+    kind: str,
+    named: Mapping[str, Param],
+    there: Collection[str],
+    semantics: Iterable[SemanticRobot],
+) -> Iterator[Finding]:
+    """A slip: what is meant has no parameters of its own."""
+    lacking = [each for each in there if each not in named]
+    for name, param in named.items():
+        near = nearest(name, lacking) if name not in there else None
+        if near is None or not is_slip(name, near):
+            continue
+        place = place_in_yaml(context, param)
+        yield rule.finding(
+            f"{kind} '{name}' does not exist: MoveIt does not read '{param.name}'{did_you_mean(near)}",
+            place,
+            confidence="likely",
+            related=[Related("the groups of the robot", each.param.place) for each in semantics],
+            fixes=rename(context, place, name, near),
+        )
+
+
+RULE = Rule(
+    id="MVT003",
+    name="moveit-unknown-group",
+    severity="warning",
+    what="Checks for a misspelled planning group in `kinematics.yaml` and in the configuration of a planning pipeline, "
+    "and for a misspelled joint in `joint_limits.yaml`. The robot has another group or joint of nearly that name for "
+    "which nothing is set.",
+    why="MoveIt reads the parameters of the groups and joints of the robot only. The group has no kinematics "
+    "solver, or the joint no limits.",
+    example='manipulater:  # the SRDF has <group name="manipulator">\n'
+    "  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin",
+    instead="manipulator:\n  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin",
+    references=(MOVEIT_KINEMATICS,),
+    check=_check,
+)
