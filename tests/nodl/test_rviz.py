@@ -79,3 +79,15 @@ def test_a_file_without_displays(tmp_path: Path, config: str) -> None:
 
 def test_rviz_without_a_configuration(tmp_path: Path) -> None:
     assert shown(tmp_path, '<node pkg="rviz2" exec="rviz2"/>', DISPLAYS) == {}
+
+
+@pytest.mark.parametrize(("topic", "severity"), [("/odom_view_1/path", "info"), ("/odom_veiw/path", "warning")])
+def test_a_display_of_another_one_of_several_robots(topic: str, severity: str, tmp_path: Path) -> None:
+    config = f"Visualization Manager:\n  Displays:\n    - {{Class: rviz/Path, Enabled: true, Topic: {topic}}}\n"
+    nodes = (
+        '<node pkg="rviz" type="rviz" name="rviz" args="-d $(dirname)/a.rviz"/>'
+        '<node pkg="rostopic" type="rostopic" name="pub" args="pub /odom_view/path nav_msgs/Path"/>'
+    )
+    launch = f"<launch>{nodes}</launch>"
+    findings = package_elsewhere.analysed(tmp_path, launch, "a.launch", **{"a.rviz": config}).findings
+    assert [f.severity for f in findings if f.rule == "TOP001"] == [severity]

@@ -174,3 +174,13 @@ def test_a_comment_in_a_robot_description() -> None:
           ros__parameters:
             robot: "<robot><!-- <mesh file='$(find-pkg-share p)/arm.dae'/> --></robot>"
     """)
+
+
+@pytest.mark.parametrize(("value", "severity"), [("rqt --file $(find p)/a", "info"), ("$(find p)/a", "warning")])
+def test_a_command_line_that_no_node_of_the_launch_gets(value: str, severity: str) -> None:
+    found = findings_of(f"""
+        <launch><rosparam file="$(find p)/stack.yaml"/></launch>
+        //- /p/stack.yaml
+        stack: {{rqt_args: "{value}"}}
+    """)
+    assert [f.severity for f in found if f.rule == "LCH029"] == [severity]

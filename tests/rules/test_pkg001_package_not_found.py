@@ -288,3 +288,15 @@ def test_a_process_has_no_package() -> None:
         //- /a.launch.xml
         <launch><executable cmd="echo hello"/></launch>
     """)
+
+
+def test_a_package_that_has_the_file_alone(tmp_path: Path) -> None:
+    for name in ("robot", "other"):
+        (tmp_path / "src" / name / "config").mkdir(parents=True)
+        (tmp_path / "src" / name / "package.xml").write_text(manifest(name, "catkin"))
+    (tmp_path / "src" / "other" / "config" / "params.yaml").write_text("rate: 1")
+    launch = tmp_path / "src" / "robot" / "main.launch"
+    launch.write_text('<launch><rosparam command="load" file="$(find common)/config/params.yaml"/></launch>')
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = workspace.static(str(launch), {}).findings
+    assert [f.severity for f in findings if f.rule == "PKG001"] == ["info"]

@@ -179,3 +179,13 @@ def test_a_wildcard_after_the_name_and_a_value_after_both() -> None:
         /own/b:
           ros__parameters: {rate: 3}
     """)
+
+
+@pytest.mark.silent
+def test_one_number_in_two_forms() -> None:
+    check("""
+        <launch>
+          <param name="rate" value="1.0"/>
+          <param name="rate" value="1"/>
+        </launch>
+    """)

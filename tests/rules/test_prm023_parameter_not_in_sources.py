@@ -94,3 +94,9 @@ def test_parameters_beside_the_nodes_of_which_one_source_reads_most(tmp_path: Pa
 )
 def test_names_that_are_known_or_like_nothing(tmp_path: Path, inside: str, sources: dict[str, str]) -> None:
     assert found(tmp_path, inside, sources) == []
+
+
+def test_two_that_are_like_one_are_no_slips_of_it(tmp_path: Path) -> None:
+    source = {"p/src/a.cpp": 'nh.getParam("serials", s);'}
+    assert [f.severity for f in found(tmp_path, param("serial"), source)] == ["warning"]
+    assert found(tmp_path, param("serial") + param("serialz"), source) == []

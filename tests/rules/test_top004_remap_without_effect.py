@@ -279,3 +279,18 @@ def test_a_name_that_a_module_of_the_package_has_may_be_used_later(tmp_path: Pat
     (finding,) = [f for f in findings_of(text) if f.rule == "TOP004"]
     assert finding.severity == "hint"
     assert finding.message.endswith("before its event loop; a source of its package has the name")
+
+
+@pytest.mark.silent
+def test_a_name_below_one_that_the_node_may_have_resolved() -> None:
+    findings = findings_of("""
+        <launch>
+          <node pkg="p" type="t" name="view">
+            <remap from="image" to="front"/>
+            <remap from="/front/point" to="/point"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/view": {"source": "catalogue", "subscribers": {"image": "x/Y"}, "publishers": {"image/point": "x/Z"}}}
+    """)
+    assert "TOP004" not in [finding.rule for finding in findings]

@@ -93,3 +93,16 @@ def test_two_cameras_on_one_topic() -> None:
         "geometry_msgs/Twist": [],
         "std_msgs/String": [],
     }
+
+
+@pytest.mark.parametrize(("listener", "severity"), [("", "info"), ('<node pkg="q" type="t" name="c"/>', "warning")])
+def test_copies_of_a_viewer_that_the_catalogue_has(listener: str, severity: str) -> None:
+    told = '"source": "catalogue", "status": "not-run", "catalogued": "x"'
+    viewer = f'{{{told}, "publishers": {{"marked": "sensor_msgs/Image"}}}}'
+    other = ', "/c": {"subscribers": {"marked": "sensor_msgs/Image"}}' if listener else ""
+    found = findings_of(f"""
+        <launch><node pkg="p" type="view" name="a"/><node pkg="p" type="view" name="b"/>{listener}</launch>
+        //- interfaces
+        {{"/a": {viewer}, "/b": {viewer}{other}}}
+    """)
+    assert [f.severity for f in found if f.rule == "TOP005"] == [severity]

@@ -70,12 +70,3 @@ def test_one_that_xacro_did_not_process_is_told_once(text: str) -> None:
     (found,) = check(fixture)
     said = apply(fixture, found.fixes[0].edits)["/main.launch"]
     assert """name="robot_description" command="xacro '/p/arm.xacro'"/>""" in said
-
-
-@pytest.mark.silent
-def test_the_name_of_the_description_s_parameter() -> None:
-    check("""
-        <launch>
-          <node pkg="p" type="t" name="n"><param name="robot_description" value="/arm/robot_description"/></node>
-        </launch>
-    """)

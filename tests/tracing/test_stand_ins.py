@@ -592,3 +592,13 @@ def test_a_key_of_a_configuration_that_the_build_makes(tmp_path: Path) -> None:
     text = "Server(object, lambda config, level: '{speed}'.format(**config))\n"
     assert trace_without(write_node(tmp_path, start + text)).outcome.lacks == "the Python module dynamic_reconfigure"
     assert trace_without(write_node(tmp_path, start + "rospy.get_param('speed')\n")).outcome.lacks is None
+
+
+def test_a_package_of_python_2_that_imports_its_own_module(tmp_path: Path) -> None:
+    package = tmp_path / "piksi"
+    package.mkdir()
+    (package / "__init__.py").write_text("from piksi import Kml\n")
+    (package / "piksi.py").write_text("class Kml: pass\n")
+    script = write_node(tmp_path, "import rospy\nimport piksi\n")
+    script.write_text(script.read_text().replace("env python3", "env python"))
+    assert trace_without(script).outcome.lacks == "Python 2"

@@ -211,6 +211,10 @@ def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:
         return False
     if full == target:
         return True
+    # A node may resolve a name before it makes others below that.
+    moved = (names.resolve(other.target, node.name) for other in node.remaps if other is not remap)
+    if any(full.startswith(f"{each}/") for each in moved):
+        return False
     above = full.rpartition("/")[0]
     while above:
         if above in known.used:

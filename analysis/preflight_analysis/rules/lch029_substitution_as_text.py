@@ -102,13 +102,14 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     place = _place(context, param, text)
     idle = _is_of_idle_controller(context, param)
     own = None if idle or ament else _program_that_replaces(context, param)
+    handed_on = not ament and _is_for_a_program_outside(context, param)
     related = (Related("the file is loaded here", where),) if place.file != where.file else ()
     yield rule.finding(
         f"'{text}' is treated as literal text; substitutions in YAML need {needed}"
         + ("; the launch file does not declare the argument" if unknown else "")
         + (f"; '{own}' of the package looks for such text itself" if own is not None else ""),
         place,
-        severity="info" if idle or own is not None else None,
+        severity="info" if idle or own is not None or handed_on else None,
         confidence="likely",
         related=(*related, *include_chain((*param.origin[:-1], place))),
         fixes=fixes,
@@ -137,6 +138,12 @@ def _program_that_replaces(context: Context, param: Param) -> str | None:
     if package is None or is_installed(context, package):
         return None
     return _source_with(context.disk.db, package.share)
+
+
+def _is_for_a_program_outside(context: Context, param: Param) -> bool:
+    """Whether it is a command line that no node of the launch gets as its own: what reads it may start a launcher."""
+    several = isinstance(param.value, str) and " --" in param.value
+    return several and not any(param.name.startswith(f"{node.name}/") for node in context.tree.nodes)
 
 
 @query

@@ -6,6 +6,7 @@ from functools import cache, partial
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.problems import PackageNotFound
@@ -105,7 +106,8 @@ def _not_here(
         other, path = having_it
         text += f" nor released for any distribution; package '{other.name}' has '{path}'{did_you_mean(other.name)}"
         fixes = rename(context, location, name, other.name, preferred=False)
-        lack, severity, confidence = None, "warning", "possible"
+        sure = _is_own_or_akin(context, location.file, name, other)
+        lack, severity, confidence = None, "warning" if sure else "info", "possible"
     else:
         text += f"; it is not released for any distribution, and no {MANIFEST} of the workspace names it"
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
@@ -128,6 +130,14 @@ def _not_here(
         stops_launch=stops,
         lack=lack,
     )
+
+
+def _is_own_or_akin(context: Context, file: str, name: str, other: Package) -> bool:
+    """Whether a package is that of the launch file, or has a word of another's name that not all may have."""
+    own = package_around(context.environment, file)
+    generic = _GENERIC | context.once(words_of_folders)
+    common = set(name.split("_")) & set(other.name.split("_")) - generic
+    return bool(common) or (own is not None and own.name == other.name)
 
 
 def _strangers(context: Context) -> frozenset[str]:
@@ -178,7 +188,8 @@ RULE = Rule(
     "names a package whose folder has that name and whose `package.xml` has another. A package that is released, or "
     "that a `package.xml` names, may be missing on this machine only: this is a hint with the Debian package. An "
     "unknown package is information if it is the only one in the launch. It is a warning if the workspace has one "
-    "of a similar name. The same applies if one has all files that the launch file uses of the unknown package.",
+    "of a similar name. The same applies if one has all files that the launch file uses of the unknown package: "
+    "that of the launch file, or one with a word of the unknown name.",
     why="`roslaunch` stops at `$(find ...)` of a missing package, and does not start a node of one. `ros-preflight "
     "doctor` shows the folders that are searched.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

@@ -146,8 +146,10 @@ def _settings(node: LaunchNode, wanted: set[str]) -> dict[tuple[str, Location], 
 
 
 def _differ(one: Param, other: Param) -> bool:
-    """Whether their values are not the same; 1 is neither 1.0 nor true."""
-    return type(one.value) is not type(other.value) or one.value != other.value
+    """Whether their values are not the same; 1 is not true."""
+    if isinstance(one.value, bool) or isinstance(other.value, bool):
+        return one.value is not other.value
+    return bool(one.value != other.value)
 
 
 def _place(param: Param) -> tuple[str, Location]:

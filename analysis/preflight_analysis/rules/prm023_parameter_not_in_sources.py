@@ -38,13 +38,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         params = node.params if context.tree.ros.ament else by_node.get(node.name, ())
         taken = {use.name.strip("~/") for use in interface.params}
         given = {_below(node, param) for param in params}
+        found: dict[str, list[tuple[Param, Asked]]] = {}
         for param in params:
             name = _below(node, param)
             if name in taken or is_for_tools(param.name) or param.place in reported:
                 continue
             asked = meant_in_sources(context.disk.db, context.environment, package.share, name)
-            if asked is None or _renamed(name, asked) in given:
-                continue
+            if asked is not None and (meant := _renamed(name, asked)) not in given:
+                found.setdefault(meant, []).append((param, asked))
+        # Two that are like one are no slips of it.
+        for param, asked in (alike[0] for alike in found.values() if len(alike) == 1):
             reported.add(param.place)
             yield _finding(rule, context, node, param, asked)
     if not context.tree.ros.ament:

@@ -11,6 +11,7 @@ from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
 from preflight_analysis.rules.near_miss_search import topic_near_misses
+from preflight_analysis.rules.nearest import numbers_in
 from preflight_analysis.rules.places import Verbs, related_endpoint
 from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, in_use_around, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
@@ -62,10 +63,17 @@ def _near(
     likely_complete: bool,
 ) -> Finding:
     severity, confidence = weight(pair, complete, likely_complete)
-    weighed: tuple[Severity, Confidence] = ("info" if in_use and severity == "warning" else severity, confidence)
+    mild = severity == "warning" and (in_use or _shows_another(pair))
+    weighed: tuple[Severity, Confidence] = ("info" if mild else severity, confidence)
     return near_miss_finding(
         rule, pair, _near_message(unknown, pair), _VERBS, fixes(pair, consumers, providers), weighed
     )
+
+
+def _shows_another(pair: NearMiss) -> bool:
+    """Whether a display shows what has another number, or one: that of a robot which another launch starts."""
+    consumer, provider = pair.consumer, pair.provider
+    return consumer.endpoint.displayed and numbers_in(consumer.name) != numbers_in(provider.name)
 
 
 def _near_message(unknown: str, pair: NearMiss) -> str:
@@ -100,8 +108,10 @@ RULE = Rule(
     what="Checks for a subscriber whose topic has no publisher in the launch. The finding is a warning if a node "
     "publishes a topic of the same type and a similar name. The names may also differ by a leading slash or a "
     "namespace. It names both and is at the remap that set the name, if there is one. It is information if several "
-    "launch files nearby write the topic, or if the remap is a typo of one in several of them. It is a warning if the "
-    "topic is a typo of one that sources of the workspace use with the same type. Otherwise it is a hint, because "
+    "launch files nearby write the topic, or if the remap is a typo of one in several of them. The same applies "
+    "if a display of RViz has another "
+    "number in its topic. It is a warning if the topic is a typo of one that sources of the workspace use with "
+    "the same type. Otherwise it is a hint, because "
     "another launch may start the publisher. There is no finding if a node exited before its event loop, because it "
     "may be the publisher.",
     why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",

@@ -54,7 +54,8 @@ def _of_channel(channel: Channel, rule: Rule) -> Finding | None:
         consequence = "each latches its last message, and a new subscriber receives both in any order"
         return _finding(rule, channel, latched, severity, consequence)
     if len(connections) > 1 and (stream := _one_stream(connections)) is not None:
-        return _finding(rule, channel, connections, stream, "a subscriber receives the messages of both in turn")
+        severity = "info" if _is_of_copies(channel, connections) else stream
+        return _finding(rule, channel, connections, severity, "a subscriber receives the messages of both in turn")
     return None
 
 
@@ -62,6 +63,14 @@ def _one_stream(connections: list[Connection]) -> Severity | None:
     """How severe it is that these publish on one topic, None where they may."""
     types = {connection.endpoint.type for connection in connections}
     return _STREAMS.get(types.pop() or "") if len(types) == 1 else None
+
+
+def _is_of_copies(channel: Channel, connections: list[Connection]) -> bool:
+    """Whether nobody listens to copies of one program, as eight viewers, of which only the catalogue tells how they
+    make the name: they may put it below one that is remapped."""
+    programs = {(each.node.package, each.node.executable) for each in connections}
+    told = all(each.endpoint.catalogued for each in connections)
+    return told and len(programs) == 1 and not channel.consumers
 
 
 def _is_shared(connection: Connection) -> bool:
@@ -112,7 +121,7 @@ RULE = Rule(
     "The finding is a warning for latched maps, and for images and their calibration. It is information for other "
     "latched topics, scans, inertial measurements and odometry. Transforms, markers and diagnostics name their "
     "source in each message, and are not reported. It is information if a module makes the publisher in each program "
-    "that imports it.",
+    "that imports it, or if only the catalogue knows the copies of one program to which nobody subscribes.",
     why="Subscribers treat a latched message as the state of the world. With two publishers the state depends on "
     "the order of arrival.",
     example='<node pkg="map_server" type="map_server" name="map_server"/> <!-- both publish /map -->\n'

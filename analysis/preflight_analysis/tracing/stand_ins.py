@@ -30,8 +30,11 @@ _INSTALL = re.compile(
 )
 """How a program that goes on without a module says later that it cannot."""
 
-_OLD = re.compile(r"\b(Syntax|Indentation|Tab)Error\b|there is no '[^']*python2[^']*'")
-"""What a program in Python 2 ends for that is run by Python 3, or by nothing."""
+_OLD = re.compile(
+    r"\b(Syntax|Indentation|Tab)Error\b|there is no '[^']*python2[^']*'|from partially initialized module '(\w+)'"
+)
+"""What a program in Python 2 ends for that is run by Python 3, or by nothing. There a package's own `__init__.py` may
+import a module of the package by the name that both have."""
 
 
 def admitted(recipe: recipes.Recipe, environment: Environment, generation: int) -> recipes.Recipe:
