@@ -61,6 +61,7 @@ def test_a_name_that_the_node_resolves_is_relative(tmp_path: Path) -> None:
     environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
     facts = facts_of_package(environment, Disk(), environment.packages["p"])["executables"]["t"]
     assert [end["name"] for end in facts["publishers"]] == ["out", "left/image", "/map", "~/state"]
+    assert [end.get("remapped") for end in facts["publishers"]] == [None, "left", None, None]
 
 
 PLUGINS = {

@@ -335,6 +335,17 @@ def test_ends_of_which_parameters_have_a_list(tmp_path: Path, stamped: str, out:
     assert [each.endpoint.type for each in graph.topics["/out"].providers] == [out]
 
 
+def test_a_name_that_begins_with_what_a_remap_makes_of_another(tmp_path: Path) -> None:
+    ends = [{"name": f"image{more}", "type": "x/Y", "remapped": "image"} for more in ("/marked", "_marked")]
+    rows = [{"name": "image", "type": "x/Y"}, *ends]
+    data = {**DATA, "executables": {"scan_node": {"publishers": rows}}}
+    (tmp_path / "catalogue" / "noetic" / "scanner.json").write_text(json.dumps(data))
+    node = '<node pkg="scanner" type="scan_node" name="s" ns="a">{}</node>'
+    for remap, begin in (('<remap from="image" to="/head/rgb"/>', "/head/rgb"), ("", "/a/image")):
+        graph = graph_of(tmp_path, f"<launch>{node.format(remap)}</launch>")
+        assert {"/marked", "_marked", ""} == {name.removeprefix(begin) for name in graph.topics}
+
+
 def test_ends_that_private_parameters_of_ros1_name(tmp_path: Path) -> None:
     (packages.INTERFACES / "noetic" / "filter.json").write_text(json.dumps(FILTER))
     (packages.INTERFACES / "noetic" / "mux.json").write_text(json.dumps(MUX))

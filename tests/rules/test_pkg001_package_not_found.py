@@ -87,6 +87,20 @@ def test_drivers_of_two_makes_are_not_alike() -> None:
     assert finding.fixes == ()
 
 
+def test_packages_of_one_robot_are_no_slips_of_each_other() -> None:
+    check("""
+        //- /rover_gazebo/launch/sim.launch
+        <launch>
+          <include file="$(find rover_descriptions)/launch/up.launch"/>
+                         ^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PKG001] no package.xml of the workspace names it
+        </launch>
+        //- /rover_gazebo/package.xml
+        <package/>
+        //- /rover_control/package.xml
+        <package/>
+    """)
+
+
 @pytest.mark.parametrize(("file", "severity"), [("base.yaml", "warning"), ("other.yaml", "hint")])
 def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     tmp_path: Path, file: str, severity: str

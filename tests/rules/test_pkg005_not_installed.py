@@ -101,6 +101,25 @@ def test_where_it_is_installed(tmp_path: Path, rules: str, said: list[str]) -> N
         assert edit.text == installed
 
 
+@pytest.mark.silent
+def test_a_package_within_another_one(tmp_path: Path) -> None:
+    files = {
+        "package.xml": manifest("robot", "ament_cmake"),
+        "CMakeLists.txt": "project(robot)\nament_package()\n",
+        "src/arm/package.xml": manifest("arm", "ament_cmake"),
+        "src/arm/launch/inner.launch.xml": "<launch/>",
+        "src/arm/launch/arm.launch.xml": """<launch>
+          <include file="$(find-pkg-share robot)/src/arm/launch/inner.launch.xml"/>
+        </launch>""",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = workspace.static(str(tmp_path / "src/arm/launch/arm.launch.xml"), {}).findings
+    assert not [finding for finding in findings if finding.rule == "PKG005"]
+
+
 def test_a_copy_of_a_launch_file_that_was_put_aside(workspace: Path) -> None:
     launch = workspace / "src/robot/launch/robot.launch_original.xml"
     launch.write_text("<launch/>")

@@ -143,6 +143,13 @@ def test_a_wrong_keyword_is_a_finding_on_its_line(harness: PythonHarness) -> Non
     assert "node_executable" in text[line_of(analysis)[1] - 1]
 
 
+def test_an_error_names_classes_as_launch_does(harness: PythonHarness) -> None:
+    line = "Node(package='p', executable='x', arguments=[ParameterValue('a')])"
+    path = _described(harness, line, before="from launch_ros.parameter_descriptions import ParameterValue\n")
+    (finding,) = [each for each in harness.launch(path).findings if each.rule == "LCH032"]
+    assert "preflight" not in finding.message
+
+
 def test_a_function_is_no_condition(harness: PythonHarness) -> None:
     analysis = harness.launch(_described(harness, "Node(package='p', executable='x', condition=lambda context: True)"))
     (finding,) = [each for each in analysis.findings if each.rule == "LCH032"]

@@ -694,7 +694,10 @@ def generate_launch_description():
         file.write("one: {ros__parameters: {rate: 5}}")
     with open(path) as file:
         assert file.read().startswith("one:")
-    assert os.path.isfile(path) and pathlib.Path(path).is_file() and os.listdir(MODELS) == ["a.yaml"]
+    link = os.path.join(SHARE, "models", "tmp", "link")
+    os.symlink(SHARE, link)
+    assert os.path.lexists(link)
+    assert os.path.isfile(path) and pathlib.Path(path).is_file() and sorted(os.listdir(MODELS)) == ["a.yaml", "link"]
     with open(os.path.join(SHARE, "models", "old.yaml")) as file:
         assert file.read() == "old: 1\\n"
     return LaunchDescription([Node(package="p", executable="x", name="one", parameters=[path])])

@@ -29,6 +29,7 @@ _KEPT = 1024
 _TYPE = ".type"
 _NAMED_BY = "named_by"
 _TYPED_BY = "typed_by"
+_REMAPPED = "remapped"
 _WORDS = re.compile("[./]")
 _SERIES = re.compile(r"(\D*[A-Za-z])0")
 """The name of the first parameter of a numbered series."""
@@ -49,6 +50,8 @@ class Catalogued:
     """Ends that parameters name where they are set, of which those with a default are among `endpoints`."""
     typed: tuple[tuple[Endpoint, str, Mapping[str, str]], ...] = ()
     """Ends whose type a parameter decides, with what it is by the value in words."""
+    remapped: tuple[tuple[Endpoint, str], ...] = ()
+    """Ends whose names begin with what a remap makes of that name."""
     of_others: bool = False
     """ROS 2: whether there are parameters of further nodes, below the namespace of this one."""
 
@@ -83,7 +86,7 @@ def _filled_in(
         found = next(filter(None, others), None)
     if found is None:
         return interface
-    found = _as_set(node, given, found)
+    found = _as_remapped(node, _as_set(node, given, found))
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
@@ -163,6 +166,18 @@ def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued) -> Cata
     return replace(found, endpoints=tuple(ends))
 
 
+def _as_remapped(node: LaunchNode, found: Catalogued) -> Catalogued:
+    """With the names of ends that begin with another one which the node is given a remap for."""
+    targets = {names.resolve(each.source, node.name): names.resolve(each.target, node.name) for each in node.remaps}
+    renamed = {
+        id(end): replace(end, name=target + end.name[len(begin) :])
+        for end, begin in (found.remapped if targets else ())
+        if (target := targets.get(names.resolve(begin, node.name))) is not None
+    }
+    ends = tuple(renamed.get(id(end), end) for end in found.endpoints)
+    return replace(found, endpoints=ends) if renamed else found
+
+
 def _of_pattern(name: str, value: Any, pattern: str, *, series: bool) -> Iterator[Any]:
     """What a parameter has where the pattern says: the value, or what is within it. `*` is for any name, and for each
     item of a list."""
@@ -228,6 +243,7 @@ def _catalogued(
             for made, each in ends
             for name, types in each.get(_TYPED_BY, {}).items()
         ),
+        tuple((made, each[_REMAPPED]) for made, each in ends if _REMAPPED in each),
         kind != "plugins" and distro in DISTRIBUTIONS[2] and any(map(_is_relative, found.get("parameters", ()))),
     )
 

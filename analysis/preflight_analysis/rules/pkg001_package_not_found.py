@@ -34,6 +34,12 @@ _GENERIC = frozenset(
 )  # fmt: skip
 """Words that packages of all kinds have in their names, and those of drivers of all makes."""
 
+_ROLES = frozenset(
+    ("bringup", "config", "control", "description", "descriptions", "gazebo", "launch", "moveit", "msgs", "navigation",
+     "sim", "simulation", "teleop", "viz")
+)  # fmt: skip
+"""Words by which the packages of one robot differ."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     meant = cache(partial(_meant, context))
@@ -154,11 +160,13 @@ def _of_like_words(context: Context, name: str) -> Package | None:
     generic = _GENERIC | context.once(words_of_folders)
     words, environment = name.split("_"), context.environment
     installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
-    here = []
+    here, own = [], package_around(environment, context.root)
     for package in environment.packages.values():
         if package.share.startswith(installed):
             continue
         others = package.name.split("_")
+        if package is own or _ROLES.issuperset(set(words) ^ set(others)):
+            continue
         differing = sum(a != b for a, b in zip(words, others, strict=False))
         one_word = len(words) == len(others) > 1 and differing == 1
         if (one_word or set(words) < set(others)) and not generic.issuperset(set(words) & set(others)):

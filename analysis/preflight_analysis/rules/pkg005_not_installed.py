@@ -10,6 +10,7 @@ from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.installed_paths import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
@@ -76,7 +77,16 @@ def _package_of(context: Context, path: str) -> Package | None:
     package = package_around(context.environment, path)
     if package is None or not package.is_ament or not path.startswith(package.share + os.sep):
         return None
+    if any(context.disk.is_file(os.path.join(folder, MANIFEST)) for folder in _between(package.share, path)):
+        return None  # a package within, which that build does not know
     return package if context.disk.is_file(path) else None
+
+
+def _between(share: str, path: str) -> Iterator[str]:
+    folder = os.path.dirname(path)
+    while len(folder) > len(share):
+        yield folder
+        folder = os.path.dirname(folder)
 
 
 def _build_file(package: Package) -> str:

@@ -108,12 +108,11 @@ RULE = Rule(
     what="Checks for a subscriber whose topic has no publisher in the launch. The finding is a warning if a node "
     "publishes a topic of the same type and a similar name. The names may also differ by a leading slash or a "
     "namespace. It names both and is at the remap that set the name, if there is one. It is information if several "
-    "launch files nearby write the topic, or if the remap is a typo of one in several of them. The same applies "
-    "if a display of RViz has another "
-    "number in its topic. It is a warning if the topic is a typo of one that sources of the workspace use with "
-    "the same type. Otherwise it is a hint, because "
-    "another launch may start the publisher. There is no finding if a node exited before its event loop, because it "
-    "may be the publisher.",
+    "launch files nearby write the topic, if a plugin of a simulator has it, or if a display of RViz has another "
+    "number in its topic. It is information too if the remap is a typo of one in several launch files. It is a warning "
+    "if the topic is a typo of one that sources of the workspace use with the same type. Otherwise it is a hint, "
+    "because another launch may start the publisher. There is no finding if a node exited before its event loop, "
+    "because it may be the publisher.",
     why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',

@@ -51,11 +51,11 @@ def _of_channel(channel: Channel, rule: Rule) -> Finding | None:
         return _finding(rule, channel, connections, "warning", "time jumps between them")
     if len(latched) > 1:
         severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
-        consequence = "each latches its last message, and a new subscriber receives both in any order"
+        consequence = "each latches its last message, and a new subscriber receives all of them in any order"
         return _finding(rule, channel, latched, severity, consequence)
     if len(connections) > 1 and (stream := _one_stream(connections)) is not None:
         severity = "info" if _is_of_copies(channel, connections) else stream
-        return _finding(rule, channel, connections, severity, "a subscriber receives the messages of both in turn")
+        return _finding(rule, channel, connections, severity, "a subscriber receives the messages of all in turn")
     return None
 
 

@@ -47,6 +47,8 @@ _NOTHING_SET = LaunchParams({})
 _OF_ALL = ("/rosout", "/clock", "~get_loggers", "~set_logger_level")
 _SPACE = "/preflight_space/"
 _IN_TESTS = re.compile(r"/(?:tests?|examples?/tests?)/")
+_BEGINS = re.compile(r"\A[A-Za-z]+")
+"""Of a relative name, what another one may be: `image` of `image/marked` and `image_marked`."""
 _NO_NODES = re.compile(r"\.(?:h|hh|hpp|c|cc|cpp|cxx|txt|md|rst|xml|yaml|sh|bash|rviz|launch)\Z|\Atest_|_test\Z")
 
 
@@ -192,6 +194,7 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         if said is None and declared:
             said = {}
         if said is not None:
+            _add_remapped(analysis, key, said)
             _add_named_by_parameters(analysis, key, said, typed=package.is_ament)
             _add_declared(said, declared)
             executables[name] = {**said, "nodes": [[called, "", True]]} if called is not None else said
@@ -206,6 +209,7 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         key = SourceKey(None, None, "nodelet", "nodelet", None, f"{_SPACE}{_NAME}", f"standalone {plugin}", ())
         said = _read(analysis, [key])
         if said is not None:
+            _add_remapped(analysis, key, said)
             _add_named_by_parameters(analysis, key, said, typed=False)
             _add_declared(said, DECLARED.get(environment.distro or "", {}).get(package.name, {}).get(plugin, {}))
             if {end.get("name") for group in GROUPS.values() for end in said.get(group, ())} - {"/tf", "/tf_static"}:
@@ -246,6 +250,20 @@ def _controller(analysis: SourceAnalysis, key: SourceKey) -> dict[str, Any] | No
     }
     more = _read(analysis, [key], LaunchParams(given)) or said
     return max(said, more, key=lambda each: sum(len(each.get(group, ())) for group in GROUPS.values()))
+
+
+def _add_remapped(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any]) -> None:
+    """Note which ends have names that begin with what a remap makes of another name: `resolveName("image") + "/marked"`
+    is `image/marked` without one."""
+    rows = [row for group in GROUPS.values() for row in said.get(group, ()) if "name" in row]
+    parts = sorted({begin for row in rows for begin in _BEGINS.findall(row["name"])})
+    targets = {part: f"/preflight_remapped_{number}_" for number, part in enumerate(parts)}
+    more = _read(analysis, [key._replace(remaps=tuple(targets.items()))]) if targets else None
+    there = {row["name"] for group in GROUPS.values() for row in (more or {}).get(group, ()) if "name" in row}
+    for row in rows if more is not None else ():
+        for part, target in targets.items():
+            if row["name"] != part and row["name"].startswith(part) and target + row["name"][len(part) :] in there:
+                row["remapped"] = part
 
 
 def _add_declared(said: dict[str, Any], declared: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:

@@ -258,6 +258,10 @@ def _executed(thing: Any, context: LaunchContext) -> list[dict[str, Any]]:
     return actions
 
 
+_OURS = re.compile(r"\bpreflight_agents\.(?:\w+\.)+")
+"""Before the name of a class that takes the place of one of launch."""
+
+
 def _error_record(error: BaseException) -> dict[str, Any]:
     frames = [
         [frame.filename, frame.lineno, frame.name]
@@ -266,7 +270,7 @@ def _error_record(error: BaseException) -> dict[str, Any]:
     ]
     if isinstance(error, SyntaxError) and error.filename:
         frames.append([error.filename, error.lineno or 1, ""])
-    message = error.msg if isinstance(error, SyntaxError) else str(error)
+    message = error.msg if isinstance(error, SyntaxError) else _OURS.sub("", str(error))
     record: dict[str, Any] = {"type": type(error).__name__, "message": message[:2000], "frames": frames[-MAX_FRAMES:]}
     if isinstance(error, NameError) and _is_set_somewhere(message):
         record["elsewhere"] = True

@@ -27,6 +27,7 @@ def install(open_file: Any) -> Any:
     for name in ("exists", "is_file", "is_dir"):
         setattr(pathlib.Path, name, _of_path(getattr(pathlib.Path, name)))
     os.mkdir = _made(os.mkdir)
+    os.symlink = _linked(os.symlink)
 
     def opened(file: Any, mode: Any = "r", *args: Any, **kwargs: Any) -> Any:
         if _is_path(file):
@@ -94,6 +95,21 @@ def _made(mkdir: Any) -> Any:
             if other in _moved:
                 raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), path) from None
             _make(other)
+
+    return called
+
+
+def _linked(symlink: Any) -> Any:
+    @functools.wraps(symlink)
+    def called(source: Any, path: Any, *args: Any, **kwargs: Any) -> None:
+        other = _other(os.fspath(path)) if _is_path(path) else ""
+        try:
+            symlink(source, path, *args, **kwargs)
+        except OSError as error:
+            if error.errno not in (errno.EROFS, errno.ENOENT) or os.path.dirname(other) not in _moved:
+                raise
+            symlink(source, other, *args, **kwargs)
+            _moved.add(other)
 
     return called
 
