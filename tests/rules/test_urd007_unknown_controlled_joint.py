@@ -9,7 +9,7 @@ from support.robot_launch import of_urdf, robot
 
 _URDF = """<link name="a"/><link name="b"/>
 <joint name="shoulder_joint" type="continuous"><parent link="a"/><child link="b"/></joint>
-<ros2_control name="hw" type="system"><joint name="{}"/></ros2_control>
+<ros2_control name="hw" type="system"><joint name="{}"><command_interface name="position"/></joint></ros2_control>
 <transmission name="t"><joint name="{}"/></transmission>""".replace("\n", "")
 
 
@@ -65,4 +65,11 @@ def test_a_transmission_of_ros2_is_not_read() -> None:
         //- /main.launch.xml
         <launch><node pkg="p" exec="rsp" name="rsp"><param name="robot_description" value="{escaped}"/></node></launch>
     """)
+    assert [(each.rule, each.severity) for each in found] == [("URD007", "info")]
+
+
+def test_an_actuator_without_interfaces() -> None:
+    """https://github.com/bitmeal/youbot_ros2: the hardware has actuators beside the joints."""
+    actuator = '<ros2_control name="hw"><joint name="actuator_1"><param name="id">1</param></joint></ros2_control>'
+    found = findings_of(of_urdf(f"{_URDF.format('shoulder_joint', 'shoulder_joint')}{actuator}"))
     assert [(each.rule, each.severity) for each in found] == [("URD007", "info")]

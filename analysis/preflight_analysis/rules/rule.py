@@ -125,8 +125,10 @@ class Context(Once):
 
     def text(self, location: Location) -> str:
         """What stands at a place; nothing where its file is not known."""
-        document = self.documents.get(location.file)
-        return document.text[location.span.start : location.span.end] if document is not None else ""
+        document: Document | Unreadable | None = self.documents.get(location.file)
+        if document is None:
+            document = self.disk.text(location.file)
+        return document.text[location.span.start : location.span.end] if isinstance(document, Document) else ""
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]

@@ -28,6 +28,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             *(("ros2_control", each.name, joint.name) for each in description.systems for joint in each.joints),
             *(("transmission", each.name, joint.name) for each in description.transmissions for joint in each.joints),
         ]
+        with_interfaces = {
+            (each.name, joint.name)
+            for each in description.systems
+            for joint in each.joints
+            if joint.commands or joint.states
+        }
         for tag, owner, joint in dict.fromkeys(named):
             if joint in joints or not joint:
                 continue
@@ -38,17 +44,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.finding(
                 f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
                 place,
-                severity=_severity(context, tag, refused),
+                severity=_severity(context, tag, refused, has_interfaces=(owner, joint) in with_interfaces),
                 related=related,
                 fixes=rename(context, place, joint, near) if near is not None else (),
             )
 
 
-def _severity(context: Context, tag: str, refused: bool) -> Severity | None:
-    """In ROS 2 only ros2_control reads transmissions, and only those within its own element."""
+def _severity(context: Context, tag: str, refused: bool, *, has_interfaces: bool) -> Severity | None:
+    """In ROS 2 only ros2_control reads transmissions, and only those within its own element. A joint without interfaces
+    may be an actuator that the hardware knows."""
     if tag == "transmission":
         return "info" if context.tree.ros.ament else None
-    return "error" if refused else None
+    if refused:
+        return "error"
+    return None if has_interfaces else "info"
 
 
 RULE = Rule(
@@ -57,7 +66,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have. It is "
     "an error with ros2_control of Jazzy and newer, which refuses such a description. A `<transmission>` in ROS 2 is "
-    "information, because nothing reads it there.",
+    "information, because nothing reads it there. So is a joint without interfaces, which may be an actuator of the "
+    "hardware.",
     why="The joint is not moved: the simulator skips it, and controllers that claim it report positions of no joint. "
     "ros2_control of Jazzy and newer does not load the hardware at all.",
     example='<ros2_control name="arm" type="system">\n  <joint name="sholder_joint"/>\n</ros2_control>',

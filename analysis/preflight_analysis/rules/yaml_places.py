@@ -29,12 +29,8 @@ def place_in_yaml(context: Context, param: Param, value: str = "") -> Location:
     `config` of a package of the workspace that has the parameter with its value, of the package of the launch file
     first; else what sets it."""
     own = value_place(param.place, value, context.documents.get(param.place.file)) if value else None
-    if own is not None or param.name_location is not None:
+    if own is not None or param.place.file.endswith(_YAML):
         return own or param.place
-    given = context.documents.get(param.place.file)
-    if given is not None and param.place.file.endswith(_YAML):
-        at = _place(given, param)
-        return (value_place(at, value, given) or at) if at is not None else param.place
     packages = [each for each in context.environment.packages.values() if each.is_within(context.environment.workspace)]
     near = [each for each in packages if param.place.file.startswith(f"{each.share}/")]
     for group in (near, [each for each in packages if each not in near]):

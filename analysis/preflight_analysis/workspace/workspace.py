@@ -131,6 +131,14 @@ class Analysis:
         return {**self.context.documents, **self.documents}
 
     @property
+    def documents_of_findings(self) -> Mapping[str, Document]:
+        """All documents, and those of files that no launch file names: a Python launch file reads them itself."""
+        documents = self.all_documents
+        others = {finding.location.file for finding in self.findings}.difference(documents)
+        found = {path: self.context.disk.text(path) for path in others}
+        return {**documents, **{path: text for path, text in found.items() if isinstance(text, Document)}}
+
+    @property
     def launch(self) -> Root:
         """The root with the arguments that it was launched with."""
         return Root(self.root, self.args)

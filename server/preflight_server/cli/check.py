@@ -75,7 +75,7 @@ class _Launched:
             tuple(file for file in analysis.tree.files if catalogued_file(file) is None),
             tuple(analysis.tree.inputs),
             analysis.findings,
-            analysis.all_documents,
+            analysis.documents_of_findings,
             analysis.environment.problems,
             nodes=tuple(
                 (node.name, interface.source)

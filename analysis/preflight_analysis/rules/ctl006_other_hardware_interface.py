@@ -1,0 +1,121 @@
+"""CTL006: a controller of ros_control that asks for an interface which the joint does not have in Gazebo (ROS 1).
+
+`DefaultRobotHWSim::initSim` registers each joint of a transmission with the first interface that it names
+(gazebo_ros_control/src/default_robot_hw_sim.cpp of ros-simulation/gazebo_ros_pkgs), and a controller that finds none of
+its own type there is not loaded: `Could not find resource 'x' in 'hardware_interface::EffortJointInterface'`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from preflight_analysis.evaluation.meanings import items_of
+from preflight_analysis.evaluation.ros1.spawners import loaded_by
+from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.robot.model import Description
+from preflight_analysis.robot.of_launch import Robot, unread_of
+from preflight_analysis.rules.further_reading import ROS_CONTROL_GAZEBO
+from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.rule import Context, Rule
+
+_SPAWN = ("gazebo_ros", "spawn_model")
+_PLUGIN = "gazebo_ros_control"
+_DEFAULT = "DefaultRobotHWSim"
+_ASKED = {
+    "effort_controllers": "EffortJointInterface",
+    "position_controllers": "PositionJointInterface",
+    "velocity_controllers": "VelocityJointInterface",
+    "diff_drive_controller": "VelocityJointInterface",
+}
+"""The interface that the controllers of a package ask for (ros-controls/ros_controllers 678b92a)."""
+_JOINTS = ("joint", "joints", "left_wheel", "right_wheel")
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    nodes = context.tree.nodes
+    if not any((node.package, node.executable) == _SPAWN for node in nodes) or unread_of(context.tree):
+        return
+    simulated = [robot for robot in robots(context) if _is_default(robot.description)]
+    if len(simulated) != 1:
+        return
+    (robot,) = simulated
+    interfaces = _interfaces(robot.description)
+    for node in nodes if interfaces else ():
+        for controller in loaded_by(node):
+            yield from _of_controller(rule, context, robot, interfaces, controller, node)
+
+
+def _of_controller(
+    rule: Rule, context: Context, robot: Robot, interfaces: Mapping[str, str], controller: str, spawner: LaunchNode
+) -> Iterator[Finding]:
+    type_ = context.tree.params.get(f"{controller}/type")
+    asked = _ASKED.get(type_.value.partition("/")[0]) if type_ is not None and isinstance(type_.value, str) else None
+    if type_ is None or asked is None:
+        return
+    joints = {joint.name for joint in robot.description.joints}
+    wrong = [
+        (joint, interfaces.get(joint))
+        for joint in _joints_of(context, controller)
+        if joint in joints and interfaces.get(joint) != asked
+    ]
+    if not wrong:
+        return
+    joint, has = wrong[0]
+    what = f"interface '{has}'" if has else "no transmission"
+    place, _ = written(context, robot, "joint", "name", joint, "transmission")
+    yield rule.finding(
+        f"joint '{joint}' has {what}: '{controller}' ({type_.value}) asks for '{asked}'",
+        type_.place,
+        confidence="likely",
+        related=(
+            Related("the transmission of the joint" if has else "robot_description of this launch", place),
+            Related(f"'{controller}' is loaded here", spawner.location),
+        ),
+    )
+
+
+def _joints_of(context: Context, controller: str) -> Iterator[str]:
+    given: list[Param | None] = [context.tree.params.get(f"{controller}/{name}") for name in _JOINTS]
+    for param in given:
+        if param is not None:
+            yield from items_of(param.value)
+
+
+def _is_default(description: Description) -> bool:
+    """Whether Gazebo makes the interfaces of the transmissions."""
+    plugins = [each for each in description.plugins if _PLUGIN in each.filename]
+    return len(plugins) == 1 and plugins[0].params.get("robotSimType", _DEFAULT).endswith(_DEFAULT)
+
+
+def _interfaces(description: Description) -> dict[str, str]:
+    """The interface that each joint gets."""
+    found: dict[str, str] = {}
+    for each in description.transmissions:
+        if len(each.joints) == 1 and any(each.joints[0].commands):
+            found.setdefault(each.joints[0].name, each.joints[0].commands[0].rpartition("/")[2])
+    return found
+
+
+RULE = Rule(
+    id="CTL006",
+    name="other-hardware-interface",
+    severity="warning",
+    what="Checks for a controller of ROS 1 whose joint has another hardware interface in Gazebo than the controller "
+    "asks for, or none. The robot description has the plugin `gazebo_ros_control` with its default simulation, which "
+    "takes the interface from the `<transmission>` of the joint. Controllers of `effort_controllers`, "
+    "`position_controllers`, `velocity_controllers` and `diff_drive_controller` are checked.",
+    why="The controller manager does not load the controller: `Could not find resource 'x' in "
+    "'hardware_interface::EffortJointInterface'`.",
+    example='<joint name="elbow">\n'
+    "  <hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface>\n"
+    "</joint>\n"
+    "# elbow_controller: {type: effort_controllers/JointPositionController, joint: elbow}",
+    instead='<joint name="elbow">\n'
+    "  <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>\n"
+    "</joint>",
+    references=(ROS_CONTROL_GAZEBO,),
+    generations=(1,),
+    check=_check,
+    every_root=True,
+)
