@@ -100,3 +100,10 @@ def test_two_that_are_like_one_are_no_slips_of_it(tmp_path: Path) -> None:
     source = {"p/src/a.cpp": 'nh.getParam("serials", s);'}
     assert [f.severity for f in found(tmp_path, param("serial"), source)] == ["warning"]
     assert found(tmp_path, param("serial") + param("serialz"), source) == []
+
+
+@pytest.mark.parametrize("comment", ["// {}", "/* {} */"])
+def test_what_is_commented_out_asks_for_nothing(comment: str, tmp_path: Path) -> None:
+    source = 'nh.getParam("new_mux_idx", idx);'
+    assert found(tmp_path, param("new_mux_idxs"), {"p/src/a.cpp": comment.format(source)}) == []
+    assert [f.severity for f in found(tmp_path, param("new_mux_idxs"), {"p/src/b.cpp": source})] == ["warning"]

@@ -116,3 +116,12 @@ def test_a_display_of_another_type_is_a_warning(tmp_path: Path) -> None:
     (finding,) = (each for each in run_rules(analysis.context) if each.rule == "TOP003")
     assert (finding.severity, finding.confidence) == ("warning", "likely")
     assert finding.location.file.endswith("/a.rviz")
+
+
+@pytest.mark.silent
+def test_one_definition_in_two_packages() -> None:
+    check("""
+        <launch><node pkg="p" type="t" name="a"/><node pkg="p" type="t" name="b"/></launch>
+        //- interfaces
+        {"/a": {"publishers": {"/tf": "tf/tfMessage"}}, "/b": {"subscribers": {"/tf": "tf2_msgs/TFMessage"}}}
+    """)

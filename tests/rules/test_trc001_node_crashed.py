@@ -343,11 +343,14 @@ def test_a_package_that_is_not_built_is_told_by_its_library_and_its_files(tmp_pa
     context = analyse(read_fixture("<launch/>"))
     built = replace(context, environment=replace(context.environment, packages=packages))
     built = replace(built, executables=ExecutableIndex(built.environment))
-    said = "for plugin Planner. Make sure that the library 'lib/libplanner_nodelet' actually exists."
     lack = Lack("build", "robot", "catkin build robot")
-    assert lack_said(built, [said]) == lack
     assert lack_of_made(built, f"{tmp_path}/arm.urdf") == lack
-    assert lack_said(built, [said.replace("planner", "other")]) is None
+    for said in (
+        "for plugin Planner. Make sure that the library 'lib/libplanner_nodelet' actually exists.",
+        "Failed to load library /ws/devel/lib//libplanner_nodelet.so. Make sure that you are calling the macro",
+    ):
+        assert lack_said(built, [said]) == lack
+        assert lack_said(built, [said.replace("planner", "other")]) is None
     assert lack_of_made(built, f"{tmp_path}/other.urdf") is None
 
 
@@ -586,3 +589,14 @@ def test_a_crash_for_a_module_that_two_packages_have(tmp_path: Path, other: str,
         {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
     """)
     assert [f.severity for f in found if f.rule == "TRC001"] == [severity]
+
+
+def test_a_crash_for_a_file_that_another_program_writes() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ info[TRC001] Input world file is invalid
+        </launch>
+        //- interfaces
+        {"/n": {"status": "crashed", "exit_code": 1, "stderr": ["ValueError: Input world file is invalid, /tmp/a"]}}
+    """)

@@ -43,7 +43,10 @@ _BETWEEN = re.compile(r"[/_.-]")
 _TEMPLATES = (".xacro", ".in", ".em", ".erb", ".jinja", ".jinja2", ".template")
 """What the name of a file has more of which a build makes the one without it."""
 _NOT_BUILT = re.compile(r"Could not find library corresponding to plugin ([\w-]+)/")
-_NO_LIBRARY = re.compile(r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]+?)(?:\.so)?' actually exists")
+_NO_LIBRARY = re.compile(
+    r"Make sure that the library '(?:[^']*/)?(?:lib)?([^'/]+?)(?:\.so)?' actually exists"
+    r"|Failed to load library (?:\S*/)?lib([^\s/]+?)\.so\b"
+)
 """How pluginlib says it of a package that has not been built, where a plugin has its package's name, and where not."""
 _INTERPRETERS = ("python", "python2", "python3", "bash", "sh", "perl", "ruby", "node")
 _NO_KEY = re.compile(r"KeyError: '(\w+)'")
@@ -281,7 +284,7 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
             return None if slip else lack_of_program(context, program)
         if (found := _NOT_BUILT.search(line)) and found[1] in context.environment.packages:
             return lack_of_build(context, found[1])
-        if (found := _NO_LIBRARY.search(line)) and (package := _building(context, found[1])) is not None:
+        if (found := _NO_LIBRARY.search(line)) and (package := _building(context, found[1] or found[2])) is not None:
             return lack_of_build(context, package)
         if found := _NO_MODULE.search(line):
             return lack_of_module(context, found[1])

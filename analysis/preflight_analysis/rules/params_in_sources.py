@@ -37,6 +37,8 @@ _ASKED = re.compile(
     r"|(?:declare|get)Parameter\w*)\s*(?:<[^();]*>\s*)?\(\s*(?:[\w.:>()-]+\s*,\s*)?(?:[\w.:>()-]+\s*\+\s*)?"
     r"""["']([~/\w.]*\w)["']"""
 )
+_CPP_COMMENT = re.compile(r"^[ \t]*//[^\n]*|/\*.*?\*/", re.MULTILINE | re.DOTALL)
+_PYTHON_COMMENT = re.compile(r"^[ \t]*#[^\n]*", re.MULTILINE)
 _MACRO = re.compile(r"\b[A-Z][A-Z0-9_]{2,}\(([^()\"]*)\)")
 """What a macro is given may become a text."""
 _KEY = re.compile(r"^\s*([A-Za-z]\w*)\s*:", re.MULTILINE)
@@ -190,12 +192,17 @@ def _in_file(db: Database, path: str) -> _Index:
     if path.endswith(".yaml"):
         return _Index(frozenset(), frozenset(_KEY.findall(text)) if "default_value" in text else frozenset())
     asked = set()
-    for name in _ASKED.findall(text):
+    for name in _ASKED.findall(_without_comments(text, path)):
         above, leaf = _parts(name)
         asked.add(Asked(_ANY if not above and name[0] in "./" else above, leaf, path))
     words = {part for written in _WRITTEN.findall(text) for part in _PART.split(written.strip("~/."))}
     words.update(word for given in _MACRO.findall(text) for word in re.findall(r"\w+", given))
     return _Index(frozenset(asked), frozenset(words))
+
+
+def _without_comments(text: str, path: str) -> str:
+    """What is commented out asks for nothing."""
+    return (_PYTHON_COMMENT if path.endswith(".py") else _CPP_COMMENT).sub("", text)
 
 
 def _parts(name: str) -> tuple[str, str]:

@@ -26,6 +26,8 @@ _WORD = re.compile(r"\w+")
 _NO_PARAM = re.compile(r"(?i)\b(?:could not|cannot|can't|failed to|no|not|missing|without)\b.*\bparam(?:eter)?s?\b")
 """How a program says that a parameter is not set, whose name it may not say."""
 _NOT_IN_MODULE = re.compile(r"ImportError: cannot import name '\w+' from '(\w+)")
+_TEMPORARY = re.compile(r"(?<![\w/.])/(?:var/)?tmp/[\w.+-]+(?![\w.+/-])")
+"""A file right in the folder for temporary ones, which another program writes before."""
 _ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
 _WANTS = re.compile(r"(?i)\busage\b|\bargument|\bfile|\bpath\b|\bIndexError\b|\brequired\b|\bopen\b|\binput\b|\boption")
 """How a program says that it is not told what to read."""
@@ -65,6 +67,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or outcome.lacks is not None
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
+            or _TEMPORARY.search(told) is not None
             or _is_of_two_modules(context, telling_line(outcome.stderr_tail))
             or _OF_CALLED.search(telling_line(outcome.stderr_tail)) is not None
             or any(e.speculative for e in interface.endpoints)
@@ -252,7 +255,8 @@ RULE = Rule(
     "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
     "ignores. A module that the program reports as missing, an argument without a value, "
     "a `<test>`, a program that a signal kills in a shell script, and another program that fails (`roslaunch`, `git`), "
-    "are information too. So is a crash that names a parameter without a known value, or an argument that is empty.",
+    "are information too. So is a crash that names a parameter without a known value, an argument that is empty, "
+    "or a temporary file.",
     why="With these parameters and arguments the node most likely exits on the robot too. What it does "
     "later is unknown.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',

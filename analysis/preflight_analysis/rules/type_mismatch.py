@@ -15,6 +15,8 @@ from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Endpoint
 
 _MESSAGES = "_msgs"
+_SAME = {"tf/tfMessage": "tf2_msgs/TFMessage"}
+"""Types of two packages with one definition, and so with one sum."""
 
 
 def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) -> Iterator[Finding]:
@@ -111,7 +113,8 @@ def in_short(name: str) -> str:
     """A type's name without the folder that ROS 2 has in it: a launch file of a package for both generations may be
     answered by nodes of either."""
     package, _, rest = name.partition("/")
-    return f"{package}/{rest.rpartition('/')[2]}"
+    short = f"{package}/{rest.rpartition('/')[2]}"
+    return _SAME.get(short, short)
 
 
 def _confidence(graph: Graph, *connections: Connection) -> Confidence:
