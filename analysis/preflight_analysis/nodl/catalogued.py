@@ -33,6 +33,8 @@ _REMAPPED = "remapped"
 _WORDS = re.compile("[./]")
 _SERIES = re.compile(r"(\D*[A-Za-z])0")
 """The name of the first parameter of a numbered series."""
+_PACKAGES = {"parallel_gripper_action_controller": "parallel_gripper_controller"}
+"""The package of controllers whose types begin with another name."""
 _OF_SPAWNERS = tuple(ParamUse(f"~{name}", "get", inferred=True) for name in ("type", "fallback_controllers"))
 """What the section of a controller has for its spawner
 (https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html)."""
@@ -118,7 +120,8 @@ def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Ca
     for param in node.params:
         if not param.name.endswith(_TYPE) or not isinstance(param.value, str):
             continue
-        found = catalogued(param.value.partition("/")[0], "controllers", param.value, distro, is_used=is_used)
+        prefix = param.value.partition("/")[0]
+        found = catalogued(_PACKAGES.get(prefix, prefix), "controllers", param.value, distro, is_used=is_used)
         if found is not None:
             name = param.name.removesuffix(_TYPE)
             full = names.join(node.namespace, name)

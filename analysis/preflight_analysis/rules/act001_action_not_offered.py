@@ -6,7 +6,7 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.rules.dangling import dangling_consumers
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
-from preflight_analysis.rules.moveit import unserved
+from preflight_analysis.rules.moveit import known_to_moveit, unserved
 from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
@@ -23,8 +23,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    # MVT001 reports them, by more than the name.
-    of_moveit = {(id(each.known.node), each.known.action) for each in context.once(unserved)}
+    # MVT001 reports them, by more than the name; others have a controller that the launch loads.
+    wrong = [each.known for each in context.once(unserved)]
+    served = [each for each in context.once(known_to_moveit) if each.loaded is not None]
+    of_moveit = {(id(each.node), each.action) for each in (*wrong, *served)}
     pairs, unknown = near_misses(context, "actions"), not_analysed(graph)
     near = [each for each in pairs if (id(each.consumer.node), each.consumer.name) not in of_moveit]
     for pair in near:
