@@ -47,7 +47,9 @@ def _launched(
     path = folder / "a.launch.py"
     path.write_text(text)
     (folder / "helper.py").write_text(helper)
-    environment = detect_environment(None, {"PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(packages or folder),))
+    environment = detect_environment(
+        None, {"HOME": "/home/me", "PATH": "/usr/bin", "ROS_VERSION": "2"}, (str(packages or folder),)
+    )
     result = (
         answer if isinstance(answer, CommandResult) or answer is None else CommandResult("done", json.dumps(answer))
     )
@@ -137,6 +139,18 @@ def test_a_file_of_somebodys_home_that_a_package_has(tmp_path: Path) -> None:
         (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
         assert finding.severity == severity
         assert finding.message.endswith("maps/levine.yaml'?") == (severity == "error")
+
+
+def test_a_workspace_that_others_have_elsewhere(tmp_path: Path) -> None:
+    """The file asks for the home folder of whoever starts it, and looks for its workspace there."""
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    (tmp_path / "base.yaml").touch()
+    error = _error(
+        tmp_path, "FileNotFoundError", "[Errno 2] No such file or directory: '/home/me/ws/src/robot/base.yaml'"
+    )
+    for text, severity in ((f"from pathlib import Path\nHOME = Path.home()\n{TEXT}", "info"), (TEXT, "error")):
+        (finding,) = (each for each in _launched(tmp_path, error, text=text).findings if each.rule == "LCH032")
+        assert finding.severity == severity
 
 
 def test_an_assert_without_a_message_is_shown(tmp_path: Path) -> None:

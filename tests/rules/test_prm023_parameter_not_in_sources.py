@@ -89,6 +89,8 @@ def test_parameters_beside_the_nodes_of_which_one_source_reads_most(tmp_path: Pa
         (param("Odom/MaxDepth"), {"p/a.cpp": 'nh.param("max_depth", a);'}),
         (param("j_max"), {"p/a.cpp": 'nh.param("max_j_z", a);'}),
         (param("rate"), {"p/a.cpp": 'nh.param("publish_rate", a);'}),
+        # MoveIt's library reads it in any node.
+        (param("ompl/planning_plugins"), {"p/a.cpp": 'nh.param("planning_plugin", a);'}),
         (param("camera1_frame"), {"p/a.cpp": 'nh.param("camera2_frame", a);'}),
     ],
 )

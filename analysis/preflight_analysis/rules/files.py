@@ -58,7 +58,7 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 severity, message = "info", f"{message}; set {empty}"
             elif (absent := _absent_top(context, path)) is not None:
                 severity, message = "info", f"{message}; this machine has no '{absent}'"
-            elif _is_below_own_home(context, path, problem.location.file):
+            elif is_below_own_home(context, path, problem.location.file):
                 severity, message = "info", f"{message}; it is looked for in the home folder"
             elif _is_beside(context, problem.kind, problem.location) or (
                 near is None and depends_on_working_folder(context, problem.location)
@@ -72,7 +72,7 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
     return check
 
 
-def _is_below_own_home(context: Context, path: str, file: str) -> bool:
+def is_below_own_home(context: Context, path: str, file: str) -> bool:
     """Whether a launch file asks for the home folder of whoever starts it, where the path lies: on another machine the
     workspace may be there."""
     home, document = context.environment.variables.get("HOME"), context.documents.get(file)

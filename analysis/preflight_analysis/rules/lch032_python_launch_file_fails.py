@@ -12,7 +12,7 @@ from preflight_analysis.evaluation.problems import PythonException, PythonImport
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.elsewhere import absent_top
-from preflight_analysis.rules.files import nearest_file
+from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
@@ -44,12 +44,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
-                near = _near_file(context, error, said)
+                near, missing = _near_file(context, error, said), _missing_file(error, said)
                 if near is not None:
                     message += f"; did you mean '{shown(near, context)}'?"
-                elif (path := _missing_file(error, said)) is not None:
-                    lack = lack_of_made(context, path) or lack_of_file(context, path)
-                    if lack is None and (top := absent_top(context.disk, path)) is not None:
+                    if missing is not None and is_below_own_home(context, missing, problem.location.file):
+                        severity = "info"
+                elif missing is not None:
+                    lack = lack_of_made(context, missing) or lack_of_file(context, missing)
+                    if lack is None and (top := absent_top(context.disk, missing)) is not None:
                         severity, message = "info", f"{message}; this machine has no '{top}'"
                 elif absent and not _is_of_workspace(context, absent):
                     severity, message = "info", f"{message}; this machine has no '{absent}'"

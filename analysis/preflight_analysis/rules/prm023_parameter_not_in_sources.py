@@ -17,7 +17,7 @@ from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import reports_params
-from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.rules.well_known import is_for_tools, is_of_planning
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import split_args
 
@@ -41,7 +41,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found: dict[str, list[tuple[Param, Asked]]] = {}
         for param in params:
             name = _below(node, param)
-            if name in taken or is_for_tools(param.name) or param.place in reported:
+            if name in taken or is_for_tools(param.name) or is_of_planning(name) or param.place in reported:
                 continue
             asked = meant_in_sources(context.disk.db, context.environment, package.share, name)
             if asked is not None and (meant := _renamed(name, asked)) not in given:

@@ -28,6 +28,9 @@ _TO_ACTION_SERVER = ("ActionGoal", "actionlib_msgs/GoalID")
 _FROM_ACTION_SERVER = ("ActionFeedback", "ActionResult", "actionlib_msgs/GoalStatusArray")
 _BESIDE_ACTION_RESULT = ("ActionFeedback", "actionlib_msgs/GoalStatusArray")
 
+_OF_PLANNING = frozenset(
+    {"planning_plugin", "planning_plugins", "planning_pipelines", "request_adapters", "response_adapters"}
+)
 _PARAMS = frozenset(
     {
         "/enable_statistics",
@@ -73,6 +76,12 @@ def describes_robot(parameter: str) -> bool:
 def is_transform(name: str) -> bool:
     """Whether it is one of tf's topics, which a listener that is made later on uses."""
     return names.leaf(name) in ("tf", "tf_static", "tf2")
+
+
+def is_of_planning(parameter: str) -> bool:
+    """Whether it is one of MoveIt's planning pipelines, which any node may have by MoveIt's library
+    (https://moveit.picknik.ai/main/doc/examples/planning_adapters/planning_adapters_tutorial.html)."""
+    return names.leaf(parameter.replace(".", "/")) in _OF_PLANNING
 
 
 def is_for_tools(parameter: str) -> bool:
