@@ -5,10 +5,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.registry import run_rules
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import analyse, apply, check, findings_of, read_fixture
 
 
@@ -250,3 +252,17 @@ def test_a_file_that_is_found_where_the_launch_file_is() -> None:
         //- commands
         {json.dumps({"cat r.urdf": command})}
     """)
+
+
+def test_a_program_that_another_package_of_the_same_name_has(tmp_path: Path) -> None:
+    for folder in ("new", "old"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "old" / "set_up.sh").touch()
+    new, old = (Package("p", str(tmp_path / each), str(tmp_path / each / "package.xml")) for each in ("new", "old"))
+    launch = tmp_path / "main.launch"
+    launch.write_text('<launch><param name="a" command="$(find p)/set_up.sh"/></launch>')
+    environment = Environment(1, "noetic", {}, (), {"p": new}, {"p": (old,)}, (), (), None)
+    findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    (finding,) = (each for each in findings if each.rule == "PRM008")
+    assert finding.severity == "warning"
+    assert finding.message.endswith(f"another package of that name has it in '{old.share}'")

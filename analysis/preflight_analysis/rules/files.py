@@ -48,7 +48,7 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             severity: Severity | None = None if problem.fatal else "warning"
-            if (other := _in_namesake(context, path)) is not None:
+            if (other := in_namesake(context, path)) is not None:
                 severity, message = "warning", f"{message}; another package of that name has it in '{other}'"
             elif says_not_set(path):
                 severity, message = "info", f"{message}; a part of the path has to be set"
@@ -81,7 +81,7 @@ def is_below_own_home(context: Context, path: str, file: str) -> bool:
     return below and asks and package_folder(path, context.environment) is None
 
 
-def _in_namesake(context: Context, path: str) -> str | None:
+def in_namesake(context: Context, path: str) -> str | None:
     """The folder of another package of the same name, where that has the file: which of them is found depends on the
     package path."""
     share = package_folder(path, context.environment)

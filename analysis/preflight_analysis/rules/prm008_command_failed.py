@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
+from preflight_analysis.rules.files import in_namesake
 from preflight_analysis.rules.further_reading import ROSLAUNCH_PARAM, SECURITY, XACRO
 from preflight_analysis.rules.installed import (
     lack_of_build,
@@ -117,6 +118,7 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
     program = shlex.split(line)[0]
     name = os.path.basename(program)
     confidence: Confidence = "certain"
+    severity: Severity | None = None
     near = lack = None
     if "/" not in program:
         lack = lack_of_program(context, program)
@@ -136,10 +138,13 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         removed = "; xacro.py is removed since ROS Noetic" if name == "xacro.py" and noetic else ""
         message = f"program '{shown(program, context)}' does not exist{removed}{did_you_mean(near)}"
         lack = lack_of_file(context, program) if near is None and not removed else None
+        if (other := in_namesake(context, program)) is not None:
+            severity, message = "warning", f"{message}; another package of that name has it in '{other}'"
     location: Location = origin[-1]
     return rule.finding(
         message,
         location,
+        severity=severity,
         confidence=confidence,
         related=include_chain(origin),
         fixes=rename(context, location, name, near) if near else (),
