@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.commands import CommandRunner
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.workspace import Analysis
 from support.python_launch_harness import MANIFEST, PythonHarness
 from support.ros2_harness import ros2_prefix
@@ -121,3 +121,18 @@ def test_of_packages_of_one_name_xacro_finds_that_of_its_own_workspace(tmp_path:
     for name in ("one", "two"):
         found = runner.run(f"xacro {tmp_path}/{name}/src/arm/urdf/robot.xacro", threading.Event())
         assert f'<link name="{name}"/>' in found.output
+
+
+def test_without_a_package_that_it_includes_a_description_is_known_in_part(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "arm"
+    (package / "urdf").mkdir(parents=True)
+    (package / "package.xml").write_text(MANIFEST.format("arm"))
+    include = '<xacro:include filename="$(find camera_parts)/urdf/camera.xacro"/><link name="base"/>'
+    (package / "urdf" / "robot.xacro").write_text(f'<robot xmlns:xacro="http://x">{include}</robot>')
+    environment = detect_environment(str(tmp_path), {"ROS_VERSION": "2"}, (str(tmp_path),), root=str(tmp_path))
+    runner = CommandRunner(environment, str(tmp_path), CommandCache(tmp_path / "cache"))
+    line = f"xacro {package}/urdf/robot.xacro"
+    found = runner.run(line, threading.Event())
+    assert (found.status, found.reason) == ("not-run", "package 'camera_parts' is not installed here")
+    assert '<link name="base"/>' in found.output
+    assert runner.lookup(line) == found

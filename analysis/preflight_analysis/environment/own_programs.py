@@ -2,5 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
 OWN_PROGRAMS = frozenset({"xacro"})
 """By the names that launch files call them."""
+
+
+def own_program(text: str, find: str, package: str) -> str | None:
+    """A command line that begins with `$(find package)/program`, of a package that is not here, as it calls our own
+    program: xacro has the name of its package, before Noetic with `.py`. None for anything else."""
+    if package not in OWN_PROGRAMS:
+        return None
+    program = re.compile(rf"\s*{re.escape(find)}/{package}(?:\.py)?(?=[\s'\"]|$)")
+    found, count = program.subn(package, text, count=1) if program.match(text) else (text, 0)
+    return found if count else None

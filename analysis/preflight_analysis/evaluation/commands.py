@@ -17,7 +17,8 @@ class CommandResult:
     """How a command ended.
 
     `done`: with exit code 0, and `output` is what it printed. `failed`: roslaunch would stop at it. `missing`: its
-    program is not there, which stops roslaunch too. `not-run`: nothing is known of it.
+    program is not there, which stops roslaunch too. `not-run`: nothing is known of it, or of a robot description only
+    a part, which is its `output` (`partial_text.py`).
     """
 
     status: Status

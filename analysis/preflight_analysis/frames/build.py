@@ -8,6 +8,7 @@ from itertools import chain
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import Known, KnownMeanings, known_of_nodes, params_of_nodes
+from preflight_analysis.evaluation.partial_text import named
 from preflight_analysis.evaluation.ros2.spawners import SPAWN
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.frames.edges import (
@@ -88,7 +89,10 @@ def _gaps(
     for node, interface, about, found in zip(nodes, interfaces, known, edges, strict=True):
         if is_state_publisher(node):
             robot = _robot_of(tree, node)
-            unread += [_named(node)] if robot is None or robot.description.kind != "robot" else []
+            if robot is not None and robot.description.lacks:
+                yield f"the robot description of {_named(node)} is incomplete: {named(robot.description.lacks)}"
+            elif robot is None or not robot.description.is_whole:
+                unread.append(_named(node))
         elif found or (about is not None and about.is_used):
             continue
         elif interface is None or not interface.known:

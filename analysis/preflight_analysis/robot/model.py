@@ -86,6 +86,13 @@ class Description:
     transmissions: tuple[Transmission, ...] = ()
     plugins: tuple[GazeboPlugin, ...] = ()
     malformed: Malformed | None = None
+    lacks: tuple[str, ...] = ()
+    """The packages that it includes and that are not installed here: links, joints and all else may be missing."""
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it is a robot of which all is known: what it does not have then does not exist."""
+        return self.kind == "robot" and not self.lacks
 
     @property
     def roots(self) -> tuple[str, ...]:

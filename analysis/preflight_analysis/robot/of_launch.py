@@ -7,6 +7,7 @@ from typing import Protocol
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.parse import parse_description
@@ -58,13 +59,13 @@ def robots_of(tree: LaunchTree) -> tuple[Robot, ...]:
 
 
 def unread_of(tree: LaunchTree) -> tuple[Param, ...]:
-    """The parameters that hold a description which is not known."""
+    """The parameters that hold a description which is not known, or not as a whole."""
     return tree.once(_unread)
 
 
 def robot_of(tree: LaunchTree, node: LaunchNode) -> Robot | None:
     """The robot whose description a node gets, else the one of its namespace, else the only one of the launch."""
-    robots = [robot for robot in robots_of(tree) if robot.description.kind == "robot"]
+    robots = [robot for robot in robots_of(tree) if robot.description.is_whole]
     mine = [robot for robot in robots if any(each is node for each in robot.nodes)]
     near = [robot for robot in robots if any(each.namespace == node.namespace for each in robot.nodes)]
     found = mine or near or robots
@@ -79,7 +80,7 @@ def semantics_of(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
 def given_robot(tree: LaunchTree, node: LaunchNode) -> Robot | None:
     """The robot whose description is for certain the one that a node of MoveIt works with: it gets it as a parameter,
     or all of the launch is known and there is one robot."""
-    robots = [robot for robot in robots_of(tree) if robot.description.kind == "robot"]
+    robots = [robot for robot in robots_of(tree) if robot.description.is_whole]
     mine = [robot for robot in robots if any(each is node for each in robot.nodes)]
     if not mine and tree.complete and not node.unknowns and not unread_of(tree):
         mine = robots
@@ -89,7 +90,7 @@ def given_robot(tree: LaunchTree, node: LaunchNode) -> Robot | None:
 def _semantics(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
     found: dict[str, SemanticRobot] = {}
     for param, nodes in _params(tree, SEMANTIC):
-        semantic = parse_semantic(param.value) if isinstance(param.value, str) else None
+        semantic = parse_semantic(param.value) if isinstance(param.value, str) and is_whole(param.value) else None
         if semantic is None or not isinstance(param.value, str):
             continue
         known = found.get(param.value)
@@ -121,7 +122,7 @@ def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
 
 
 def _unread(tree: LaunchTree) -> tuple[Param, ...]:
-    raw = {id(robot.param) for robot in robots_of(tree) if robot.description.kind == "xacro"}
+    raw = {id(robot.param) for robot in robots_of(tree) if robot.description.kind == "xacro" or robot.description.lacks}
     given = (param for param, _ in _params(tree, DESCRIPTION))
     return tuple(param for param in given if isinstance(param.value, CommandValue) or id(param) in raw)
 

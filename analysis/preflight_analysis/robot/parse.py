@@ -9,6 +9,7 @@ from functools import lru_cache
 from lxml import etree
 
 from preflight_analysis.documents.reading import SIZE_LIMIT
+from preflight_analysis.evaluation.partial_text import lacks_of
 from preflight_analysis.robot.model import (
     ControlJoint,
     ControlSystem,
@@ -49,7 +50,10 @@ def parse_description(text: str) -> Description:
         return _EMPTY
     if _tag(root) != "robot":
         return Description(_tag(root), _get(root, "name"))
-    if _is_raw(root):
+    lacks = lacks_of(text)
+    if lacks:
+        _leave_unknown(root)
+    elif _is_raw(root):
         return Description("xacro", _get(root, "name"))
     joints = tuple(map(_joint, _children(root, "joint")))
     gazebo = [(each, _get(each, "reference")) for each in _children(root, "gazebo")]
@@ -63,7 +67,16 @@ def parse_description(text: str) -> Description:
         tuple(map(_system, _children(root, "ros2_control"))),
         tuple(map(_transmission, _children(root, "transmission"))),
         tuple(_plugin(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
+        lacks=lacks,
     )
+
+
+def _leave_unknown(root: etree._Element) -> None:
+    """Takes out what has a name, or is at a place, that is not known."""
+    for element in list(root.iter()):
+        above = element.getparent()
+        if above is not None and any("${" in str(value) for value in element.values()):
+            above.remove(element)
 
 
 def _is_raw(root: etree._Element) -> bool:
@@ -140,6 +153,6 @@ def _transmission(element: etree._Element) -> Transmission:
 def _plugin(element: etree._Element, reference: str) -> GazeboPlugin:
     params: dict[str, str] = {}
     for each in element.iter():
-        if each is not element and not len(each):
+        if each is not element and not len(each) and "${" not in (each.text or ""):
             params.setdefault(_tag(each), (each.text or "").strip())
     return GazeboPlugin(_get(element, "name"), _get(element, "filename"), params, reference)

@@ -82,7 +82,7 @@ def controllers_of(context: Context) -> tuple[Controller, ...]:
 def robot_of(context: Context, controller: Controller) -> Description | None:
     """The description that the manager of a controller gets, else the one that is published in its namespace. None
     where that is not one, or one of the launch is not known."""
-    robots = [robot for robot in robots_of(context.tree) if robot.description.kind == "robot"]
+    robots = [robot for robot in robots_of(context.tree) if robot.description.is_whole]
     found = [robot for robot in robots if any(node.name == controller.given_to for node in robot.nodes)]
     if not found and not unread_of(context.tree):
         space = names.parent(controller.manager)

@@ -42,7 +42,9 @@ def _judged(frames: Frames, missing: MissingFrame, is_mentioned: bool) -> tuple[
     """Severity and confidence; None where too much is unknown to speak."""
     use = missing.use
     if missing.near is not None:
-        if is_mentioned or not use.sure:
+        # What a robot includes and that is not here may have the frame itself.
+        in_part = any(edge.robot is not None and edge.robot.description.lacks for edge in frames.edges)
+        if is_mentioned or not use.sure or in_part:
             return "info", "possible"
         return "warning", "likely" if frames.complete else "possible"
     if is_mentioned or not any(edge.how == "urdf" and edge.sure for edge in frames.edges):

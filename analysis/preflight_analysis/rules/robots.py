@@ -13,7 +13,12 @@ from preflight_analysis.rules.rule import Context
 
 
 def robots(context: Context) -> Iterator[Robot]:
-    """The robots of the launch whose URDF can be read."""
+    """The robots of the launch whose URDF is known as a whole."""
+    return (robot for robot in robots_of(context.tree) if robot.description.is_whole)
+
+
+def robots_in_part(context: Context) -> Iterator[Robot]:
+    """The same with those that lack packages: for what is there, not for what is not."""
     return (robot for robot in robots_of(context.tree) if robot.description.kind == "robot")
 
 

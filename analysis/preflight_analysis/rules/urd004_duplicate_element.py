@@ -9,12 +9,12 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.robot.sources import places_of
 from preflight_analysis.rules.further_reading import URDF
-from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.robots import robots_in_part, written
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for robot in robots(context):
+    for robot in robots_in_part(context):
         description = robot.description
         yield from _repeated(rule, context, robot, "link", description.links)
         yield from _repeated(rule, context, robot, "joint", [joint.name for joint in description.joints])

@@ -12,7 +12,7 @@ from preflight_analysis.rules.files import nearest_file
 from preflight_analysis.rules.further_reading import URDF_LINK
 from preflight_analysis.rules.installed import lack_of_made, near_package
 from preflight_analysis.rules.problems import rename, shown
-from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.robots import robots_in_part, written
 from preflight_analysis.rules.rule import Context, Rule
 
 _PACKAGE = "package://"
@@ -20,7 +20,7 @@ _FILE = "file://"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for robot in robots(context):
+    for robot in robots_in_part(context):
         said = set[str]()  # a folder that is missing is of many meshes
         for mesh in robot.description.meshes:
             found = _missing(context, mesh)

@@ -8,7 +8,8 @@ from itertools import chain, compress
 from operator import is_, is_not
 from typing import Any, Literal
 
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
+from preflight_analysis.evaluation.partial_text import is_whole
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.generation import Generation
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Before, Kept
@@ -84,7 +85,7 @@ def _launch_params(
 
 
 def _plain(params: Iterable[Param]) -> dict[str, Any]:
-    return {param.name: param.value for param in params if not isinstance(param.value, CommandValue)}
+    return {param.name: param.value for param in params if is_whole(param.value)}
 
 
 _NO_VALUES: Mapping[str, Any] = {}

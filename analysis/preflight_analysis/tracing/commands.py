@@ -168,7 +168,7 @@ class CommandRunner:
 
     def _known(self, job: _Job) -> CommandResult | None:
         output = self.cache.load(job.recipe, self._packages) if self.cache is not None else None
-        return CommandResult("done", output) if output is not None else None
+        return own_xacro.judged(CommandResult("done", output)) if output is not None else None
 
     @functools.cached_property
     def _packages(self) -> str:
@@ -270,9 +270,6 @@ class CommandRunner:
                     f"{done.result.reason} in the sandbox by {status.backend}, which refuses more than bubblewrap would"
                 )
                 return CommandResult("not-run", reason=why, stderr_tail=done.result.stderr_tail)
-            missing = own_xacro.missing_package(done.result.stderr_tail)
-            if missing is not None:
-                return CommandResult("not-run", reason=f"package '{missing}' is not installed here")
             return _sandbox_to_blame(done.result, job, done.ended) or done.result
         return self._kept(line, job, done)
 
@@ -295,7 +292,7 @@ class CommandRunner:
         if result.status == "done" and self.cache is not None and done.unchanged:
             files = (*job.named, *on_host(done.ended.files, job.visible))
             self.cache.store(job.recipe, self._packages, result.output, files, started=done.started)
-        return result
+        return own_xacro.judged(result)
 
 
 def alike(lines: Iterable[str], most: int) -> list[tuple[str, ...]]:

@@ -8,9 +8,10 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.partial_text import lacks_of, named
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import ros2_recipe
-from preflight_analysis.tracing.agents.own_xacro import MISSING
 from preflight_analysis.tracing.agents.variables import SHARES
 
 _START = (
@@ -26,6 +27,8 @@ def make(environment: Environment, args: Iterable[str], cwd: str) -> recipes.Rec
     return replace(recipe, env={**recipe.env, SHARES: json.dumps(shares)})
 
 
-def missing_package(stderr: Iterable[str]) -> str | None:
-    """The package that `$(find)` did not find."""
-    return next((line.removeprefix(MISSING) for line in stderr if line.startswith(MISSING)), None)
+def judged(result: CommandResult) -> CommandResult:
+    """The result of a run; that of one which lacks packages is known in part and does not count as done."""
+    if result.status != "done" or not (lacks := lacks_of(result.output)):
+        return result
+    return CommandResult("not-run", result.output, named(lacks))

@@ -23,11 +23,12 @@ from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults,
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.meanings import KnownMeanings
+from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
@@ -286,7 +287,7 @@ class Workspace:
             containers = Containers(analysis.tree, analysis.context.executables)
             return tuple(self._ros2_request(node, analysis.documents, containers) for node in analysis.tree.nodes)
         values = analysis.tree.params.values()
-        params = SharedParams({p.name: p.value for p in values if not isinstance(p.value, CommandValue)})
+        params = SharedParams({p.name: p.value for p in values if is_whole(p.value)})
         return tuple(_request(node, params) for node in analysis.tree.nodes)
 
     def _ros2_request(
@@ -294,7 +295,7 @@ class Workspace:
     ) -> TraceRequest | None:
         """How to run a node of ROS 2: one that is written in Python, a program, or a component."""
         path = node.resolved.path
-        params = {f"{node.name}/{p.name}": p.value for p in node.params if not isinstance(p.value, CommandValue)}
+        params = {f"{node.name}/{p.name}": p.value for p in node.params if is_whole(p.value)}
         if node.kind == "composable":
             return containers.request(node, params, documents)
         if path is None or node.unknowns or node.kind not in ("node", "lifecycle", "container"):

@@ -122,7 +122,7 @@ def _printed(state: State, scope: Scope, action: Action, line: str, param: str) 
         return result.output
     if result.status == "not-run":
         state.problem(CommandNotRun(result.reason), origin)
-        return CommandValue(line, result.reason)
+        return result.output or CommandValue(line, result.reason)
     missing = result.status == "missing"
     state.problem(CommandMissing(line) if missing else CommandFailed(result.reason, result.stderr_tail), origin)
     return _NoValue(f"its command failed: {result.reason}")

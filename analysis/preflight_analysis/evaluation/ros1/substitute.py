@@ -10,6 +10,7 @@ import os
 from collections.abc import Callable
 
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.environment.own_programs import own_program
 from preflight_analysis.evaluation import expression, values
 from preflight_analysis.evaluation.problems import (
     ArgumentNeeded,
@@ -225,7 +226,8 @@ def _finds(state: State, scope: Scope, value: Value, text: str, at: Span | None)
         except _Failure as failure:
             if failure.kind is not None:
                 state.problem(failure.kind, scope.origin(span))
-            known = False
+            own = own_program(text, piece, words[-1])
+            text, known = own or text, known and own is not None
             continue
         if not state.has_room(len(text) + len(share), scope.origin(span)):
             return Resolved(text, False)

@@ -14,6 +14,7 @@ from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.evaluation.files import without_dots
+from preflight_analysis.evaluation.partial_text import lacks_of, named
 from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFound, UnreadableParameterFile
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.context import PushedParam
@@ -26,6 +27,7 @@ from preflight_analysis.evaluation.ros2.param_files import (
     read_made_param_file,
     read_param_file,
 )
+from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid, loaded
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
@@ -95,7 +97,14 @@ def tag_params(performer: Performer, action: Action, node: str, prefix: str = ""
     if result is _UNKNOWN:
         return []
     name_location = place.location(name_value.span)
+    note_lacks(performer.state, prefix + name.text, result, name_location)
     return [Param(prefix + name.text, result, place.origin(action.head_span), node, name_location)]
+
+
+def note_lacks(state: State, name: str, value: object, location: Location) -> None:
+    """A robot description that is known in part leaves the launch unknown in part."""
+    if isinstance(value, str) and (lacks := lacks_of(value)):
+        state.note_unknown(name, named(lacks), location)
 
 
 _UNKNOWN = object()

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
+from preflight_analysis.evaluation.ros2.params import note_lacks
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.tree import Param
@@ -37,6 +38,7 @@ def named_params(performer: Performer, actions: Iterable[Action], node: str) -> 
         known, value = python_value(performer, action)
         if known and name.known:
             location = performer.place.location(name_value.span)
+            note_lacks(performer.state, name.text, value, location)
             found.append(Param(name.text, value, performer.place.origin(action.head_span), node, location))
     return found
 

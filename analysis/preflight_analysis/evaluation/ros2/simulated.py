@@ -83,7 +83,8 @@ def _spawn_of(publisher: LaunchNode, spawns: Sequence[LaunchNode]) -> LaunchNode
 def plugins_in(text: str) -> tuple[_Plugin, ...]:
     """The plugins that a robot description (URDF, SDF) has."""
     found = _elements(without_comments(text), "plugin")
-    return tuple(_plugin(content) for head, content in found if _PLUGIN.search(head))
+    named = (_plugin(content) for head, content in found if _PLUGIN.search(head))
+    return tuple(each for each in named if not any("${" in file for file in each.files))
 
 
 def _plugin(content: str) -> _Plugin:

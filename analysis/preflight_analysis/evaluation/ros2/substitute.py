@@ -249,7 +249,11 @@ class Performer:
                 raise _Failure(CommandFailed(result.reason, result.stderr_tail))
             raise _Failure(CommandMissing(line))
         if result is not None:
-            raise _Failure(CommandNotRun(result.reason))
+            problem = CommandNotRun(result.reason)
+            if not result.output:
+                raise _Failure(problem)
+            self.state.problem(problem, self.place.origin(part.span))
+            return result.output
         self.state.note_unknown(part.text, "the command was not run", self._at(part))
         raise _Failure
 

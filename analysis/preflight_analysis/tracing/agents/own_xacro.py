@@ -8,9 +8,8 @@ import os
 import sys
 import types
 
+from . import partial_xacro
 from .variables import SHARES
-
-MISSING = "not installed here: package "
 
 
 class PackageNotFoundError(KeyError):
@@ -21,11 +20,12 @@ def main() -> None:
     """The program, with its arguments in those of the process."""
     sys.argv[0] = "xacro"
     shares = json.loads(os.environ.get(SHARES, "{}"))
+    lacking = partial_xacro.Lacking()
 
     def get_package_share_directory(package_name: str) -> str:
         if package_name in shares:
             return str(shares[package_name])
-        sys.exit(MISSING + package_name)
+        return lacking.miss(package_name)
 
     for name in ("ament_index_python", "ament_index_python.packages"):
         module = types.ModuleType(name)
@@ -35,4 +35,7 @@ def main() -> None:
         module.__path__ = []
         sys.modules[name] = module
     importlib.import_module("xml.parsers.expat")  # xacro catches its error, and imports it only once it parses
-    importlib.import_module("xacro").main()
+    xacro = importlib.import_module("xacro")
+    if partial_xacro.can_install(xacro):
+        partial_xacro.install(xacro, lacking)
+    xacro.main()

@@ -19,6 +19,7 @@ import sys
 import xml.dom.minidom
 from typing import Any, Callable, Iterator
 
+from .. import partial_xacro
 from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, readable, unknown_text
 from ..missing_modules import provided_for
 from . import programs, written
@@ -118,6 +119,8 @@ def _guard(module: Any, names: Any) -> None:
             representer.add_representer(Anything, lambda to, value: to.represent_str(str(value)))
     elif module.__name__ == "subprocess":
         programs.install(module)
+    elif module.__name__ == "xacro" and partial_xacro.can_install(module):
+        partial_xacro.install(module, partial_xacro.Lacking())
     elif module.__name__ == "socket":
         for name in names:
             setattr(module, name, _answered(getattr(module, name)))
