@@ -8,7 +8,7 @@ is NAME/ACTION_NS (`ActionBasedControllerHandle::getActionName`).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from preflight_analysis.evaluation import names
@@ -18,6 +18,7 @@ MOVE_GROUP = ("moveit_ros_move_group", "move_group")
 _MANAGER = "moveit_controller_manager"
 _SIMPLE = "MoveItSimpleControllerManager"
 _SECTION = "moveit_simple_controller_manager"
+_LIST = "controller_list"
 _TYPES = {
     "FollowJointTrajectory": "control_msgs/FollowJointTrajectory",
     "GripperCommand": "control_msgs/GripperCommand",
@@ -59,15 +60,23 @@ def moveit_params(tree: LaunchTree, node: LaunchNode) -> Mapping[str, Param]:
     return {name.removeprefix(below): param for name, param in tree.params.items() if name.startswith(below)}
 
 
-def moveit_controllers(tree: LaunchTree, node: LaunchNode) -> tuple[MoveItController, ...]:
-    """The controllers that a node of MoveIt knows, as far as each has all that MoveIt asks for."""
+def controller_params(tree: LaunchTree, node: LaunchNode) -> tuple[Param, ...]:
+    """The parameters that say which controllers a node of MoveIt knows; none of other nodes."""
     if not is_move_group(node):
         return ()
-    params = moveit_params(tree, node)
-    manager = params.get(_MANAGER)
+    if tree.ros.own_parameters:
+        return tuple(p for p in node.params if p.name == _MANAGER or p.name.startswith(f"{_SECTION}."))
+    found = (tree.params.get(f"{node.name}/{name}") for name in (_MANAGER, _LIST))
+    return tuple(param for param in found if param is not None)
+
+
+def moveit_controllers(params: Iterable[Param], node: LaunchNode) -> tuple[MoveItController, ...]:
+    """The controllers that a node of MoveIt knows by these parameters, as far as each has all that MoveIt asks for."""
+    by_name = {param.name.removeprefix(f"{node.name}/"): param for param in params}
+    manager = by_name.get(_MANAGER)
     if manager is None or not isinstance(manager.value, str) or not manager.value.endswith(_SIMPLE):
         return ()
-    return tuple(_of_sections(params) if tree.ros.own_parameters else _of_list(params))
+    return tuple(_of_list(by_name) if _LIST in by_name else _of_sections(by_name))
 
 
 def full_action(node: LaunchNode, controller: MoveItController) -> str:
@@ -86,7 +95,7 @@ def _of_sections(params: Mapping[str, Param]) -> Iterator[MoveItController]:
 
 
 def _of_list(params: Mapping[str, Param]) -> Iterator[MoveItController]:
-    listed = params.get("controller_list")
+    listed = params.get(_LIST)
     for item in listed.value if listed is not None and isinstance(listed.value, list) else ():
         if listed is None or not isinstance(item, dict):
             continue

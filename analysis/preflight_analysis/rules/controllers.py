@@ -80,20 +80,25 @@ def controllers_of(context: Context) -> tuple[Controller, ...]:
 
 
 def robot_of(context: Context, controller: Controller) -> Description | None:
-    """The description that the manager of a controller gets, else the one that is published in its namespace. None
-    where that is not one, or one of the launch is not known."""
+    """The description that the manager of a controller gets."""
+    return robot_of_manager(context, controller.manager, controller.given_to)
+
+
+def robot_of_manager(context: Context, manager: str, given_to: str) -> Description | None:
+    """The description that a manager gets, whose node has the name `given_to` in the launch file; else the one that is
+    published in its namespace. None where that is not one, or one of the launch is not known."""
     robots = [robot for robot in robots_of(context.tree) if robot.description.is_whole]
-    found = [robot for robot in robots if any(node.name == controller.given_to for node in robot.nodes)]
+    found = [robot for robot in robots if any(node.name == given_to for node in robot.nodes)]
     if not found and not unread_of(context.tree):
-        space = names.parent(controller.manager)
+        space = names.parent(manager)
         found = [robot for robot in robots if any(node.namespace == space for node in robot.nodes)]
     return found[0].description if len(found) == 1 else None
 
 
-def managers_of(tree: LaunchTree) -> tuple[str, ...]:
-    """The full names of the controller managers of a launch."""
+def managers_of(tree: LaunchTree) -> Mapping[str, str]:
+    """The full names of the controller managers of a launch, each with the name of its node in the launch file."""
     nodes = tree.nodes_and_simulated
-    return tuple(_name(node) for node in nodes if (node.package, node.executable) == MANAGER)
+    return {_name(node): node.name for node in nodes if (node.package, node.executable) == MANAGER}
 
 
 def place_of(context: Context, param: Param, value: str) -> Location:

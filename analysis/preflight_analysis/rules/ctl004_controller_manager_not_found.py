@@ -33,7 +33,7 @@ _WITHOUT = frozenset(
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
     spawners = [node for node in tree.nodes if is_spawner(node)]
-    managers = managers_of(tree) if spawners else ()
+    managers = managers_of(tree) if spawners else {}
     if not managers or not tree.complete:
         return
     there = {*managers, *(node.name for node in tree.nodes_and_simulated)}
@@ -45,12 +45,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if asked is None or asked.manager in there or _may_have_manager(context, names.parent(asked.manager)):
             continue
         # The manager that is meant has the types of the controllers, unless the spawner brings them.
-        meant = any(types.get(manager, set()).issuperset(asked.controllers) for manager in set(managers))
+        meant = any(types.get(manager, set()).issuperset(asked.controllers) for manager in managers)
         if asked.plain and not meant:
             continue
         yield rule.finding(
             f"controller manager '{asked.manager}' is not in this launch: {node.name} waits for it; the launch has "
-            f"{quoted(sorted(set(managers)))}",
+            f"{quoted(sorted(managers))}",
             attribute_location(context, node, "args"),
             confidence="likely",
             related=include_chain(node.origin),

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import items_of
-from preflight_analysis.evaluation.moveit import MoveItController, full_action, moveit_controllers
+from preflight_analysis.evaluation.moveit import MoveItController, controller_params, full_action, moveit_controllers
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.rules.controllers import controllers_of
@@ -66,7 +66,9 @@ class Unserved(NamedTuple):
 
 def known_to_moveit(context: Context) -> tuple[Known, ...]:
     """The controllers of all nodes of MoveIt; ask through `context.once`."""
-    found = [(node, each) for node in context.tree.nodes for each in moveit_controllers(context.tree, node)]
+    tree = context.tree
+    given = ((node, controller_params(tree, node)) for node in tree.nodes)
+    found = [(node, each) for node, params in given for each in moveit_controllers(params, node)]
     loaded = {each.name: each for each in context.once(loaded_controllers)} if found else {}
     return tuple(
         Known(node, each, full_action(node, each), loaded.get(names.resolve(each.name, node.name)))

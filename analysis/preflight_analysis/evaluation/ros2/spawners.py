@@ -30,6 +30,7 @@ SPAWN = frozenset(
 )
 """What puts a robot description into a simulator: package and executable."""
 _SPAWNERS = ("spawner", "spawner.py")
+_HARDWARE_SPAWNERS = ("hardware_spawner", "hardware_spawner.py")
 _MANAGER = ("-c", "--controller-manager")
 _FILE = ("-p", "--param-file")
 _TYPE = ("-t", "--controller-type")
@@ -62,8 +63,14 @@ def is_spawner(node: LaunchNode) -> bool:
     return node.package == PACKAGE and node.executable in _SPAWNERS
 
 
+def is_hardware_spawner(node: LaunchNode) -> bool:
+    """Whether it is the helper script that configures and activates hardware components."""
+    return node.package == PACKAGE and node.executable in _HARDWARE_SPAWNERS
+
+
 def asked_of(spawner: LaunchNode) -> Asked | None:
-    """What the arguments of a spawner say; None where they are not all known."""
+    """What the arguments of a spawner say; None where they are not all known. That of hardware names components in the
+    place of controllers."""
     if spawner.unknowns or "$(" in spawner.args:
         return None
     manager, type_, plain, caller = PACKAGE, None, True, spawner.name
