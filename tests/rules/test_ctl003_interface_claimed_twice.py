@@ -1,7 +1,7 @@
 """CTL003: two controllers that claim one interface."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 from support.controlled_robot import launch, spawner
 
 _PARAMS = """
@@ -40,3 +40,10 @@ def test_two_spawners_of_one_controller() -> None:
 @pytest.mark.silent
 def test_other_joints() -> None:
     check(launch(spawner("base wheels"), params=_PARAMS.replace("right_wheel_names: [right_wheel]", "")))
+
+
+def test_a_launch_that_is_not_known_in_full_is_information() -> None:
+    unknown = '<node pkg="p" exec="n" name="n"><param name="x" value="$(command \'date\')"/></node>'
+    spawners = (spawner("base", "a"), spawner("wheels", "b"))
+    found = findings_of(launch(*spawners, unknown, params=_PARAMS))
+    assert [each.severity for each in found if each.rule == "CTL003"] == ["info"]

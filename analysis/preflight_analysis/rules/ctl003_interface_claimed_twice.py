@@ -15,6 +15,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     owners: dict[tuple[str, str], Controller] = {}
+    # One of the spawners may be left out by a condition that is not known.
+    tree = context.tree
+    undecided = any(each.decides for each in tree.unknowns) or not (tree.complete or tree.file.endswith(".py"))
     for each in context.once(controllers_of):
         spawner = each.spawner
         if spawner is None or not each.is_active:
@@ -27,7 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"command interface '{name}' is claimed by '{owner.name}' and by '{each.name}': only one of them can "
                 "be active",
                 spawner.location,
-                severity=each.severity if context.tree.complete else "info",
+                severity="info" if undecided else each.severity,
                 confidence=each.confidence,
                 related=(
                     Related(f"'{each.name}' has the joint here", claim.param.place),
@@ -49,7 +52,7 @@ RULE = Rule(
     severity="warning",
     what="Checks for two controllers that spawners of the launch activate in one controller manager and that claim the "
     "same command interface of a joint. A controller that is spawned with `--inactive` claims nothing, and there is no "
-    "finding where the launch also starts an unspawner. If the launch is not known completely, it is information.",
+    "finding where the launch also starts an unspawner. If a condition of the launch is not known, it is information.",
     why="The controller manager activates the first controller and refuses the second one. Which one is first depends "
     "on the order in which the spawners reach it.",
     example='<node pkg="controller_manager" exec="spawner" args="position_controller"/>\n'
