@@ -129,6 +129,15 @@ def test_a_launch_file_that_refuses_an_empty_argument(tmp_path: Path, helper: st
     assert finding.message.endswith("argument 'map_file' is empty") == (severity == "info")
 
 
+@pytest.mark.parametrize(("path", "severity"), [("/.dockerenv", "info"), ("arm.yaml", "error")])
+def test_a_launch_file_that_refuses_the_machine(tmp_path: Path, path: str, severity: str) -> None:
+    helper = f"def made(n): os.path.exists('{path}') or stop()\nraise RuntimeError('no')\n"
+    analysis = _launched(tmp_path, _error(tmp_path, "RuntimeError", "no"), helper=helper)
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.severity == severity
+    assert finding.message.endswith("the file asks for the machine that it runs on") == (severity == "info")
+
+
 def test_a_file_of_somebodys_home_that_a_package_has(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
     (tmp_path / "maps").mkdir()

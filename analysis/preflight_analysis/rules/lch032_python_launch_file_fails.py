@@ -20,6 +20,11 @@ from preflight_analysis.rules.rule import Context, Rule
 
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
 _RAISE = re.compile(r"\s*raise\b")
+_OF_MACHINE = re.compile(
+    r"""['"]/(?:\.dockerenv|dev|etc|proc|run|sys)\b|\bos\.environ\b|\bgetenv\(|\bwhich\(|\bplatform\.|\bgethostname\("""
+)
+_BEFORE = 4
+"""Lines before a `raise` that say what it is raised for."""
 _WORD = re.compile(r"\w+")
 _LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
 """The modules of which all names are known."""
@@ -57,6 +62,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     severity, message = "info", f"{message}; this machine has no '{absent}'"
                 elif (name := _empty_argument(context, frames, said)) is not None:
                     severity, message = "info", f"{message}; argument '{name}' is empty"
+                elif _refuses_the_machine(context, frames):
+                    severity, message = "info", f"{message}; the file asks for the machine that it runs on"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
@@ -77,6 +84,16 @@ def _empty_argument(context: Context, frames: tuple[Location, ...], said: str) -
         return None
     words = set(_WORD.findall(said))
     return next((name for name, arg in context.tree.args.items() if arg.value == "" and name in words), None)
+
+
+def _refuses_the_machine(context: Context, frames: tuple[Location, ...]) -> bool:
+    """Whether the program itself raises where it has asked for the machine right before: a container, a device, a
+    variable, a program."""
+    document = context.disk.text(frames[-1].file) if frames else None
+    if not isinstance(document, Document) or _RAISE.match(document.text, frames[-1].span.start) is None:
+        return False
+    lines = document.text[: frames[-1].span.start].splitlines()
+    return any(_OF_MACHINE.search(line) for line in lines[-_BEFORE:])
 
 
 def _near_file(context: Context, error: str, said: str) -> str | None:
@@ -127,7 +144,7 @@ RULE = Rule(
     "`generate_launch_description`, in an `OpaqueFunction`, or in an action with invalid arguments. Such files run "
     "in the sandbox if the workspace is trusted. Nothing that they describe is started. The finding is "
     "information if the file itself raises because a program, or a file outside of the workspace, is missing, or "
-    "because an argument is empty that its message names.",
+    "because an argument is empty that its message names. So is one that asks for the machine (a container, a device).",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',
