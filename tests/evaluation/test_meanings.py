@@ -91,9 +91,19 @@ def test_a_default_may_be_that_of_another_parameter() -> None:
     assert meant(asked, odom="o") == [("odom", "o", None, True), ("world", "o", None, False)]
 
 
-@pytest.mark.parametrize(("distro", "used"), [("rolling", True), ("dashing", False), (None, False)])
-def test_whether_it_is_of_the_version_that_is_used(distro: str | None, used: bool) -> None:
-    found = KnownMeanings((), distro, 2).of("robot_localization", "executables", "ekf_node")
+@pytest.mark.parametrize(
+    ("package", "name", "distro", "used"),
+    [
+        ("robot_localization", "ekf_node", "rolling", True),
+        # What several distributions have alike one that is not known has, too.
+        ("robot_localization", "ekf_node", "dashing", True),
+        ("robot_localization", "ekf_node", None, True),
+        ("nav2_behaviors", "behavior_server", "jazzy", True),
+        ("nav2_behaviors", "behavior_server", "rolling", False),
+    ],
+)
+def test_whether_it_is_of_the_version_that_is_used(package: str, name: str, distro: str | None, used: bool) -> None:
+    found = KnownMeanings((), distro, 2).of(package, "executables", name)
     assert found is not None
     assert found.is_used is used
 
