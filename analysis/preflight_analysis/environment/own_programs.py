@@ -10,9 +10,10 @@ OWN_PROGRAMS = frozenset({"xacro"})
 
 def own_program(text: str, find: str, package: str) -> str | None:
     """A command line that begins with `$(find package)/program`, of a package that is not here, as it calls our own
-    program: xacro has the name of its package, before Noetic with `.py`. None for anything else."""
+    program, which has the name of its package. None for anything else: `xacro.py` of before Noetic reads files that the
+    xacro of today refuses."""
     if package not in OWN_PROGRAMS:
         return None
-    program = re.compile(rf"\s*{re.escape(find)}/{package}(?:\.py)?(?=[\s'\"]|$)")
+    program = re.compile(rf"\s*{re.escape(find)}/{package}(?=[\s'\"]|$)")
     found, count = program.subn(package, text, count=1) if program.match(text) else (text, 0)
     return found if count else None
