@@ -202,6 +202,10 @@ BRIDGES = b"""- {ros_topic_name: odom, gz_topic_name: /odom, ros_type_name: nav_
 - {topic_name: cmd_vel, ros_type_name: geometry_msgs/msg/Twist, gz_type_name: gz.msgs.Twist, direction: ROS_TO_GZ}
 - {gz_topic_name: both, ros_type_name: std_msgs/msg/String}
 """
+ROBOT_IN_PART = b"""<!-- incomplete for ros-preflight without a, b -->
+<robot name="r"><link name="base"/><link name="${unknown}_l"/>
+<joint name="j" type="fixed"><parent link="${unknown}"/><child link="base"/></joint>
+<gazebo><plugin name="p" filename="f"><ros><namespace>${unknown}</namespace></ros></plugin></gazebo></robot>"""
 ROBOT = b"""<robot><gazebo><plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">
 <parameters>/a/b.yaml</parameters><controller_manager_name>cm</controller_manager_name><!-- <plugin> -->
 <ros><namespace>left</namespace><remapping>/tf:=tf</remapping></ros></plugin></gazebo></robot>

@@ -469,7 +469,9 @@ def robot_description(data: bytes) -> None:
     text = text_of(data)
     for plugin in plugins_in(text):
         assert plugin.namespace.startswith("/")
-    assert set(parse_description(text).roots) <= set(parse_description(text).links)
+    description = parse_description(text)
+    assert set(description.roots) <= set(description.links)
+    assert not description.lacks or not any("${" in link for link in description.links)
     found = source_file(disk_with({"/w/robot.urdf": text}).db, "/w/robot.urdf")
     for written in found.written if found is not None else ():
         assert 0 <= written.span.start <= written.span.end <= len(text)
@@ -723,7 +725,7 @@ TARGETS = (
     ),
     Target("gazebo-bridges", gazebo_bridges, lambda: [seeds.BRIDGES], seeds.YAML),
     Target("semantic-description", semantic_description, lambda: [seeds.SRDF], seeds.XML),
-    Target("robot-description", robot_description, lambda: [seeds.ROBOT], seeds.XML),
+    Target("robot-description", robot_description, lambda: [seeds.ROBOT, seeds.ROBOT_IN_PART], seeds.XML),
     Target("settings", settings, lambda: [seeds.SETTINGS], seeds.YAML),
     Target("cache-entries", cache_entries, _entries, seeds.JSON),
     Target("kept-index", kept_index, _written_index, seeds.JSON),
