@@ -83,3 +83,16 @@ def test_a_file_of_something_else(tmp_path: Path) -> None:
         tmp_path, config="rate: 30\ngains: [1, 2.5]\n", params="camera: {ros__parameters: {rate: 1}}\n"
     )
     assert not _of_files(tmp_path / "more", config=BAD + "    path: $(find-pkg-share p)\n")
+
+
+@pytest.mark.parametrize(
+    ("program", "silent"),
+    [
+        ("yaml.safe_load(open(SHARE + '/config/camera.yaml'))", True),
+        ("YAML = SHARE + '/config/camera.yaml'", False),
+        ("yaml.safe_load(open(SHARE + '/config/lidar.yaml'))", False),
+    ],
+)
+def test_a_file_that_a_program_reads_itself(tmp_path: Path, program: str, silent: bool) -> None:
+    PythonHarness(tmp_path).write("p/run.py", program)
+    assert (not _of_files(tmp_path, config=BAD)) == silent

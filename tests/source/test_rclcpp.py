@@ -515,6 +515,16 @@ def test_nothing_is_undeclared_where_not_all_is_known(harness: Harness, body: st
     assert not [f for f in harness.start(NODE.format(inner='<param name="zzz" value="7"/>'))[1] if f.rule == "PRM013"]
 
 
+def test_the_type_of_a_declaration_decides_over_its_default(harness: Harness) -> None:
+    body = """
+        node->declare_parameter<bool>("avoid", 0);
+        node->declare_parameter<int>("count", true);
+        """
+    found = params(harness.main(body))
+    assert found == {"~avoid": False, "~count": 1}
+    assert [type(value) for value in found.values()] == [bool, int]
+
+
 def test_a_parameter_that_is_not_declared(harness: Harness) -> None:
     inner = '<param name="max_presure" value="4.5"/>'
     found = harness.main('node->declare_parameter("max_pressure", 1.0);', inner)

@@ -4,6 +4,7 @@ rewrites them, an argument names them, the launch file could not be followed."""
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import PurePath
 
@@ -27,6 +28,9 @@ _FOLDERS = frozenset({"config", "configs", "param", "params", "parameters", "cfg
 _NOT_OURS = frozenset({"test", "tests", "build", "install", "log"})
 _ABOVE = 3
 """Folders above a package that may be those of its repository."""
+_LOADS = re.compile(r"\byaml\.(?:\w+_)?load\b|\bYAML::Load")
+_YAML_FILE = re.compile(r"[\w.-]+\.ya?ml\b")
+_PROGRAMS = (".py", ".cpp", ".cc", ".hpp", ".h")
 _MOST = 200
 """Files of one package that are read."""
 _LONGEST = 200_000
@@ -47,6 +51,10 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         if path in given or not isinstance(document, Document):
             continue
         file = read_param_file(document)
+        if (file.unmarked or file.refused) and os.path.basename(path) in _read_by_programs(
+            context.disk.db, package.share
+        ):
+            continue  # they look for its keys, and rcl does not get it
         # Only what has a section of a node is one for certain.
         for name, span in file.unmarked[:1] if file.sections else ():
             message = prm012.MESSAGE.format(name, MARK)
@@ -87,6 +95,17 @@ def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:
         found = [os.path.join(above, name) for name in context.disk.names(above) if name in _FOLDERS]
         yield from ((path, above) for path in found if not context.disk.is_link(path))
         above = os.path.dirname(above)
+
+
+@query
+def _read_by_programs(db: Database, folder: str) -> frozenset[str]:
+    """The YAML files that programs of a package name which read YAML themselves."""
+    disk, found = Disk(db), set[str]()
+    for path in files_in(disk, folder, deep=True):
+        document = disk.text(path) if path.endswith(_PROGRAMS) else None
+        if isinstance(document, Document) and _LOADS.search(document.text):
+            found.update(_YAML_FILE.findall(document.text))
+    return frozenset(found)
 
 
 @query

@@ -22,9 +22,11 @@ def truth(value: Any) -> bool | None:
 
 def converted(value: Any, type_: CppType | None) -> Any:
     """A number as a variable of that type holds it."""
-    if type_ is None or isinstance(value, bool) or not isinstance(value, (int, float)):
+    if type_ is None or not isinstance(value, (int, float)):
         return value
     name = type_.name.removeprefix("std::")
+    if isinstance(value, bool) or name == "bool":
+        return value != 0 if name == "bool" else int(value) if name in _WHOLE else value
     if name in ("double", "float"):
         return float(value)
     return int(value) if isinstance(value, float) and name in _WHOLE and abs(value) < _LARGEST else value
