@@ -189,3 +189,36 @@ def test_one_number_in_two_forms() -> None:
           <param name="rate" value="1"/>
         </launch>
     """)
+
+
+def test_an_argument_before_a_file_that_sets_its_default() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <arg name="sim" default="false"/>
+          <node pkg="p" exec="a" name="a">
+            <param name="use_sim_time" value="$(var sim)"/>
+                         ^^^^^^^^^^^^ warning[PRM006] is set again by a later parameter file; argument 'sim' does not
+            <param from="/a.yaml"/>
+          </node>
+          <node pkg="p" exec="b" name="b">
+            <param from="/a.yaml"/>
+            <param name="use_sim_time" value="$(var sim)"/>
+          </node>
+          <node pkg="p" exec="c" name="c">
+            <param name="use_sim_time" value="false"/>
+            <param from="/a.yaml"/>
+          </node>
+          <node pkg="p" exec="d" name="d">
+            <param name="use_sim_time" value="$(var sim)"/>
+            <param from="/d.yaml" allow_substs="true"/>
+          </node>
+        </launch>
+        //- /a.yaml
+        /**:
+          ros__parameters: {use_sim_time: false}
+        //- /d.yaml
+        /**:
+          ros__parameters:
+            use_sim_time: $(var sim)
+    """)

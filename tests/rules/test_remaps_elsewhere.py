@@ -96,3 +96,84 @@ def test_files_of_blanks_take_no_time(tmp_path: Path) -> None:
     started = time.process_time()
     check(_fixture(tmp_path, said, "subscribers", "sensor_msgs/LaserScan", "/base_scann", ["/base_scan"]))
     assert time.process_time() - started < 10
+
+
+@pytest.mark.parametrize(
+    ("rule", "role", "name", "meant"),
+    [
+        ("TOP001", "subscribers", "/zednode/info", "/zed/node/info"),
+        ("TOP002", "publishers", "/zed/nodergb/info", "/zed/node/rgb/info"),
+        ("SRV001", "clients", "/zed/nodergb", "/zed/node/rgb"),
+    ],
+)
+def test_a_slash_that_another_remap_of_the_node_has(rule: str, role: str, name: str, meant: str) -> None:
+    check(
+        f"""
+        <launch>
+          <node pkg="p" type="t" name="listener">
+            <remap from="image" to="/zed/node/rgb/image"/>
+            <remap from="in" to="{name}"/>
+                                 {"^" * len(name)} \
+warning[{rule}] did you mean '{meant}', as in '/zed/node/rgb/image' of the same node?
+          </node>
+        </launch>
+        //- interfaces
+        {{"/listener": {{"{role}": {{"in": "a/B"}}, "services": {{"image": "a/C"}}}}}}
+        """
+    )
+
+
+@pytest.mark.parametrize("name", ["/zed/nodes/info", "/other/nodergb/info", "/zed/noder/info", "/zed/node/rgb/info"])
+def test_no_other_remap_says_that_a_slash_is_missing(name: str) -> None:
+    for finding in check(
+        f"""
+        //- interfaces
+        {{"/listener": {{"subscribers": {{"in": "a/B"}}, "services": {{"image": "a/C"}}}}}}
+        //- main.launch
+        <launch>
+          <node pkg="p" type="t" name="listener">
+            <remap from="image" to="/zed/node/rgb/image"/>
+            <remap from="in" to="{name}"/>
+                                 {"^" * len(name)} hint[TOP001]
+          </node>
+        </launch>
+        """
+    ):
+        assert "did you mean" not in finding.message
+
+
+def _published(name: str, said: str, beside: str = "/teleop", type_: str = "a/B") -> str:
+    return f"""
+        <launch>
+          <node pkg="p" type="t" name="joy">
+            <remap from="one" to="{beside}"/>
+            <remap from="two" to="{name}"/>
+                                  {"^" * len(name)} {said}
+          </node>
+          <node pkg="p" type="t" name="mux"/>
+        </launch>
+        //- interfaces
+        {{
+          "/joy": {{"publishers": {{"one": "a/B", "two": "{type_}"}}}},
+          "/mux": {{"subscribers": {{"{beside}": "a/B"}}}}
+        }}
+        """
+
+
+def test_a_slip_of_what_the_same_node_publishes_too() -> None:
+    check(_published("/teleo", "warning[TOP002] did you mean '/teleop', which the same node publishes?"))
+
+
+@pytest.mark.parametrize(
+    ("name", "beside", "type_"),
+    [
+        ("/teleo", "/teleop", "a/C"),
+        ("/scan_2", "/scan_1", "a/B"),
+        ("/left/cmd", "/right/cmd", "a/B"),
+        ("/teleoperate", "/teleop", "a/B"),
+        ("/joint_x", "/joint_y", "a/B"),
+    ],
+)
+def test_no_slip_of_what_the_same_node_publishes(name: str, beside: str, type_: str) -> None:
+    (finding,) = check(_published(name, "hint[TOP002]", beside, type_))
+    assert "did you mean" not in finding.message

@@ -7,11 +7,16 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.xml_text import quoted_attribute
+from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import insert_child, remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
 from preflight_analysis.rules.rule import Context
+
+_FAR = 40
+"""Characters between the name of a parameter and its value."""
+_ENDS = frozenset(",<>{}")
 
 
 @memoize_by_file
@@ -85,3 +90,14 @@ def empty_arguments(context: Context, place: Location) -> list[str]:
     written = context.text(place)
     empty = (name for name, arg in context.tree.args.items() if arg.value == "")
     return [name for name in empty if re.search(rf"\$\((?:arg|var) {re.escape(name)}[ )]", written)]
+
+
+def gives(context: Context, use: Use, place: Location) -> bool:
+    """Whether a use of an argument is the value of the parameter whose name is at the place."""
+    if use.kind != "arg" or not use.origin or use.location.file != place.file or use.value is None:
+        return False
+    near = place.span.start <= use.location.span.start < place.span.end + _FAR
+    if not near or (document := context.documents.get(place.file)) is None:
+        return False
+    # Behind a comma or the end of a tag is something else.
+    return not _ENDS.intersection(document.text[place.span.end : use.location.span.start])

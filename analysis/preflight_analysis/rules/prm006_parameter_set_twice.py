@@ -11,6 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import YamlKeyTwice
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
 from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.rules.arguments import gives
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS, ROSLAUNCH_PARAM, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
@@ -108,6 +109,32 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 severity="info" if lost.of_launch_file and not _is_inside(lost.place, node) else None,
                 related=(Related("the value that applies", counts.place), *include_chain(old.origin)),
             )
+    yield from _dead_arguments(rule, context, reported)
+
+
+def _dead_arguments(rule: Rule, context: Context, reported: set[tuple[Location, Location]]) -> Iterator[Finding]:
+    """What an argument gives and a later file sets again, to the value that the argument has by default: the argument
+    cannot change it."""
+    nodes = context.tree.nodes
+    each_lost = context.kept.each(_same_values, nodes)
+    for node, same_values in compress(zip(nodes, each_lost, strict=True), each_lost):
+        by_place = _settings(node, {param.name for param, _ in same_values})
+        for param, old in same_values:
+            counts, lost = by_place[_place(param)], by_place[_place(old)]
+            at = lost.place, counts.place
+            plain = counts.place.file == counts.path and not counts.source.substituted
+            if at in reported or counts.index < lost.index or not plain or not lost.of_launch_file:
+                continue
+            reported.add(at)
+            use = next((use for use in context.tree.uses if gives(context, use, lost.place)), None)
+            if use is None or not _is_inside(lost.place, node):
+                continue
+            yield rule.finding(
+                f"overridden: parameter '{param.name}' of {node.name} is set again by a later parameter file; argument "
+                f"'{use.name}' does not change it",
+                lost.place,
+                related=(Related("the value that applies", counts.place), *include_chain(old.origin)),
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +161,11 @@ class _Ros2Setting:
 def _lost_values(node: LaunchNode) -> tuple[tuple[Param, Param], ...]:
     """The node's parameters, each with one of the settings of other values that it replaced."""
     return tuple((param, old) for param in node.params for old in param.overrides if _differ(old, param))
+
+
+def _same_values(node: LaunchNode) -> tuple[tuple[Param, Param], ...]:
+    """The node's parameters, each with an equal setting that it replaced."""
+    return tuple((param, old) for param in node.params for old in param.overrides if not _differ(old, param))
 
 
 def _settings(node: LaunchNode, wanted: set[str]) -> dict[tuple[str, Location], _Ros2Setting]:
@@ -268,7 +300,7 @@ RULE = Rule(
     "reported too. A parameter file that is overridden on purpose is not reported, nor are included files and tags "
     "under a condition. In ROS 2 a `<param>`, or a dictionary in `parameters=[...]`, comes before another one or a "
     "file that sets the same parameter. A value for the node's own name that a later wildcard in the file overrides "
-    "is reported too.",
+    "is reported too, and so is the value of an argument before a file that has the argument's default.",
     why="A change of the overridden value has no effect. The last of several settings applies, and no launcher "
     "reports the others. In a `<node>` of ROS 1 each `<param>` comes after each `<rosparam>`. A `<param "
     'name="~...">` around the node comes after those too. In ROS 2 the client library first collects all files by '

@@ -7,15 +7,13 @@ from preflight_analysis.evaluation.ros2.bridges import is_bridge
 from preflight_analysis.evaluation.ros2.spawners import SPAWN, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.arguments import gives
 from preflight_analysis.rules.further_reading import CLOCK_AND_TIME, PARAMETERS
 from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
-_FAR = 40
-"""Characters between the name of a parameter and its value."""
-_ENDS = frozenset(",<>{}")
 _MOST_STEPS = 10
 _TIMELESS = ("static_transform_publisher",)
 """What it sends holds at any time."""
@@ -74,14 +72,8 @@ def _given(context: Context, place: Location) -> Location:
 
 
 def _gives(context: Context, use: Use, place: Location) -> bool:
-    """Whether a use of an argument is the value at the place, or of the name that is there."""
-    if use.kind != "arg" or not use.origin or use.location.file != place.file or use.value is None:
-        return False
-    near = place.span.start <= use.location.span.start < place.span.end + _FAR
-    if not near or use.value.lower() != "true" or (document := context.documents.get(place.file)) is None:
-        return False
-    # Behind a comma or the end of a tag is something else.
-    return not _ENDS.intersection(document.text[place.span.end : use.location.span.start])
+    """Whether a use of an argument is the true value at the place, or of the name that is there."""
+    return use.value is not None and use.value.lower() == "true" and gives(context, use, place)
 
 
 def _sim_time(node: LaunchNode) -> Param | None:

@@ -15,6 +15,7 @@ from preflight_analysis.rules.nearest import is_slip_of_words, likeness
 from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.siblings import slips_beside, without_slash
 from preflight_analysis.rules.written_elsewhere import around
 
 _TARGETS = (
@@ -49,6 +50,8 @@ class Elsewhere:
     files: int
     in_source: bool = False
     """Whether it is the sources of nodes that have the name, and not launch files."""
+    beside: str | None = None
+    """The name that the same node has in this launch and that says so, where no other file does."""
 
 
 def in_use_around(context: Context, connections: Sequence[Connection]) -> list[bool]:
@@ -80,11 +83,20 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
         for each in slips
         if (meant := meant_in_sources(context, each)) is not None
     }
-    lone = [each for each in (*consumers, *context.once(dangling_topic_providers)) if each.remap is not None]
-    if not lone:
-        return by_source
-    found = zip(lone, context.kept.each(_used, lone, around(context, _TARGETS)), strict=True)
-    return {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None} | by_source
+    publishers = context.once(dangling_topic_providers)
+    lone = [each for each in (*consumers, *publishers) if each.remap is not None]
+    found = zip(lone, context.kept.each(_used, lone, around(context, _TARGETS)), strict=True) if lone else ()
+    by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
+    return {**by_launches, **by_source, **_beside(context, lone, publishers)}
+
+
+def _beside(context: Context, lone: Sequence[Connection], publishers: Sequence[Connection]) -> Mapping[int, Elsewhere]:
+    """Likewise by what the same node is given beside."""
+    topics = context.graph.topics if context.graph is not None else {}
+    slips = {found: Elsewhere(name, 0, beside=name) for found, name in slips_beside(publishers, topics).items()}
+    slashes = zip(lone, context.kept.each(without_slash, lone), strict=True)
+    lacking = {id(each): Elsewhere(found[0], 0, beside=found[1]) for each, found in slashes if found is not None}
+    return {**slips, **lacking}
 
 
 def _used(connection: Connection, known: Mapping[str, int]) -> Elsewhere | None:
@@ -105,6 +117,17 @@ def _used(connection: Connection, known: Mapping[str, int]) -> Elsewhere | None:
 def elsewhere_finding(rule: Rule, context: Context, connection: Connection, message: str, found: Elsewhere) -> Finding:
     """The finding for an end whose other one is most likely started by another launch, under another name."""
     location = connection_location(connection)
+    if found.beside is not None:
+        other = found.beside != found.name
+        evidence = f"as in '{found.beside}' of the same node" if other else "which the same node publishes"
+        return rule.finding(
+            f"{message}; did you mean '{found.name}', {evidence}?",
+            location,
+            severity="warning",
+            confidence="likely",
+            related=include_chain(connection.node.origin),
+            endpoints=endpoints_of(connection),
+        )
     if found.in_source:
         files = f"{found.files} source files use" if found.files > 1 else "a source file uses"
         return rule.finding(

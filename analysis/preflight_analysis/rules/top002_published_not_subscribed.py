@@ -54,7 +54,9 @@ RULE = Rule(
     name="published-not-subscribed",
     severity="hint",
     what="Checks for published topics without a subscriber in the launch, per node. The finding is a hint. It is "
-    "information if the remap of a topic is a typo of one in several launch files nearby.",
+    "information if the remap of a topic is a typo of one in several launch files nearby. It is a warning if the "
+    "name is a typo of one under which the same node publishes. The same applies if a slash is missing that "
+    "another remap of the node has.",
     why="Most of these topics are fine. If a robot does not move, check them first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',
