@@ -113,3 +113,26 @@ def test_a_name_that_is_not_allowed_while_its_argument_is_empty() -> None:
                                        ^^^^^^^^^^^^^^^^^ info[LCH009] set argument 'robot'
         </launch>
     """)
+
+
+def test_blanks_around_the_name_of_an_argument() -> None:
+    found = check("""
+        //- /a.launch.xml
+        <launch>
+          <include file="/b.launch.xml">
+            <arg name="objects " value="ml"/>
+                       ^^^^^^^^ warning[LCH009] blanks around the argument name 'objects': launch takes them as a part
+            <arg name="points" value="ml"/>
+          </include>
+          <node pkg="p" exec="a" name="a"/>
+        </launch>
+        //- /b.launch.xml
+        <launch>
+          <arg name="objects" default="all"/>
+          <arg name="points"/>
+          <node pkg="p" exec="a" name="$(var objects)_$(var points)"/>
+        </launch>
+    """)
+    assert [fix.title for each in found if each.rule == "LCH009" for fix in each.fixes] == [
+        "Replace 'objects ' with 'objects'"
+    ]

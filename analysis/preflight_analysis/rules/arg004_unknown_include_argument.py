@@ -18,6 +18,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     unknown_of = Counter((problem.origin[:-1], problem.kind.file) for problem in problems)
     for problem in problems:
         name, file = problem.kind.name, shown(problem.kind.file, context)
+        if name != name.strip() and not problem.fatal:
+            continue  # LCH009 names the blanks
         near = nearest(name, problem.kind.declared)
         fixes = (
             *(rename(context, problem.location, name, near) if near else ()),

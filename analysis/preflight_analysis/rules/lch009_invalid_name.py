@@ -9,6 +9,8 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import InvalidName, Problem
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.findings.insertion import insert_attribute
+from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.problems import as_written, problem_finding, problems_of, quoted
@@ -29,6 +31,27 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if empty := empty_arguments(context, problem.location):
             severity, message = "info", f"{message}; set argument {quoted(empty)}"
         yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
+    # In ROS 1 roslaunch stops at such an argument.
+    for path, launch_file in context.launch_files.items() if context.tree.ros.shared_configurations else ():
+        for value in _with_blanks(launch_file):
+            place, name = context.location(path, value.span), value.text.strip()
+            yield rule.finding(
+                f"blanks around the argument name '{name}': launch takes them as a part of it, so '{name}' is not set",
+                place,
+                severity="warning",
+                fixes=(Fix(f"Replace '{value.text}' with '{name}'", (Edit(place, name),), True),),
+            )
+
+
+@memoize_by_file
+def _with_blanks(launch_file: LaunchFile) -> tuple[Value, ...]:
+    return tuple(launch_file.root.gather(_named_with_blanks)) if launch_file.root is not None else ()
+
+
+def _named_with_blanks(action: Action) -> tuple[Value, ...]:
+    name = action.value("name") if action.kind in ("arg", "let") else None
+    blanks = name is not None and name.is_literal and name.text.strip() not in ("", name.text)
+    return (name,) if name is not None and blanks else ()
 
 
 def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Iterator[Fix]:
@@ -61,7 +84,8 @@ RULE = Rule(
     name="invalid-name",
     severity="error",
     what="Checks for the name of a node, argument, remap or parameter that ROS does not allow. If "
-    "the name has an argument in it that is empty, the finding is information.",
+    "the name has an argument in it that is empty, the finding is information. In ROS 2, blanks around the name of an "
+    "argument are a warning.",
     why="`roslaunch` stops. For other characters in a node's name it only warns, but other tools fail. Names start "
     "with a letter, or with `/` or `~` for a graph resource. They continue with letters, digits, `_` and `/`. The "
     "name of a node has no `/`: its namespace is the attribute `ns`.",

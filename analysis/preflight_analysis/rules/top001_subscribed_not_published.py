@@ -110,9 +110,9 @@ RULE = Rule(
     "namespace. It names both and is at the remap that set the name, if there is one. It is information if several "
     "launch files nearby write the topic, if a plugin of a simulator has it, or if a display of RViz has another "
     "number in its topic. It is information too if the remap is a typo of one in several launch files. It is a warning "
-    "if the topic is a typo of one that sources of the workspace use with the same type. The same applies if a slash is "
-    "missing (`/zed/nodergb/info`) that another remap of the node has (`/zed/node/rgb/image`). Otherwise it is a hint, "
-    "because another launch may start the publisher. There is no finding if a node exited before its event loop, "
+    "if the topic is a typo of one that sources of the workspace use with the same type. The same applies if a slash "
+    "is missing (`/zed/nodergb/info`) that another remap of the node has (`/zed/node/rgb/image`). Otherwise it is a "
+    "hint, because another launch may start the publisher. There is no finding if a node exited before its event loop, "
     "because it may be the publisher.",
     why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
