@@ -1,6 +1,7 @@
 """Actions among the topics of nodes."""
 
 import subprocess
+from dataclasses import replace
 
 import pytest
 from preflight_analysis.graph.actions import TOPICS, actions_of
@@ -9,7 +10,7 @@ from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, Role
-from support.check import analyse, read_fixture
+from support.check import analyse, environment_of, read_fixture
 from support.tracing_harness import SYSTEM_PYTHON
 
 TYPES = {
@@ -146,8 +147,11 @@ def test_an_action_of_ros_2_is_three_services_and_two_topics(role: Role) -> None
 def test_the_client_libraries_before_kilted_do_not_remap_an_action_as_a_whole() -> None:
     tree = analyse(read_fixture(ROS2)).tree
     interface = Interface("trace", Outcome("spinning"), (Endpoint("action_server", "go", "m/action/Go"),))
-    assert list(build_graph(tree, [interface], distro="jazzy").actions) == ["/a/go"]
-    assert list(build_graph(tree, [interface], distro="kilted").actions) == ["/b/come"]
+    found = {}
+    for distro in ("jazzy", "kilted"):
+        environment = replace(environment_of(read_fixture(ROS2)), distro=distro)
+        found[distro] = list(build_graph(tree, [interface], environment=environment).actions)
+    assert found == {"jazzy": ["/a/go"], "kilted": ["/b/come"]}
 
 
 def test_a_remap_of_one_part_in_ros_2_leaves_no_action() -> None:

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.live_harness import LIMIT_SECONDS, Watching, preflight, private_domain
-from support.ros2_harness import Ros2Harness, node_of, ros2_prefix
+from support.live_harness import LIMIT_SECONDS, Ros2System, Watching, preflight, private_domain
+from support.ros2_harness import node_of
 
 pytestmark = pytest.mark.ros
 
@@ -53,57 +53,23 @@ LAUNCH = """<launch>
 </launch>"""
 
 
-class System:
-    """Nodes of the package `pkg` in a domain of their own."""
-
-    def __init__(self, folder: Path, domain: int) -> None:
-        self.harness = Ros2Harness(
-            folder, talker=TALKER, listener=LISTENER, other=OTHER, caller=CALLER, camera=CAMERA.format(then="pass")
-        )
-        self.file = self.harness.write("launch/a.launch.xml", LAUNCH)
-        self.environment = {
-            **self.harness.variables,
-            "XDG_CACHE_HOME": str(folder / "cache"),
-            "ROS_DOMAIN_ID": str(domain),
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            "ROS_LOG_DIR": str(folder / "log"),
-        }
-        self.running: list[subprocess.Popen[bytes]] = []
-
-    def start(self, module: str, *rules: str) -> subprocess.Popen[bytes]:
-        """Start a node with these remaps."""
-        remaps = [word for rule in rules for word in ("-r", rule)]
-        process = subprocess.Popen(
-            [ros2_prefix() / "bin/python3", "-c", f"from pkg.{module} import main; main()", "--ros-args", *remaps],
-            env=self.environment,
-            cwd=self.harness.package,
-            stdin=subprocess.DEVNULL,
-        )
-        self.running.append(process)
-        return process
-
-    def close(self) -> None:
-        for process in self.running:
-            process.kill()
-            process.wait()
-
-
 @pytest.fixture
-def system(tmp_path: Path) -> Iterator[System]:
+def system(tmp_path: Path) -> Iterator[Ros2System]:
     with private_domain() as domain:
-        system = System(tmp_path, domain)
+        modules = {"talker": TALKER, "listener": LISTENER, "other": OTHER, "caller": CALLER}
+        system = Ros2System(tmp_path, domain, LAUNCH, camera=CAMERA.format(then="pass"), **modules)
         yield system
         system.close()
 
 
 @pytest.fixture
-def watch(system: System) -> Iterator[Watching]:
+def watch(system: Ros2System) -> Iterator[Watching]:
     watching = Watching(system.environment, system.file, "--settle", "0")
     yield watching
     watching.close()
 
 
-def launched(system: System) -> subprocess.Popen[bytes]:
+def launched(system: Ros2System) -> subprocess.Popen[bytes]:
     """What `ros2 launch` would start; the one that may be killed."""
     system.start("listener", "chatter:=/robot/chatter")
     return system.start("talker", "__node:=talker", "__ns:=/robot")
@@ -128,7 +94,7 @@ def helpers(domain: str) -> list[str]:
     return found
 
 
-def test_the_stream_tells_of_a_start_a_death_and_extra_nodes(system: System, watch: Watching) -> None:
+def test_the_stream_tells_of_a_start_a_death_and_extra_nodes(system: Ros2System, watch: Watching) -> None:
     attached = watch.until(lambda event: event["event"] != "waiting")
     assert attached == {
         "schema": "ros-preflight/watch/1",
@@ -163,7 +129,7 @@ def test_the_stream_tells_of_a_start_a_death_and_extra_nodes(system: System, wat
     assert helpers(system.environment["ROS_DOMAIN_ID"]) == []
 
 
-def test_a_wrong_type_and_a_misspelt_topic_are_told(system: System, watch: Watching) -> None:
+def test_a_wrong_type_and_a_misspelt_topic_are_told(system: Ros2System, watch: Watching) -> None:
     system.start("listener", "chatter:=/robot/chater")
     system.start("other", "__node:=talker", "__ns:=/robot")
     found = (
@@ -176,12 +142,12 @@ def test_a_wrong_type_and_a_misspelt_topic_are_told(system: System, watch: Watch
     watch.until_told(*found, "/robot/talker runs 2 times")
 
 
-def test_clients_are_seen(system: System, watch: Watching) -> None:
+def test_clients_are_seen(system: Ros2System, watch: Watching) -> None:
     system.start("caller", "__node:=own")
     watch.until(told("/own calls the service /talker/reset (std_srvs/srv/Trigger), which is unexpected"))
 
 
-def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
+def test_an_action_is_one_thing(system: Ros2System, watch: Watching) -> None:
     # What rcl_action knows an action by; there is no package with one to install.
     parts = node_of(
         """
@@ -197,7 +163,7 @@ def test_an_action_is_one_thing(system: System, watch: Watching) -> None:
     assert watch.seen[-1]["actions"] == {"/go": "extra"}
 
 
-def test_a_lifecycle_node_that_is_not_active_is_said_to_be_so(system: System) -> None:
+def test_a_lifecycle_node_that_is_not_active_is_said_to_be_so(system: Ros2System) -> None:
     file = system.harness.write(
         "launch/camera.launch.xml", "<launch><node pkg='pkg' exec='camera' name='camera'/></launch>"
     )
@@ -218,14 +184,14 @@ def test_a_lifecycle_node_that_is_not_active_is_said_to_be_so(system: System) ->
         watch.close()
 
 
-def test_once_waits_until_the_system_is_as_expected(system: System) -> None:
+def test_once_waits_until_the_system_is_as_expected(system: Ros2System) -> None:
     launched(system)
     done = preflight(system.environment, "watch", system.file, "--once", "--timeout", "60")
     assert (done.code, done.out, done.err) == (0, "no differences, 2 nodes as expected\n", "")
     assert helpers(system.environment["ROS_DOMAIN_ID"]) == []
 
 
-def test_quality_of_service_is_compared(system: System, watch: Watching) -> None:
+def test_quality_of_service_is_compared(system: Ros2System, watch: Watching) -> None:
     body = (system.harness.package / "pkg/other.py").read_text().replace("Int32", "String")
     system.harness.write("pkg/other.py", body)
     system.start("other", "__node:=talker", "__ns:=/robot")
@@ -236,7 +202,7 @@ def test_quality_of_service_is_compared(system: System, watch: Watching) -> None
     assert (issue["expected"], issue["actual"]) == ("reliability reliable", "reliability best_effort")
 
 
-def test_without_rclpy_that_is_told(system: System, tmp_path: Path) -> None:
+def test_without_rclpy_that_is_told(system: Ros2System, tmp_path: Path) -> None:
     environment = {**system.environment, "PATH": "/usr/bin:/bin"}
     done = preflight(environment, "watch", system.file, "--once", "--timeout", "60", "--no-run")
     assert (done.code, done.out) == (2, "")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from inspect import cleandoc
 from typing import Any
 
 import pytest
@@ -103,11 +104,96 @@ def test_one_domain_for_all() -> None:
 
 
 def test_a_master_of_its_own() -> None:
-    chain = only(ros1(a='<env name="ROS_MASTER_URI" value="http://other:11311"/>'))
+    chain = only(ros1(a='<env name="ROS_MASTER_URI" value="http://localhost:11312"/>'))
     assert broken(chain) == (
         "environment",
-        "ROS_MASTER_URI differs: /a has http://other:11311, /b has http://localhost:11311",
+        "ROS_MASTER_URI differs: /a has http://localhost:11312, /b has http://localhost:11311",
     )
+
+
+def test_a_master_that_may_be_the_same() -> None:
+    chain = only(ros1(a='<env name="ROS_MASTER_URI" value="http://other:11311"/>'))
+    assert [(link.state, link.text) for link in chain.links if link.about == "environment"] == [
+        ("unknown", "ROS_MASTER_URI differs: /a has http://other:11311, /b has http://localhost:11311")
+    ]
+
+
+def test_the_place_of_a_domain_and_its_fix() -> None:
+    first = '<group><set_env name="ROS_DOMAIN_ID" value="7"/><node pkg="p" exec="a" name="a"/></group>'
+    text = f'//- /main.launch.xml\n<launch>{first}<node pkg="p" exec="b" name="b"/></launch>'
+    chain = only(text)
+    assert chain.broken is not None
+    assert chain.broken.location is not None
+    at = chain.broken.location.span
+    assert text.partition("\n")[2][at.start : at.end] == "7"
+    assert [fix.title for fix in chain.broken.fixes] == ["Replace '7' with '0'"]
+
+
+@pytest.mark.parametrize(
+    ("args", "state", "end"),
+    [("/bridge.yaml", "ok", "; a bridge carries '/chatter'"), ("/none.yaml", "unknown", "; a bridge may connect them")],
+)
+def test_a_bridge_between_domains(args: str, state: str, end: str) -> None:
+    bridge = f'<node pkg="domain_bridge" exec="domain_bridge" name="bridge" args="{args}"/>'
+    files = "\n//- /bridge.yaml\ntopics: {chatter: {type: x/msg/Y, from_domain: 0, to_domain: 7}}"
+    chain = only(ros2(b='<env name="ROS_DOMAIN_ID" value="7"/>', first=bridge) + files)
+    (link,) = (link for link in chain.links if link.about == "environment")
+    assert (link.state, link.text) == (state, f"ROS_DOMAIN_ID differs: /a has 0, /b has 7{end}")
+
+
+@pytest.mark.parametrize(
+    ("text", "namespaces", "conditions"),
+    [
+        (
+            """
+            //- /main.launch
+            <launch><arg name="sim" default="true"/><group ns="robot" if="$(arg sim)">
+            <node pkg="p" type="a" name="a" ns="front"/></group>
+            <include file="/part.launch" ns="robot"><arg name="on" value="false"/></include></launch>
+            //- /part.launch
+            <launch><arg name="on"/><node pkg="p" type="b" name="b" unless="$(arg on)"/></launch>""",
+            ["/a is in the namespace 'robot'", "/a is in the namespace 'front'", "/b is in the namespace 'robot'"],
+            [
+                '/a is started under the condition if="$(arg sim)"',
+                '/b is started under the condition unless="$(arg on)"',
+            ],
+        ),
+        (
+            """
+            //- /main.launch.xml
+            <launch><arg name="sim" default="true"/><group><push_ros_namespace namespace="robot"/>
+            <node pkg="p" exec="a" name="a" if="$(var sim)"/></group>
+            <group><node pkg="p" exec="b" name="b" namespace="robot"/><push_ros_namespace namespace="late"/></group>
+            </launch>""",
+            ["/a is in the namespace 'robot'", "/b is in the namespace 'robot'"],
+            ['/a is started under the condition if="$(var sim)"'],
+        ),
+    ],
+)
+def test_what_stands_around_the_nodes(text: str, namespaces: list[str], conditions: list[str]) -> None:
+    talker = "/robot/front/a" if "front" in text else "/robot/a"
+    (chain,) = found(cleandoc(text), {talker: TALKS["/a"], "/robot/b": TALKS["/b"]})
+    texts = [link.text.replace("/robot/front", "").replace("/robot/", "/") for link in chain.links]
+    assert [text for text in texts if "in the namespace" in text] == namespaces
+    assert [text for text in texts if "under the condition" in text] == conditions
+
+
+def test_nodes_on_two_clocks() -> None:
+    clock = {"/a": {"publishers": {"chatter": "x/Y"}}, "/b": TALKS["/b"], "/sim": {"publishers": {"/clock": "r/C"}}}
+    first = '<node pkg="p" exec="sim" name="sim"/>'
+    chain = only(ros2(b='<param name="use_sim_time" value="true"/>', first=first), clock)
+    assert [(link.state, link.text) for link in chain.links if link.about == "clock"] == [
+        ("unknown", "/b uses simulated time, /a does not: their times differ"),
+        ("ok", "/b uses simulated time; /clock is published by /sim"),
+    ]
+
+
+def test_a_simulator_publishes_the_clock_as_the_rules_have_it() -> None:
+    first = '<node pkg="gazebo_ros" exec="gzserver" name="gz"/><set_parameter name="use_sim_time" value="true"/>'
+    chain = only(ros2(first=first), {**TALKS, "/gz": {}})
+    assert [(link.state, link.text) for link in chain.links if link.about == "clock"] == [
+        ("ok", "/b uses simulated time; /clock is published by /gz")
+    ]
 
 
 def test_a_node_that_crashes() -> None:
@@ -124,7 +210,7 @@ def test_a_node_of_which_nothing_is_known() -> None:
 
 def test_simulated_time_without_a_clock() -> None:
     chain = only(ros2(b='<param name="use_sim_time" value="true"/>'))
-    (clock,) = (link for link in chain.links if link.about == "clock")
+    *_, clock = (link for link in chain.links if link.about == "clock")
     assert (clock.state, clock.text) == (
         "unknown",
         "/b uses simulated time, and no node of this launch publishes /clock",

@@ -73,7 +73,63 @@ def test_two_middlewares() -> None:
         laser=env("RMW_IMPLEMENTATION", "rmw_zenoh_cpp"),
         mapper=env("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp"),
     )
-    assert finding.message.startswith("'/scan' is not shared reliably: /laser has RMW_IMPLEMENTATION rmw_zenoh_cpp")
+    assert finding.message.startswith("'/scan' is not shared: /laser has RMW_IMPLEMENTATION rmw_zenoh_cpp")
+    assert finding.severity == "warning"
+
+
+def test_two_vendors_of_dds_are_information() -> None:
+    (finding,) = found(
+        ROS2,
+        laser=env("RMW_IMPLEMENTATION", "rmw_fastrtps_cpp"),
+        mapper=env("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp"),
+    )
+    assert finding.message.startswith("'/scan' is not shared reliably: /laser has RMW_IMPLEMENTATION rmw_fastrtps_cpp")
+    assert finding.severity == "info"
+
+
+def test_discovery_that_is_off() -> None:
+    (finding,) = found(ROS2, laser=env("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF"))
+    message = "'/scan' is not shared: /laser has ROS_AUTOMATIC_DISCOVERY_RANGE OFF, /mapper has the default"
+    assert finding.message == message
+
+
+def test_the_fix_gives_both_the_same_value() -> None:
+    (finding,) = found(ROS2, laser=env("ROS_DOMAIN_ID", "5"))
+    assert [fix.title for fix in finding.fixes] == ["Replace '5' with '0'"]
+
+
+def test_a_setting_in_a_group() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="laser" name="laser"/>
+          <group>
+            <set_env name="ROS_DOMAIN_ID" value="5"/>
+                                                 ^ warning[GRF001] '/scan' is not shared: /laser has ROS_DOMAIN_ID 0
+            <node pkg="p" exec="mapper" name="mapper"/>
+          </group>
+        </launch>
+        //- interfaces
+        {"/laser": {"publishers": {"scan": "x/msg/Y"}}, "/mapper": {"subscribers": {"scan": "x/msg/Y"}}}
+    """)
+
+
+BRIDGED = """
+topics:
+  {topic}:
+    type: x/msg/Y
+    from_domain: 5
+    to_domain: 0
+"""
+
+
+@pytest.mark.parametrize(("topic", "shared"), [("scan", True), ("/scan", True), ("odom", False)])
+def test_a_bridge_whose_topics_are_known(topic: str, shared: bool) -> None:
+    bridge = "<node pkg='domain_bridge' exec='domain_bridge' name='b' args='/bridge.yaml'/>"
+    launch = ROS2.format(first="", laser=env("ROS_DOMAIN_ID", "5"), between="", mapper="", last=bridge)
+    files = f"//- /r.launch.xml\n{launch}\n//- /bridge.yaml\n{BRIDGED.format(topic=topic)}"
+    findings = findings_of(f"{files}\n//- interfaces\n{json.dumps({**SCAN, '/b': {}})}")
+    assert bool([each for each in findings if each.rule == "GRF001"]) != shared
 
 
 def test_components_are_in_the_domain_of_their_container() -> None:

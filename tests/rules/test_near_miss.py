@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from preflight_analysis.graph.domains import Domains
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.rules.near_miss import NearMiss
@@ -48,7 +49,10 @@ def _channels(ends: list[EndpointRef]) -> dict[str, Channel]:
 def _context(topics: dict[str, Channel], nodes: list[Any], before: Kept | None = None) -> Any:
     """As much of a context as is looked at."""
     graph = SimpleNamespace(
-        channels=lambda kind: topics if kind == "topics" else {}, blind=0, tree=SimpleNamespace(nodes=nodes)
+        channels=lambda kind: topics if kind == "topics" else {},
+        blind=0,
+        tree=SimpleNamespace(nodes=nodes),
+        domains=Domains(),
     )
     context = SimpleNamespace(kept=Kept(before), graph=graph)
     context.once = cache(lambda make: make(context))

@@ -181,7 +181,7 @@ def analyse(
     if fixture.interfaces is None and not annotated:
         return context
     interfaces = [*interfaces_of(tree, fixture.interfaces or {}), *(NOT_RUN for _ in tree.simulated)]
-    graph = build_graph(tree, interfaces, external)
+    graph = build_graph(tree, interfaces, external, documents=context.documents)
     return replace(context, graph=graph)
 
 

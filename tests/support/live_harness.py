@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from support.command import Done, run_command
+from support.ros2_harness import Ros2Harness, ros2_prefix
 from support.tracing_harness import SYSTEM_PYTHON
 
 LIMIT_SECONDS = 60
@@ -155,6 +156,39 @@ class Ros1System:
             with suppress(OSError):
                 if f"ROS_HOME={self.home / 'ros'}".encode() in found.read_bytes().split(b"\0"):
                     os.kill(int(found.parent.name), signal.SIGKILL)
+
+
+class Ros2System:
+    """Nodes of the package `pkg` in a domain of their own."""
+
+    def __init__(self, folder: Path, domain: int, launch: str, **modules: str) -> None:
+        self.harness = Ros2Harness(folder, **modules)
+        self.file = self.harness.write("launch/a.launch.xml", launch)
+        self.environment = {
+            **self.harness.variables,
+            "XDG_CACHE_HOME": str(folder / "cache"),
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_LOG_DIR": str(folder / "log"),
+        }
+        self.running: list[subprocess.Popen[bytes]] = []
+
+    def start(self, module: str, *rules: str, domain: int | None = None) -> subprocess.Popen[bytes]:
+        """Start a node with these remaps, in another domain if given."""
+        remaps = [word for rule in rules for word in ("-r", rule)]
+        process = subprocess.Popen(
+            [ros2_prefix() / "bin/python3", "-c", f"from pkg.{module} import main; main()", "--ros-args", *remaps],
+            env=self.environment if domain is None else {**self.environment, "ROS_DOMAIN_ID": str(domain)},
+            cwd=self.harness.package,
+            stdin=subprocess.DEVNULL,
+        )
+        self.running.append(process)
+        return process
+
+    def close(self) -> None:
+        for process in self.running:
+            process.kill()
+            process.wait()
 
 
 class Watching:

@@ -10,6 +10,7 @@ from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.arguments import remaps_in
 from preflight_analysis.evaluation.ros2.remaps import source_for
@@ -17,14 +18,14 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import ActionEndpoint, actions_of, moves_actions
 from preflight_analysis.graph.annotations import annotated
-from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
+from preflight_analysis.graph.domains import Domain, Domains, domains_of, groups_apart, separation
+from preflight_analysis.graph.model import PROVIDERS, Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.processes import each_node
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.nodelets import manager_of
 from preflight_analysis.tracing.request import split_args
 
-_PROVIDERS = ("publisher", "service", "action_server")
 _TOPIC_ROLES = ("publisher", "subscriber")
 _SERVICE_ROLES = ("service", "client")
 
@@ -33,7 +34,7 @@ def build_graph(
     tree: LaunchTree,
     interfaces: Sequence[Interface],
     external_topics: Sequence[str] = (),
-    distro: str | None = None,
+    environment: Environment | None = None,
     documents: Mapping[str, Document] | None = None,
     kept: Kept | None = None,
 ) -> Graph:
@@ -43,10 +44,10 @@ def build_graph(
     nothing is known.
     Where a trace is missing or failed, what the launch file annotates is added to what was seen.
 
-    `external_topics` are patterns of the topics that something outside of the launch offers or wants. `distro` is the
-    distribution of ROS, whose client libraries differ in what a remap moves. `documents` are the texts of parameter
-    files, which may have something for other nodes of a process than the launch file's. What was `kept` of the graph
-    before is taken over.
+    `external_topics` are patterns of the topics that something outside of the launch offers or wants. The
+    client libraries of the `environment`'s distribution decide what a remap moves, and its variables are those that the
+    launch is started with. `documents` are the texts of parameter files, which may have something for other nodes of a
+    process than the launch file's. What was `kept` of the graph before is taken over.
 
     Raises `ValueError` if the lengths differ.
     """
@@ -58,14 +59,17 @@ def build_graph(
     tree = replace(tree, nodes=nodes, simulated=()) if tree.simulated else tree
     tree, merged = each_node(tree, (*processes, *interfaces[started:]), documents or {})
     columns = tree.nodes, merged, _managers(tree)
+    distro, variables = (environment.distro, environment.variables) if environment is not None else (None, {})
     made = kept.each_row(_of_node, columns, tree.generation, moves_actions(distro))
+    domains = domains_of(tree, variables, documents or {}, kept)
     return Graph(
         tree,
         merged,
         processes,
-        *_all_channels(kept, made, external_topics),
+        *_all_channels(kept, made, external_topics, domains),
         tuple(each.reads for each in made),
         tuple(external_topics),
+        domains,
     )
 
 
@@ -207,7 +211,7 @@ def _has_no_type(client: Connection) -> bool:
 
 
 def _all_channels(
-    kept: Kept, made: Sequence[_Made], external: Sequence[str]
+    kept: Kept, made: Sequence[_Made], external: Sequence[str], domains: Domains
 ) -> tuple[dict[str, Channel], dict[str, Channel], dict[str, Channel]]:
     """Topics, services and actions."""
     connections = (
@@ -233,8 +237,46 @@ def _all_channels(
             ),
         )
     )
-    topics, services, actions = ({name: next(channels) for name in found} for found in sorted_names)
+    topics, services, actions = (
+        _by_domain(kept, kind, {name: next(channels) for name in found}, domains)
+        for kind, found in enumerate(sorted_names)
+    )
     return topics, services, actions
+
+
+def _by_domain(kept: Kept, kind: int, channels: dict[str, Channel], domains: Domains) -> dict[str, Channel]:
+    """Each channel whose ends cannot reach each other as several of the same name."""
+    if not domains.by_node or domains.bridged is None:
+        return channels
+    found: dict[str, Channel] = {}
+    for name, channel in channels.items():
+        if name in domains.bridged:
+            found[name] = channel
+            continue
+        of_ends = tuple(domains.by_node[id(each.node)] for each in (*channel.providers, *channel.consumers))
+        found.update((part.key, part) for part in kept.get(_parts, (kind, name), channel, of_ends))
+    return found
+
+
+def _parts(channel: Channel, of_ends: tuple[Domain | None, ...]) -> tuple[Channel, ...]:
+    ends = (*channel.providers, *channel.consumers)
+    groups = groups_apart(of_ends)
+    if len(groups) < 2:
+        return (channel,)
+    parts = []
+    for domains in groups:
+        own = {id(end) for end, domain in zip(ends, of_ends, strict=True) if domain in domains}
+        apart = separation(groups[0][0], domains[0]) if domains is not groups[0] else None
+        parts.append(
+            replace(
+                channel,
+                providers=tuple(each for each in channel.providers if id(each) in own),
+                consumers=tuple(each for each in channel.consumers if id(each) in own),
+                domain=f"{apart.variable} {apart.other}" if apart is not None else "",
+                apart=tuple(each for each in ends if id(each) not in own),
+            )
+        )
+    return tuple(parts)
 
 
 def _name(connection: Connection) -> str:
@@ -246,6 +288,6 @@ def _channel(name: str, connections: Sequence[Connection], external: bool) -> Ch
     for each in connections:
         end = each.endpoint
         alike.setdefault((id(each.node), end.role, end.type, end.md5), each)
-    providers = tuple(each for each in alike.values() if each.endpoint.role in _PROVIDERS)
-    consumers = tuple(each for each in alike.values() if each.endpoint.role not in _PROVIDERS)
+    providers = tuple(each for each in alike.values() if each.endpoint.role in PROVIDERS)
+    consumers = tuple(each for each in alike.values() if each.endpoint.role not in PROVIDERS)
     return Channel(name, providers, consumers, external)

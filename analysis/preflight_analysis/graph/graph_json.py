@@ -98,6 +98,8 @@ def _channel(channel: Channel, provider: str, consumer: str) -> dict[str, Any]:
         provider: sorted({c.node.name for c in channel.providers}),
         consumer: sorted({c.node.name for c in channel.consumers}),
     }
+    if channel.domain:
+        data |= {"name": channel.name, "domain": channel.domain}
     if all(c.endpoint.builtin for c in (*channel.providers, *channel.consumers)):
         data["builtin"] = True
     return data

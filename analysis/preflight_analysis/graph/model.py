@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.graph.domains import Domains
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse, Role
 
 ChannelKind = Literal["topics", "services", "actions"]
+PROVIDERS: tuple[Role, ...] = ("publisher", "service", "action_server")
+"""The roles of those at the providing end of a channel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,25 @@ class Channel:
     """Subscribers of a topic, clients of a service or action."""
     external: bool = False
     """The settings say that something outside of the launch offers or wants it."""
+    domain: str = ""
+    """What tells it from the channel of that name that the graph has under the name alone: `ROS_DOMAIN_ID 5`."""
+    apart: tuple[Connection, ...] = ()
+    """The ends of the same name that cannot reach it."""
+
+    @property
+    def key(self) -> str:
+        """Under which the graph has it: the name, and the domain where several have that name."""
+        return f"{self.name} ({self.domain})" if self.domain else self.name
+
+    @property
+    def provided_apart(self) -> bool:
+        """Whether ends of the same name that cannot reach it provide it."""
+        return any(each.endpoint.role in PROVIDERS for each in self.apart)
+
+    @property
+    def consumed_apart(self) -> bool:
+        """Likewise whether they consume it."""
+        return any(each.endpoint.role not in PROVIDERS for each in self.apart)
 
     @property
     def types(self) -> tuple[str, ...]:
@@ -78,6 +100,8 @@ class Graph:
     """The parameters that each node asks for, in the order of `interfaces`."""
     external_topics: tuple[str, ...] = ()
     """Patterns of the topics that something outside of the launch offers or wants."""
+    domains: Domains = Domains()
+    """Which nodes cannot reach each other."""
 
     @cached_property
     def param_reads(self) -> tuple[ParamRead, ...]:
@@ -85,8 +109,24 @@ class Graph:
         return tuple(chain.from_iterable(self.reads_of_nodes))
 
     def channels(self, kind: ChannelKind) -> Mapping[str, Channel]:
-        """All of a kind, by their names."""
+        """All of a kind, by their keys: the name, and the domain where the ends of one name cannot reach each other."""
         return {"topics": self.topics, "services": self.services, "actions": self.actions}[kind]
+
+    def named(self, kind: ChannelKind, name: str) -> Sequence[Channel]:
+        """Those of a name, one for each domain that has it."""
+        channels = self.channels(kind)
+        if (first := channels.get(name)) is None:
+            return ()
+        if not first.apart:
+            return (first,)
+        return (first, *(each for each in channels.values() if each.name == name and each.domain))
+
+    def providers_for(self, node: LaunchNode, kind: ChannelKind, name: str) -> Sequence[Connection]:
+        """The providers of a channel that a node can reach."""
+        found = tuple(chain.from_iterable(channel.providers for channel in self.named(kind, name)))
+        if not self.domains.by_node:
+            return found
+        return tuple(each for each in found if self.domains.apart(node, each.node) is None)
 
     def is_external(self, topic: str) -> bool:
         """Whether the settings say so of a topic."""

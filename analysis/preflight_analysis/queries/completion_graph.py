@@ -103,7 +103,7 @@ def remap_targets(analysis: Analysis, file: str, place: Place, element: Element,
     found: list[tuple[bool, str, Item]] = []
     for channel in (*graph.topics.values(), *graph.services.values(), *graph.actions.values()):
         connections = (*channel.providers, *channel.consumers)
-        if not any(
+        if channel.domain or not any(
             not connection.endpoint.builtin and not _made_here(connection, file, element) for connection in connections
         ):
             continue

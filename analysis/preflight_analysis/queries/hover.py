@@ -9,7 +9,7 @@ from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Command, CommandValue, Include, LaunchNode, ParamValue, Remap, Use
 from preflight_analysis.findings.markdown import block, code, escaped
-from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.arguments import accepted
@@ -329,19 +329,18 @@ def _grouped(pairs: Iterable[tuple[tuple[str, str], str]]) -> Iterator[tuple[tup
 
 def _connections(graph: Graph, name: str) -> Iterator[str]:
     """Both sides of a topic, service or action: who is there, with type, QoS and the line of the source."""
-    for kind, channels in (("topic", graph.topics), ("service", graph.services), ("action", graph.actions)):
-        channel = channels.get(name)
-        if channel is None:
-            continue
+    kinds: tuple[tuple[str, ChannelKind], ...] = (("topic", "topics"), ("service", "services"), ("action", "actions"))
+    for kind, channel in ((kind, channel) for kind, of in kinds for channel in graph.named(of, name)):
         ends = ("publisher", "subscriber") if kind == "topic" else ("server", "client")
+        shown = f"{kind} {code(name)}" + (f" ({code(channel.domain)})" if channel.domain else "")
         for end, connections in zip(ends, (channel.providers, channel.consumers), strict=True):
             if not connections:
-                yield f"- {kind} {code(name)}: no {end}"
+                yield f"- {shown}: no {end}"
             for connection in sorted(connections, key=lambda each: each.node.name)[:_SHOWN_ENDPOINTS]:
                 endpoint = connection.endpoint
                 kind_of = f" {code(endpoint.type)}" if endpoint.type else ""
                 more = f"{kind_of}{_quality(endpoint)}{_made_at(endpoint)}"
-                yield f"- {kind} {code(name)}: {end} {code(connection.node.name)}{more}"
+                yield f"- {shown}: {end} {code(connection.node.name)}{more}"
             if len(connections) > _SHOWN_ENDPOINTS:
                 yield f"- … and {len(connections) - _SHOWN_ENDPOINTS} more"
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, named_at, published_at
 from preflight_analysis.queries.node_names import mentions_of, tags_of
@@ -179,11 +180,11 @@ _FINDERS: Mapping[Kind, Callable[[QueryContext, NamedSymbol], Iterator[Reference
 
 def connections(graph: Graph, wanted: frozenset[str]) -> Iterator[tuple[Connection, bool]]:
     """The endpoints of topics, services and actions of these names, and whether each is a provider."""
-    for channels in (graph.topics, graph.services, graph.actions):
-        for name in wanted:
-            if (channel := channels.get(name)) is not None:
-                yield from ((connection, True) for connection in channel.providers)
-                yield from ((connection, False) for connection in channel.consumers)
+    kinds: tuple[ChannelKind, ...] = ("topics", "services", "actions")
+    for kind in kinds:
+        for channel in chain.from_iterable(graph.named(kind, name) for name in wanted):
+            yield from ((connection, True) for connection in channel.providers)
+            yield from ((connection, False) for connection in channel.consumers)
 
 
 def made_at(context: QueryContext, what: Endpoint | ParamUse) -> Location | None:

@@ -13,13 +13,16 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.domains import differences, domain_of, processes_of
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.qos import policies
+from preflight_analysis.queries.enclosing import conditions_of, namespaces_of
+from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
 from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.rules.places import attribute_location, connection_location
+from preflight_analysis.rules.variables import setting_of
 from preflight_analysis.tracing.interface import DOES, Endpoint, Interface
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -27,7 +30,7 @@ State = Literal["ok", "broken", "unknown"]
 
 KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
 _NOUN: Mapping[ChannelKind, str] = {"topics": "topic", "services": "service", "actions": "action"}
-_LIFECYCLE = "LCH035"
+_LIFECYCLE, _DOMAINS, _QOS = "LCH035", "GRF001", "QOS001"
 _LISTED = 8
 """Names in one text."""
 
@@ -149,6 +152,7 @@ def _pairs(
 
 
 def _is_called(connection: Connection, name: str) -> bool:
+    name = name.partition(" ")[0]  # views add the domain to it
     written = connection.endpoint.name
     return name in (connection.name, written) or connection.name == f"/{name}" or names.leaf(connection.name) == name
 
@@ -207,14 +211,14 @@ def _interface(graph: Graph, node: LaunchNode) -> Interface:
 def _chain(analysis: Analysis, graph: Graph, kind: ChannelKind, provider: Connection, consumer: Connection) -> Chain:
     links = (
         *_of_node(analysis, graph, provider.node),
-        _endpoint(provider),
+        *_endpoint(analysis, provider),
         *_of_node(analysis, graph, consumer.node),
-        _endpoint(consumer),
+        *_endpoint(analysis, consumer),
         _name(analysis, kind, provider, consumer),
         _type(provider, consumer),
         *(_qos(provider, consumer) if kind == "topics" and graph.tree.ros.has_qos else ()),
-        *_environment(analysis, graph, provider.node, consumer.node),
-        *_clock(graph, consumer.node),
+        *_environment(analysis, graph, provider, consumer),
+        *_clock(graph, provider.node, consumer.node),
     )
     channel = consumer.name if provider.name == consumer.name else None
     return Chain(kind, channel, provider.node.name, consumer.node.name, links, provider.name, consumer.name)
@@ -223,6 +227,8 @@ def _chain(analysis: Analysis, graph: Graph, kind: ChannelKind, provider: Connec
 def _of_node(analysis: Analysis, graph: Graph, node: LaunchNode) -> Iterator[Link]:
     when = " after a timer or an event" if node.deferred else ""
     yield Link("started", "ok", f"{node.name} is started{when}", node.location)
+    for condition in conditions_of(analysis.context, node):
+        yield Link("started", "ok", f"{node.name} is started under the condition {condition.text}", condition.place)
     interface = _interface(graph, node)
     outcome = interface.outcome
     if outcome.status == "crashed" and not interface.complete:
@@ -236,7 +242,7 @@ def _of_node(analysis: Analysis, graph: Graph, node: LaunchNode) -> Iterator[Lin
             yield Link("lifecycle", "broken", finding.message, finding.location, finding.fixes)
 
 
-def _endpoint(connection: Connection) -> Link:
+def _endpoint(analysis: Analysis, connection: Connection) -> Iterator[Link]:
     end, node = connection.endpoint, connection.node
     written = names.canonicalize(end.name)
     text = f"{node.name} {DOES[end.role]} '{written}'"
@@ -249,7 +255,10 @@ def _endpoint(connection: Connection) -> Link:
         text += f" ({names.leaf(end.source_file)}:{end.source_line})"
     text += _evidence(connection)
     state: State = "unknown" if end.uncertain else "ok"
-    return Link("endpoint", state, text, connection_location(connection))
+    yield Link("endpoint", state, text, connection_location(connection))
+    if connection.name != written and not written.startswith("/"):
+        for space in namespaces_of(analysis.context, connection.node):
+            yield Link("endpoint", "ok", f"{node.name} is in the namespace {space.text}", space.place)
 
 
 def _evidence(connection: Connection) -> str:
@@ -270,6 +279,13 @@ def _name(analysis: Analysis, kind: ChannelKind, provider: Connection, consumer:
         return Link("name", "ok", f"both use the {_NOUN[kind]} '{consumer.name}'", place)
     text = f"'{provider.name}' and '{consumer.name}' are different {_NOUN[kind]} names"
     return Link("name", "broken", text, place, _fixes(analysis, provider, consumer))
+
+
+def _fixes_of(analysis: Analysis, rule: str, *connections: Connection) -> tuple[Fix, ...]:
+    """Those of the findings of a rule that speak of all these ends."""
+    wanted = {(each.name, each.node.name) for each in connections}
+    found = (each for each in analysis.findings if each.rule == rule)
+    return next((f.fixes for f in found if wanted <= {(ref.channel, ref.node) for ref in f.endpoints}), ())
 
 
 def _fixes(analysis: Analysis, *connections: Connection) -> tuple[Fix, ...]:
@@ -323,30 +339,59 @@ def qos_links(
         yield Link("qos", states[policy.fit], text, place)
 
 
-def _environment(analysis: Analysis, graph: Graph, provider: LaunchNode, consumer: LaunchNode) -> Iterator[Link]:
+def _environment(analysis: Analysis, graph: Graph, provider: Connection, consumer: Connection) -> Iterator[Link]:
     processes = {id(node): process for node, process in zip(graph.tree.nodes, processes_of(graph.tree), strict=True)}
     mine, theirs = (
-        domain_of(processes[id(node)], analysis.environment.variables, graph.tree.generation)
-        for node in (consumer, provider)
+        domain_of(processes[id(end.node)], analysis.environment.variables, graph.tree.generation)
+        for end in (consumer, provider)
     )
     if mine is None or theirs is None:
         return
+    bridged = graph.domains.bridged
     for each in differences(theirs, mine):
-        text = f"{each.variable} differs: {provider.name} has {each.one}, {consumer.name} has {each.other}"
-        yield Link("environment", "broken", text, consumer.location)
+        text = f"{each.variable} differs: {provider.node.name} has {each.one}, {consumer.node.name} has {each.other}"
+        settings = (
+            setting_of(analysis.context, processes[id(end.node)], each.variable) for end in (consumer, provider)
+        )
+        place = next((setting for setting in settings if setting is not None), consumer.node.location)
+        if not each.separates:
+            yield Link("environment", "unknown", text, place)
+        elif bridged is None:
+            yield Link("environment", "unknown", f"{text}; a bridge may connect them", place)
+        elif provider.name in bridged or consumer.name in bridged:
+            yield Link("environment", "ok", f"{text}; a bridge carries '{consumer.name}'", place)
+        else:
+            yield Link("environment", "broken", text, place, _fixes_of(analysis, _DOMAINS, provider, consumer))
 
 
-def _clock(graph: Graph, consumer: LaunchNode) -> Iterator[Link]:
+def _clock(graph: Graph, provider: LaunchNode, consumer: LaunchNode) -> Iterator[Link]:
+    """Whether the nodes are on one clock, and whether that runs."""
+    uses = {id(node): _sim_time(graph, node) for node in (provider, consumer)}
+    on = [node for node in (provider, consumer) if uses[id(node)] is not None]
+    if not on:
+        return
+    if len(on) == 1 and provider is not consumer and publishes_clock(provider) == publishes_clock(consumer):
+        off = consumer if on[0] is provider else provider
+        clocks = (each.node for each in graph.providers_for(on[0], "topics", "/clock"))
+        if not any(each is off for each in clocks):
+            text = f"{on[0].name} uses simulated time, {off.name} does not: their times differ"
+            yield Link("clock", "unknown", text, off.location)
+    node, param = on[-1], uses[id(on[-1])]
+    place = param.place if param is not None else node.location
+    publishing = {each.node.name for each in graph.providers_for(node, "topics", "/clock")}
+    publishers = sorted(publishing | {each.name for each in graph.tree.nodes if publishes_clock(each)})
+    if publishers:
+        text = f"{node.name} uses simulated time; /clock is published by {listed(publishers)}"
+        yield Link("clock", "ok", text, place)
+    elif not graph.is_external("/clock"):
+        text = f"{node.name} uses simulated time, and no node of this launch publishes /clock"
+        yield Link("clock", "unknown", text, place)
+
+
+def _sim_time(graph: Graph, node: LaunchNode) -> Param | None:
+    """The parameter that puts a node on simulated time."""
     if graph.tree.ros.own_parameters:
-        param = next((each for each in consumer.params if each.name == "use_sim_time"), None)
+        param = next((each for each in node.params if each.name == "use_sim_time"), None)
     else:
         param = graph.tree.params.get("/use_sim_time")
-    clock = graph.topics.get("/clock")
-    if param is None or param.value is not True or graph.is_external("/clock"):
-        return
-    if clock is not None and clock.providers:
-        publishers = listed(sorted({each.node.name for each in clock.providers}))
-        yield Link("clock", "ok", f"{consumer.name} uses simulated time; /clock is published by {publishers}")
-    else:
-        text = f"{consumer.name} uses simulated time, and no node of this launch publishes /clock"
-        yield Link("clock", "unknown", text, param.place)
+    return param if param is not None and param.value in (True, 1) else None

@@ -72,7 +72,8 @@ def _nodes(index: WorkspaceIndex, named: Callable[[str], bool]) -> Iterator[Work
 def _topics(analyses: Iterable[Analysis], named: Callable[[str], bool]) -> Iterator[WorkspaceSymbol]:
     seen: set[tuple[str, Location]] = set()
     for analysis in analyses:
-        for name, channel in analysis.graph.topics.items() if analysis.graph else ():
+        for channel in analysis.graph.topics.values() if analysis.graph else ():
+            name = channel.name
             connection = next(
                 (
                     connection

@@ -50,13 +50,13 @@ def _all_lone_providers(context: Context) -> _Lone:
 
 
 def _lone_consumers(channel: Channel) -> tuple[Connection, ...]:
-    if channel.providers or channel.external:
-        return ()
+    if channel.providers or channel.external or channel.provided_apart:
+        return ()  # that its providers are in another domain is said by itself
     return tuple(c for c in channel.consumers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
 def _lone_providers(channel: Channel) -> tuple[Connection, ...]:
-    if channel.consumers or channel.external:
+    if channel.consumers or channel.external or channel.consumed_apart:
         return ()
     return tuple(c for c in channel.providers if c.action is None and not may_dangle(channel.name, c.endpoint))
 

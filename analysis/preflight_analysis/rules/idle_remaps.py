@@ -119,13 +119,21 @@ def _node(connection: Connection) -> int:
 
 def _with_meaning(kept: Kept, graph: Graph, idle: IdleRemap, own: tuple[Connection, ...]) -> IdleRemap:
     target = names.resolve(idle.remap.target, idle.nodes[0].name)
-    channels = tuple(_channels(graph, each)[each.name] for each in own)
+    channels = tuple(_channel_of(graph, each) for each in own)
     targets = tuple(_channels(graph, each).get(target) for each in own)
     return kept.get(_meaning, id(idle), idle, own, channels, targets)
 
 
 def _channels(graph: Graph, connection: Connection) -> Mapping[str, Channel]:
     return graph.topics if connection.endpoint.role in _TOPIC_ROLES else graph.services
+
+
+def _channel_of(graph: Graph, connection: Connection) -> Channel:
+    channel = _channels(graph, connection)[connection.name]
+    if not channel.apart:
+        return channel
+    of_name = graph.named("topics" if connection.endpoint.role in _TOPIC_ROLES else "services", connection.name)
+    return next(each for each in of_name if any(end is connection for end in (*each.providers, *each.consumers)))
 
 
 def _meaning(

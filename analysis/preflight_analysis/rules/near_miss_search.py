@@ -33,7 +33,10 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
     if graph is None or not seekers:
         return ()
     candidates = context.once(_all_candidates)[kind]
-    return context.kept.patched(_found, kind, candidates, seekers, graph.blind > 0).near
+    near = context.kept.patched(_found, kind, candidates, seekers, graph.blind > 0).near
+    if not graph.domains.by_node:
+        return near
+    return tuple(each for each in near if graph.domains.apart(each.consumer.node, each.provider.node) is None)
 
 
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
@@ -103,8 +106,11 @@ class _Found:
 
 
 def _all_candidates(context: Context) -> Mapping[ChannelKind, tuple[_Candidate, ...]]:
-    """Those of each kind, in the order of the graph."""
-    return of_all_kinds(context, _candidate, channels_of(context), context.once(_namesakes))
+    """Those of each kind, in the order of the graph; of one name in several domains the first one."""
+    channels = channels_of(context)
+    if context.graph is not None and context.graph.domains.by_node:
+        channels = {kind: [each for each in some if not each.domain] for kind, some in channels.items()}
+    return of_all_kinds(context, _candidate, channels, context.once(_namesakes))
 
 
 def _all_seekers(context: Context) -> Mapping[ChannelKind, tuple[_Seeker, ...]]:

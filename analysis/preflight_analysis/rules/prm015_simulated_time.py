@@ -45,6 +45,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             confidence="likely" if graph.complete else "possible",
             related=related,
         )
+    published = clock.providers if clock is not None else ()
+    for node, param in on if published else ():
+        difference = graph.domains.apart(published[0].node, node)
+        if difference is not None and not graph.providers_for(node, "topics", "/clock"):
+            yield rule.finding(
+                f"'use_sim_time' is true for {node.name}, which has {difference.variable} {difference.other}; '/clock' "
+                f"is published with {difference.one}",
+                node.location,
+                severity="info",
+                confidence="likely",
+                related=(Related(f"true for {node.name}", param.place), *include_chain(node.origin)),
+            )
+            break
     simulated = {id(node) for node, _ in on}
     off = [
         node for node in nodes if id(node) not in simulated and _has_times(node) and not _publishes_clock(node, context)
@@ -104,7 +117,8 @@ RULE = Rule(
     name="simulated-time",
     severity="info",
     what="Checks for `use_sim_time` set to true in a launch where no node publishes `/clock`. If a node publishes "
-    "`/clock`, it checks for nodes without `use_sim_time` among a majority with it.",
+    "`/clock`, it checks for nodes without `use_sim_time` among a majority with it, and for nodes with it in another "
+    "domain.",
     why="Timers of a node on simulated time wait for the first message on `/clock`. Transforms and messages of "
     "nodes on different clocks look too old or too new to each other.",
     example='<set_parameter name="use_sim_time" value="true"/>',

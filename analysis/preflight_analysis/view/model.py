@@ -160,7 +160,7 @@ class _Builder:
                 made = [self._edge(kind, connection, index[id(connection.node)], at) for connection in connections]
                 finding_ids = tuple(dict.fromkeys(i for edge in made for i in edge.findings))
                 builtin = all(edge.builtin for edge in made)
-                channels.append(ViewChannel(kind, channel.name, channel.types, builtin, channel.external, finding_ids))
+                channels.append(ViewChannel(kind, channel.key, channel.types, builtin, channel.external, finding_ids))
                 edges += made
         return GraphView(
             graph.tree.file,

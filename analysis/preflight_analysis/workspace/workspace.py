@@ -358,7 +358,7 @@ class Workspace:
             managed = with_spawned(of_source, analysis.documents)
             whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
         db.leave_if_cancelled()
-        graph = build_graph(managed, whole, project.external_topics, self.environment.distro, analysis.documents, kept)
+        graph = build_graph(managed, whole, project.external_topics, self.environment, analysis.documents, kept)
         document, problems = located_problems(project)
         own = self.own_knowledge
         context = replace(

@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.ros2.bridges import note_files_of_bridges
 from preflight_analysis.evaluation.ros2.check_language import check_language_ros2
 from preflight_analysis.evaluation.ros2.check_values import check_values_ros2
 from preflight_analysis.evaluation.ros2.context import Context, NotByPartsError
+from preflight_analysis.evaluation.ros2.domain_bridges import note_files_of_domain_bridges
 from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.required import check_required, report_missing_below
 from preflight_analysis.evaluation.ros2.simulated import note_files_of_spawners, simulated_managers
@@ -64,6 +65,7 @@ def evaluate_ros2(
         _launch(path, args, variables or {}, state)
     note_files_of_spawners(state)
     note_files_of_bridges(state)
+    note_files_of_domain_bridges(state)
     note_configs_of_rviz(state, state.nodes)
     simulated = simulated_managers(state)
     return LaunchTree(
