@@ -57,7 +57,7 @@ def bash(harness: Harness, line: str) -> list[str]:
     [
         ("ros-preflight ch", {"check"}),
         ("ros-preflight check --form", {"--format"}),
-        ("ros-preflight check --paths ", {"absolute", "relative"}),
+        ("ros-preflight check --paths ", {"absolute", "relative", "cwd"}),
         ("ros-preflight explain TOP00", {f"TOP00{number}" for number in range(1, 9)}),
         ("ros-preflight check launch/fi", {"launch/fixed.launch"}),
     ],

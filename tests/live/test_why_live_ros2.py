@@ -62,7 +62,9 @@ def live(system: Ros2System, first: str, wanted: Sequence[str]) -> Any:
     found: list[Any] = []
 
     def broken() -> bool:
-        done = preflight(system.environment, "why", system.file, first, "listener", "--live", "--format", "json")
+        done = preflight(
+            system.environment, "why", system.file, first, "listener", "--live", "--no-run", "--format", "json"
+        )
         if done.code not in (0, 1):
             return False
         (chain,) = done.json["chains"]

@@ -97,6 +97,21 @@ async def test_each_tool_answers_as_its_verb_does_and_runs_nothing(harness: Harn
     assert content_of(harness.workspace) == before
 
 
+async def test_paths_are_relative_to_the_folder_of_the_server(harness: Harness) -> None:
+    folder = harness.workspace / "launch"
+    parameters = StdioServerParameters(
+        command=str(harness.server), args=["mcp", str(folder)], env=dict(harness.environment)
+    )
+    async with Client(parameters, read_timeout_seconds=120) as client:
+        result = await client.call_tool("check", {"files": ["talker_listener.launch"]})
+        first = result.structured_content["findings"][0]
+        place = f"{first['file']}:{first['range']['start']['line']}"
+        explained = await client.call_tool("explain", {"what": place})
+    assert place.startswith("talker_listener.launch:")
+    assert not explained.is_error, text(explained)
+    assert first["rule"] in [each["rule"] for each in explained.structured_content["findings"]]
+
+
 async def test_nodes_run_only_with_the_flag(harness: Harness) -> None:
     async with connected(harness, "--run") as call:
         result = await call("graph", {"file": FILE})

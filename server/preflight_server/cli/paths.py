@@ -1,4 +1,4 @@
-"""`--paths`: whether the paths of a JSON document are absolute or relative to the workspace."""
+"""`--paths`: whether the paths of a JSON document are absolute, or relative to the workspace or the current folder."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-ABSOLUTE, RELATIVE = "absolute", "relative"
+ABSOLUTE, RELATIVE, CWD = "absolute", "relative", "cwd"
 _OF_PATHS = frozenset(
     {"file", "path", "includes", "roots", "param_files", "not_evaluated", "package_path", "devel_spaces"}
 )
@@ -20,9 +20,10 @@ def add_paths(parser: argparse.ArgumentParser) -> None:
     """The option."""
     parser.add_argument(
         "--paths",
-        choices=(ABSOLUTE, RELATIVE),
+        choices=(ABSOLUTE, RELATIVE, CWD),
         default=ABSOLUTE,
-        help="with --format json: print paths absolute or relative to the workspace (default: %(default)s)",
+        help="with --format json: print paths absolute, or relative to the workspace or the current folder (default: "
+        "%(default)s)",
     )
 
 
@@ -30,6 +31,8 @@ def with_paths(data: Mapping[str, Any], args: argparse.Namespace, workspaces: It
     """The document as `--paths` wants it. What lies outside of the folders `workspaces` stays absolute."""
     if args.paths == ABSOLUTE:
         return data
+    if args.paths == CWD:
+        workspaces = [os.getcwd()]
     # The innermost first: one workspace may lie in another.
     homes = sorted({os.path.join(home, "") for home in workspaces}, key=len, reverse=True)
     found: Mapping[str, Any] = _relative(data, homes, False)

@@ -53,7 +53,7 @@ class Tool:
     @property
     def output_schema(self) -> dict[str, Any]:
         """As far as the server promises it: the contract is that of the verb's JSON."""
-        schema = {"const": f"ros-preflight/{self.verb}/1"}
+        schema = {"type": "string", "const": f"ros-preflight/{self.verb}/1"}
         return {"type": "object", "properties": {"schema": schema}, "required": ["schema"]}
 
 
@@ -169,6 +169,7 @@ TOOLS = (
             },
             "arguments": _ARGUMENTS,
             "severity": {
+                "type": "string",
                 "enum": ["error", "warning", "info", "hint"],
                 "default": "hint",
                 "description": "report findings of this severity or worse",
