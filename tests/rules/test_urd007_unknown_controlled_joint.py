@@ -39,6 +39,23 @@ def test_a_transmission() -> None:
     )
 
 
+def test_many_that_are_like_none_have_one_cause() -> None:
+    tags = "".join(
+        f'<transmission name="t{at}"><joint name="{joint}"/></transmission>' for at, joint in enumerate("uvwxy")
+    )
+    (found,) = check(
+        of_urdf(
+            _URDF.format("shoulder_joint", "shoulder_joint") + tags,
+            robot(
+                '<transmission name="t0">',
+                "                    ^^ warning[URD007] joint 'u' and 4 more do not exist: <transmission name=\"t0\">",
+                "</transmission>",
+            ),
+        )
+    )
+    assert found.fixes == ()
+
+
 def test_newer_distributions_refuse_the_description() -> None:
     """https://github.com/ros-controls/ros2_control/issues/1539"""
     escaped = f"<robot>{_URDF.format('wheel_joint', 'shoulder_joint')}</robot>".replace("<", "&lt;").replace(

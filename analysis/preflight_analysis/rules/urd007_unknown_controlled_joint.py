@@ -6,6 +6,7 @@ Since Jazzy the component parser of ros2_control throws for it: `Joint 'x' not f
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding, Severity
@@ -17,6 +18,9 @@ from preflight_analysis.rules.rule import Context, Rule
 
 _LENIENT = ("foxy", "galactic", "humble", "iron")
 """Distributions whose ros2_control loads the hardware all the same."""
+
+_MANY = 3
+"""So many further joints that are like none are not there for one reason, such as a prefix."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -34,15 +38,23 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             for joint in each.joints
             if joint.commands or joint.states
         }
-        for tag, owner, joint in dict.fromkeys(named):
-            if joint in joints or not joint:
+        missing = [
+            (*each, nearest(each[2], joints)) for each in dict.fromkeys(named) if each[2] and each[2] not in joints
+        ]
+        alike = Counter(tag for tag, _, _, near in missing if near is None)
+        for tag, owner, joint, near in missing:
+            more = alike[tag] - 1 if near is None else 0
+            if more >= _MANY:
+                alike[tag] = 0  # the others are said with this one
+            elif near is None and not alike[tag]:
                 continue
-            near = nearest(joint, joints)
             place, related = written(context, robot, "joint", "name", joint, tag)
             if not related:
                 place, related = written(context, robot, tag, "name", owner)
             yield rule.finding(
-                f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
+                f"joint '{joint}' and {more} more do not exist: <{tag} name=\"{owner}\"> and others use them"
+                if more >= _MANY
+                else f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
                 place,
                 severity=_severity(context, tag, refused, has_interfaces=(owner, joint) in with_interfaces),
                 related=related,
