@@ -96,6 +96,7 @@ TOPICS = f"[ROS 1: Topics]({_WIKI}/Topics)"
 TOPICS_2 = f"[ROS 2: About topics]({_DOCS}/Concepts/Basic/About-Topics.html)"
 TOPIC_NAMES = f"[ROS 2 design: Topic and service name mapping]({_DESIGN}/topic_and_service_names.html)"
 ROS_CONTROL_GAZEBO = "[Gazebo: ros_control](https://classic.gazebosim.org/tutorials?tut=ros_control)"
+ROS_GZ_BRIDGE = "[ros_gz_bridge](https://docs.ros.org/en/jazzy/p/ros_gz_bridge/)"
 ROS2_CONTROLLERS = "[ros2_controllers](https://control.ros.org/master/doc/ros2_controllers/doc/controllers_index.html)"
 ROS2_CONTROL_URDF = (
     "[ros2_control: URDF](https://control.ros.org/master/doc/ros2_control/hardware_interface/doc/"

@@ -1,0 +1,56 @@
+"""BRG001: types of ROS and Gazebo that the bridge does not convert into each other.
+
+https://github.com/gazebosim/ros_gz/blob/ros2/ros_gz_bridge/ros_gz_bridge/mappings.py
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.knowledge.conversions import gazebo_types
+from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
+from preflight_analysis.rules.gazebo_bridges import type_pairs
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.problems import include_chain, quoted, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    pairs = gazebo_types()
+    every = {name for names in pairs.values() for name in names}
+    for pair in type_pairs(context):
+        prefix, _, name = pair.gazebo.rpartition(".")
+        convertible = pairs.get(pair.ros.replace("/msg/", "/"), ())
+        if name in convertible:
+            continue
+        # A package of one's own may convert further types, hardly other pairs of the known ones.
+        near = nearest(name, convertible) or (convertible[0] if len(convertible) == 1 else None)
+        known = bool(convertible) and (name in every or nearest(name, convertible) is not None)
+        instead = quoted(f"{prefix}.{each}" for each in convertible)
+        yield rule.finding(
+            f"the bridge cannot convert '{pair.ros}' and '{pair.gazebo}'"
+            + (f"; it converts '{pair.ros}' and {instead}" if instead else f"; it does not know '{pair.ros}'"),
+            pair.place,
+            severity=None if known else "info",
+            confidence="likely" if known else "possible",
+            related=include_chain(pair.node.origin),
+            fixes=rename(context, pair.place, pair.gazebo, f"{prefix}.{near}") if known and near is not None else (),
+        )
+
+
+RULE = Rule(
+    id="BRG001",
+    name="bridge-type-pair",
+    severity="warning",
+    what="Checks for a ROS type and a Gazebo type in the arguments or the file of `ros_gz_bridge` that the bridge of "
+    "Humble to Jazzy does not convert into each other. A type that the bridge does not know is information, because a "
+    "build of your own may have more.",
+    why="The bridge does not create this topic: `Failed to create a bridge`. The others work, and nothing arrives on "
+    "this one.",
+    example="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.PointCloudPacked']",
+    instead="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan']",
+    references=(ROS_GZ_BRIDGE,),
+    generations=(2,),
+    check=_check,
+)
