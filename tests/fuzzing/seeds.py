@@ -210,6 +210,9 @@ ROBOT = b"""<robot><gazebo><plugin filename="gz_ros2_control-system" name="gz_ro
 <parameters>/a/b.yaml</parameters><controller_manager_name>cm</controller_manager_name><!-- <plugin> -->
 <ros><namespace>left</namespace><remapping>/tf:=tf</remapping></ros></plugin></gazebo></robot>
 """
+BEHAVIOR_TREE = b"""<root BTCPP_format="4" main_tree_to_execute="A"><include path="b.xml"/><BehaviorTree ID="A"><Control
+ID="Sequence"><Action ID="Wait"/><SubTree ID="B"/><Spin angle="{a}" _skipIf="a &lt; 1"/></Control></BehaviorTree></root>
+"""
 SRDF = b"""<robot name="r"><virtual_joint name="world" type="fixed" parent_frame="world" child_link="base"/>
 <group name="arm"><chain base_link="base" tip_link="tool"/><joint name="${prefix}elbow"/><group name="hand"/></group>
 <group_state name="home" group="arm"><joint name="elbow" value="0"/></group_state><passive_joint name="elbow"/>

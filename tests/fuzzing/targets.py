@@ -27,7 +27,7 @@ from typing import Any
 from hypothesis import strategies as st
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable, _decode
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.environment.cmake import read_build
 from preflight_analysis.environment.executables import ExecutableIndex
@@ -82,6 +82,7 @@ from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import Component, TraceRequest
 from preflight_analysis.tracing.run import RawRun, _take
 from preflight_analysis.tracing.trace_json import trace_json
+from preflight_analysis.trees.read import read_trees
 from preflight_analysis.workspace.index_data import data_of_index, index_of_data
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.project_settings import located_problems, read_project_settings
@@ -485,6 +486,14 @@ def semantic_description(data: bytes) -> None:
         assert named.value and "$" not in named.value
 
 
+def behavior_tree(data: bytes) -> None:
+    """What is named in a tree stands where it is said to stand."""
+    text = text_of(data)
+    found = read_trees(Document("/w/tree.xml", text, "", (), (), LineIndex(text)))
+    for each in (*found.nodes, *found.subtrees):
+        assert 0 <= each.span.start < each.span.end <= len(text)
+
+
 def setup_py(data: bytes) -> None:
     text = text_of(data)
     for name in ("setup.py", "setup.cfg", "pyproject.toml"):
@@ -724,6 +733,7 @@ TARGETS = (
         seeds.PYTHON,
     ),
     Target("gazebo-bridges", gazebo_bridges, lambda: [seeds.BRIDGES], seeds.YAML),
+    Target("behavior-tree", behavior_tree, lambda: [seeds.BEHAVIOR_TREE], seeds.XML),
     Target("semantic-description", semantic_description, lambda: [seeds.SRDF], seeds.XML),
     Target("robot-description", robot_description, lambda: [seeds.ROBOT, seeds.ROBOT_IN_PART], seeds.XML),
     Target("settings", settings, lambda: [seeds.SETTINGS], seeds.YAML),

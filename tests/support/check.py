@@ -342,11 +342,13 @@ def environment_of(fixture: Fixture) -> Environment:
 
 def _as_expectation(finding: Finding, context: Context) -> Expectation:
     location = finding.location
-    lines = context.documents[location.file].lines
+    document = context.documents.get(location.file) or context.disk.text(location.file)
+    assert isinstance(document, Document), location.file
+    lines = document.lines
     line, column = lines.position(location.span.start)
     end_line, end_column = lines.position(location.span.end)
     if end_line != line:
-        text = context.documents[location.file].text
+        text = document.text
         end_column = len(text[lines.line_start(line) : lines.line_span(line).end].rstrip("\r\n"))
     length = max(1, end_column - column)
     return Expectation(location.file, line, column, length, finding.severity, finding.rule, finding.message)

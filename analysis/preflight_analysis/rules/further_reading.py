@@ -11,6 +11,9 @@ ACTIONLIB = f"[ROS 1: actionlib]({_WIKI}/actionlib)"
 ACTIONS = f"[ROS 2 design: Actions]({_DESIGN}/actions.html)"
 ANNOTATIONS = "[Annotations](../annotations.md)"
 ANONYMOUS_NAMES = f"[ROS 1: roslaunch XML, substitution args]({_WIKI}/roslaunch/XML#substitution_args)"
+BEHAVIOR_TREES = (
+    "[Nav2: Behavior-tree navigator](https://docs.nav2.org/configuration/packages/configuring-bt-navigator.html)"
+)
 CLOCK = f"[ROS 1: Clock]({_WIKI}/Clock)"
 CLOCK_AND_TIME = f"[ROS 2 design: Clock and time]({_DESIGN}/clock_and_time.html)"
 COMMAND_LINE = f"[ROS 2 design: ROS command line arguments]({_DESIGN}/ros_command_line_arguments.html)"

@@ -1,0 +1,103 @@
+"""Text of a behaviour tree file → its trees (versions 3 and 4 of BehaviorTree.CPP).
+
+What makes a file one that cannot be loaded: VerifyXML and instantiateTree in src/xml_parsing.cpp of
+BehaviorTree/BehaviorTree.CPP, tags 3.8.6 and 4.7.0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.document import Document, Element, SyntaxProblem
+from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.xml import parse_xml
+
+_EXPLICIT = frozenset({"Action", "Condition", "Control", "Decorator"})
+_SUBTREES = frozenset({"SubTree", "SubTreePlus"})
+_UNCLOSED = ("expected </", "closes nothing", "is not closed", "</")
+
+
+@dataclass(frozen=True, slots=True)
+class Used:
+    """A node type or a tree that is used in a tree, and where its name stands."""
+
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class TreeFile:
+    """What a behaviour tree file has. `problems` are what the library refuses in the file by itself; `trees` the names
+    of its trees, `main` the one that is asked for. `includes`: it takes trees from other files, too."""
+
+    problems: tuple[SyntaxProblem, ...] = ()
+    trees: tuple[str, ...] = ()
+    main: Used | None = None
+    nodes: tuple[Used, ...] = ()
+    subtrees: tuple[Used, ...] = ()
+    includes: bool = False
+    format: str = ""
+
+
+def read_trees(document: Document) -> TreeFile:
+    """The trees of a file whose text the document has. Never raises; ask through `document.once`."""
+    parsed = parse_xml(document.path, document.text, lines=document.lines)
+    if parsed.problems:
+        # The library's parser takes much that is no XML (`<` in values): only tags that do not match are sure.
+        first = next((each for each in parsed.problems if any(word in each.message for word in _UNCLOSED)), None)
+        return TreeFile((first,) if first is not None and len(parsed.problems) == 1 else ())
+    root = parsed.root
+    if root is None:
+        return TreeFile((SyntaxProblem("the file has no <root>", Span(0, min(1, len(document.text)))),))
+    if root.tag != "root":
+        return TreeFile((SyntaxProblem(f"the document element must be <root>, not <{root.tag}>", root.tag_span),))
+    return _of_root(root)
+
+
+def _of_root(root: Element) -> TreeFile:
+    trees = tuple(each for each in root.elements if each.tag == "BehaviorTree")
+    ids = tuple(id_.name for each in trees if (id_ := _used(each, "ID")) is not None)
+    main = _used(root, "main_tree_to_execute")
+    includes = any(each.tag == "include" for each in root.elements)
+    problems: list[SyntaxProblem] = []
+    if not includes:
+        if main is not None and main.name not in ids and len(ids) == len(trees):
+            problems.append(SyntaxProblem(f"the file has no tree '{main.name}', its main tree", main.span))
+        elif main is None and len(trees) > 1:
+            text = f"<root> has {len(trees)} trees and no 'main_tree_to_execute'"
+            problems.append(SyntaxProblem(text, root.tag_span))
+        elif not trees:
+            problems.append(SyntaxProblem("<root> has no <BehaviorTree>", root.tag_span))
+    nodes: list[Used] = []
+    subtrees: list[Used] = []
+    for tree in trees:
+        children = tuple(tree.elements)
+        if len(children) != 1:
+            text = f"<BehaviorTree> must have exactly one child, not {len(children)}"
+            problems.append(SyntaxProblem(text, tree.tag_span))
+        for each in _below(tree):
+            named = _used(each, "ID")
+            if each.tag in _EXPLICIT or each.tag in _SUBTREES:
+                if named is None:
+                    problems.append(SyntaxProblem(f"<{each.tag}> needs an attribute 'ID'", each.tag_span))
+                else:
+                    (subtrees if each.tag in _SUBTREES else nodes).append(named)
+            else:
+                nodes.append(Used(each.tag, each.tag_span))
+    format_ = _used(root, "BTCPP_format")
+    version = format_.name if format_ is not None else ""
+    return TreeFile(tuple(problems), ids, main, tuple(nodes), tuple(subtrees), includes, version)
+
+
+def _below(element: Element) -> Iterator[Element]:
+    pending = list(element.elements)[::-1]
+    while pending:
+        each = pending.pop()
+        yield each
+        pending += list(each.elements)[::-1]
+
+
+def _used(element: Element, attribute: str) -> Used | None:
+    found = element.get(attribute)
+    return Used(found.value.text, found.value.span) if found is not None and found.value.text else None

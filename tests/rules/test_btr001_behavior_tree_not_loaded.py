@@ -1,0 +1,84 @@
+"""BTR001: a behaviour tree that cannot be loaded."""
+
+import pytest
+from support.behavior_trees import navigator
+from support.check import check
+
+
+def test_a_main_tree_that_is_not_there() -> None:
+    check(
+        navigator("""    <root main_tree_to_execute="Main">
+                                ^^^^ warning[BTR001] behavior tree cannot be loaded: the file has no tree 'Main'
+      <BehaviorTree ID="MainTree">
+        <Wait/>
+      </BehaviorTree>
+    </root>
+""")
+    )
+
+
+def test_no_main_tree_of_two() -> None:
+    check(
+        navigator("""    <root BTCPP_format="4">
+     ^^^^ warning[BTR001] <root> has 2 trees and no 'main_tree_to_execute'
+      <BehaviorTree ID="A"><Wait/></BehaviorTree>
+      <BehaviorTree ID="B"><Wait/></BehaviorTree>
+    </root>
+""")
+    )
+
+
+def test_a_subtree_that_is_not_there() -> None:
+    check(
+        navigator("""    <root BTCPP_format="4" main_tree_to_execute="Main">
+      <BehaviorTree ID="Main"><SubTree ID="Recovry"/></BehaviorTree>
+                                           ^^^^^^^ warning[BTR001] subtree 'Recovry' does not exist in this file; did you mean 'Recovery'?
+      <BehaviorTree ID="Recovery"><Wait/></BehaviorTree>
+    </root>
+""")  # noqa: E501
+    )
+
+
+def test_a_tree_with_two_children() -> None:
+    check(
+        navigator("""    <root>
+      <BehaviorTree ID="Main"><Wait/><Spin/></BehaviorTree>
+       ^^^^^^^^^^^^ warning[BTR001] <BehaviorTree> must have exactly one child, not 2
+    </root>
+""")
+    )
+
+
+def test_another_document_element() -> None:
+    check(
+        navigator("""    <BehaviorTree ID="Main"><Wait/></BehaviorTree>
+     ^^^^^^^^^^^^ warning[BTR001] the document element must be <root>, not <BehaviorTree>
+""")
+    )
+
+
+def test_a_tag_that_is_not_closed() -> None:
+    check(
+        navigator("""    <root>
+      <BehaviorTree ID="Main"><Sequence><Wait/></BehaviorTree>
+                               ^^^^^^^^ warning[BTR001] <Sequence> is not closed
+    </root>
+""")
+    )
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "tree",
+    [
+        '<root><BehaviorTree ID="A"><Wait/></BehaviorTree></root>',
+        '<root main_tree_to_execute="B"><include path="./b.xml"/><BehaviorTree ID="A"><SubTree ID="C"/></BehaviorTree>'
+        "</root>",
+        '<root main_tree_to_execute="A"><BehaviorTree ID="A"><SubTree ID="B"/></BehaviorTree>'
+        '<BehaviorTree ID="B"><Wait/></BehaviorTree></root>',
+        '<root><BehaviorTree ID="A"><Wait _skipIf="a < 1 && b"/></BehaviorTree></root>',
+    ],
+    ids=["one tree", "includes", "a subtree", "what is no XML and taken"],
+)
+def test_trees_that_can_be_loaded(tree: str) -> None:
+    check(navigator(f"{tree}\n"))
