@@ -24,7 +24,7 @@ def test_nothing_like_it() -> None:
     check(
         _launch(
             """        <OpenDoor/>
-         ^^^^^^^^ warning[BTR002] unknown behavior tree node 'OpenDoor'""",
+         ^^^^^^^^ info[BTR002] unknown behavior tree node 'OpenDoor'""",
             "nav2_wait_action_bt_node,nav2_spin_action_bt_node",
         )
     )

@@ -57,7 +57,8 @@ def _complaint(name: str, loaded: Loaded, distro: str | None, *, only_nav: bool)
         meant = near[0] if len(near) == 1 else None
         if meant is None and (not only_nav or loaded.file.includes):
             return None
-        return _Complaint(f"unknown behavior tree node '{name}'", severity, meant)
+        # Nav2 gets new nodes; a slip of a known one is none of them.
+        return _Complaint(f"unknown behavior tree node '{name}'", severity if meant is not None else "info", meant)
     if distro not in NAV_DISTRIBUTIONS:
         return None
     library = node.libraries.get(distro)
@@ -84,7 +85,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a node in a behavior tree that no library of bt_navigator has: a typo, a node of another "
     "distribution, or a node whose library `plugin_lib_names` does not list. Nodes of Nav2 and BehaviorTree.CPP are "
-    "known. The finding is information if `plugin_lib_names` lists other libraries, or if it is not known.",
+    "known. The finding is information if `plugin_lib_names` lists other libraries, or if it is not known. An unknown "
+    "node is information too if no known name is similar.",
     why="bt_navigator cannot create the tree. It rejects the goal or does not become active.",
     example='<RecoveryNod number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n</RecoveryNod>',
     instead='<RecoveryNode number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n</RecoveryNode>',
