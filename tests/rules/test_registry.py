@@ -163,7 +163,7 @@ def test_the_reference_is_written_and_stale_pages_go(tmp_path: Path) -> None:
     assert reference.main([]) == 2
 
 
-@pytest.mark.parametrize(("build_type", "severity"), [("ament_cmake", "info"), ("catkin", "error")])
+@pytest.mark.parametrize(("build_type", "severity"), [("ament_cmake", "info"), ("catkin", "warning")])
 def test_what_colcon_ignores_in_a_workspace_that_it_builds(tmp_path: Path, build_type: str, severity: str) -> None:
     for name, kind in (("base", build_type), ("old", "catkin")):
         (tmp_path / "src" / name).mkdir(parents=True)
@@ -175,3 +175,15 @@ def test_what_colcon_ignores_in_a_workspace_that_it_builds(tmp_path: Path, build
     environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
     found = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
     assert [(f.rule, f.severity) for f in found if f.rule == "ARG001"] == [("ARG001", severity)]
+
+
+@pytest.mark.parametrize(("build_type", "severity"), [("ament_cmake", "info"), ("catkin", "error")])
+def test_what_a_port_to_ros_2_left_behind(tmp_path: Path, build_type: str, severity: str) -> None:
+    manifest = f"<package><name>base</name><export><build_type>{build_type}</build_type></export></package>"
+    (tmp_path / "package.xml").write_text(manifest)
+    launch = tmp_path / "a.launch"
+    launch.write_text('<launch><include file="$(find base)/launch/gone.launch"/></launch>')
+    environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
+    found = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    assert [(f.rule, f.severity) for f in found] == [("LCH013", severity)]
+    assert found[0].message.endswith("(launch file of ROS 1 in a ROS 2 package)") == (severity == "info")

@@ -18,6 +18,7 @@ import preflight_analysis.rules as package
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
@@ -81,7 +82,7 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
             chosen,
             tuple(ran) if silenced else (),
             path in guessed,
-            path in by_file and _is_set_aside(context, path, by_file[path]),
+            _why_set_aside(context, path, by_file[path]) if path in by_file else None,
         )
     context.kept.end()
     return sorted_findings
@@ -170,13 +171,13 @@ def _of_file(
     rules: tuple[Rule, ...],
     ran: tuple[str, ...],
     is_guessed: bool,
-    is_set_aside: bool,
+    set_aside: str | None,
 ) -> tuple[Finding, ...]:
     """What is said of one file, of what the rules found there. `document` is that of a file with `suppressions`;
-    `is_guessed`: it is a program, and which branches it takes is not all known; `is_set_aside`: the workspace does
-    not build what is around it."""
-    if is_set_aside:
-        findings = tuple(_information(f) if f.severity in _GRAVE else f for f in findings)
+    `is_guessed`: it is a program, and which branches it takes is not all known; `set_aside`: why nobody starts it as
+    it is."""
+    if set_aside is not None:
+        findings = tuple(_information(f, set_aside) if f.severity in _GRAVE else f for f in findings)
     if is_guessed:
         findings = tuple(replace(f, confidence="likely") if f.confidence == "certain" else f for f in findings)
     filtered = apply_suppressions(unique(findings), suppressions, document)
@@ -192,12 +193,19 @@ def _of_file(
     return tuple(sorted(kept, key=_place))
 
 
-def _is_set_aside(context: Context, path: str, findings: Iterable[Finding]) -> bool:
-    return any(each.severity in _GRAVE for each in findings) and is_set_aside(context.disk, context.environment, path)
+def _why_set_aside(context: Context, path: str, findings: Iterable[Finding]) -> str | None:
+    if not any(each.severity in _GRAVE for each in findings):
+        return None
+    if is_set_aside(context.disk, context.environment, path):
+        return "colcon ignores this folder"
+    package = package_around(context.environment, path) if not context.tree.ros.ament else None
+    # Ports from ROS 1 to ROS 2 often keep the old launch files.
+    left_over = package is not None and package.is_ament and not package.conditional
+    return "launch file of ROS 1 in a ROS 2 package" if left_over else None
 
 
-def _information(finding: Finding) -> Finding:
-    return replace(finding, severity="info", message=f"{finding.message} (colcon ignores this folder)")
+def _information(finding: Finding, why: str) -> Finding:
+    return replace(finding, severity="info", message=f"{finding.message} ({why})")
 
 
 def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iterator[Finding]:
