@@ -48,7 +48,7 @@ def test_an_argument_is_declared_by_a_fix() -> None:
     text = """
         <launch>
           <param name="a" value="$(arg rate)"/>
-                                 ^^^^^^^^^^^ warning[ARG001] argument 'rate' is not declared; only the command line can
+                                 ^^^^^^^^^^^ error[ARG001] argument 'rate' is not declared; only the command line can
         </launch>
     """
     (finding,) = check(text)
@@ -132,7 +132,7 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
         <launch>
           <arg name="map_file" default="1"/>
           <param name="b" value="$(arg file)"/>
-                                 ^^^^^^^^^^^ warning[ARG001] argument 'file' is not declared; only the command line can
+                                 ^^^^^^^^^^^ error[ARG001] argument 'file' is not declared; only the command line can
           <param name="c" value="$(arg mapfile)"/>
                                  ^^^^^^^^^^^^^^ error[ARG001] 'mapfile' is not declared; did you mean 'map_file'?
           <include file="/part.launch" pass_all_args="true"/>
@@ -140,7 +140,7 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
         </launch>
         //- /part.launch
         <launch><param name="d" value="$(arg size)"/></launch>
-                                       ^^^^^^^^^^^ warning[ARG001] argument 'size' is not declared; only the command
+                                       ^^^^^^^^^^^ error[ARG001] argument 'size' is not declared; only the command
         //- /other.launch
         <launch><param name="e" value="$(arg size)"/></launch>
                                        ^^^^^^^^^^^ error[ARG001] argument 'size' is not declared
@@ -148,7 +148,7 @@ def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "severity"), [("README.md", "info"), ("../README", "info"), ("play.sh", "info"), ("play.cpp", "warning")]
+    ("place", "severity"), [("README.md", "info"), ("../README", "info"), ("play.sh", "info"), ("play.cpp", "error")]
 )
 def test_a_text_says_how_to_give_what_is_not_declared(tmp_path: Path, place: str, severity: str) -> None:
     package = tmp_path / "robot"

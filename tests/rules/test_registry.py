@@ -163,7 +163,7 @@ def test_the_reference_is_written_and_stale_pages_go(tmp_path: Path) -> None:
     assert reference.main([]) == 2
 
 
-@pytest.mark.parametrize(("build_type", "severity"), [("ament_cmake", "info"), ("catkin", "warning")])
+@pytest.mark.parametrize(("build_type", "severity"), [("ament_cmake", "info"), ("catkin", "error")])
 def test_what_colcon_ignores_in_a_workspace_that_it_builds(tmp_path: Path, build_type: str, severity: str) -> None:
     for name, kind in (("base", build_type), ("old", "catkin")):
         (tmp_path / "src" / name).mkdir(parents=True)

@@ -24,7 +24,7 @@ def test_what_an_argument_leaves_out_is_looked_at() -> None:
                            ^^^^^^^^^^^^^^^^^^^^^ error[LCH013] 'p/none.launch' does not exist (if sim:=true)
           </group>
           <param name="a" value="$(arg nme)" if="$(arg sim)"/>
-                                 ^^^^^^^^^^ warning[ARG001] argument 'nme' is not declared; only the command line
+                                 ^^^^^^^^^^ error[ARG001] argument 'nme' is not declared; only the command line
         </launch>
         """,
         branches=True,

@@ -49,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         severity: Severity = "error"
         if asked and not (near is not None and is_slip(name, near)):
-            severity = "info" if _is_documented(context, place.file, name) else "warning"
+            severity = "info" if _is_documented(context, place.file, name) else "error"
             message += f"; only the command line can set it ({name}:=...)"
         yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
 
@@ -99,9 +99,9 @@ RULE = Rule(
     "nearest declared argument. In ROS 2 an included file sets arguments for its includer, and sees those of its "
     "includer. After an unresolved include the finding is therefore a warning if an argument of a similar name "
     "exists, otherwise a hint. In a file that is made to be included it is information. In ROS 1 the command line "
-    "can give arguments that no file declares. Such a finding is a warning if no declared argument has a similar "
-    "name. It is information if a README, text or shell script beside the file contains `name:=`. It is information "
-    "too where an argument of the command line chooses what is declared.",
+    "can give arguments that no file declares. The finding is information if a README, text or shell script beside "
+    "the file contains `name:=`. It is information too where an argument of the command line chooses what is "
+    "declared.",
     why="`roslaunch` stops. An argument is visible only in the file that declares it, after its `<arg>`. An "
     "included file gets it only if the include passes it.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',
