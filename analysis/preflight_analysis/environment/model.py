@@ -109,6 +109,15 @@ class Environment:
         """What is so in its generation of ROS."""
         return ros(self.generation)
 
+    def is_installed(self, package: Package) -> bool:
+        """Whether a package lies where ROS is installed, and not in the workspace."""
+        return any(map(package.is_within, (*self.system_prefixes, *self.ament_prefixes)))
+
+    @property
+    def own_packages(self) -> list[Package]:
+        """Those that are not installed with ROS."""
+        return [package for package in self.packages.values() if not self.is_installed(package)]
+
     def interpreter(self, generation: int) -> str | None:
         """The one that has rospy or rclpy."""
         return {1: self.python, 2: self.ros2_python}[generation]

@@ -61,7 +61,7 @@ class PluginIndex:
         environment = self._environment
         if package.is_within(environment.workspace):
             return True
-        return not any(map(package.is_within, (*environment.system_prefixes, *environment.ament_prefixes)))
+        return not environment.is_installed(package)
 
     def _of_source(self, name: str, package: str) -> Plugin | None:
         # Loads the parser, which who has no plugins does without.

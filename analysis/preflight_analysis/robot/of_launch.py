@@ -102,9 +102,9 @@ def _semantics(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
 
 
 def _is_name(value: str) -> bool:
-    """Whether a parameter has the name of the description's own one (`/arm/robot_description`), which programs ask for
-    that by."""
-    return value.startswith("/") and names.is_legal(value)
+    """Whether a parameter has the name of the description's own one (`/arm/robot_description`, `arm_description`),
+    which programs ask for that by."""
+    return bool(value) and names.is_legal(value)
 
 
 def _robots(tree: LaunchTree) -> tuple[Robot, ...]:

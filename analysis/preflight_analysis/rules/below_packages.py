@@ -33,13 +33,10 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
     if not paths:
         return None
     programs = _started_of(document.text, name)
-    environment = context.environment
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     having = [
         package
-        for package in environment.packages.values()
-        if not package.share.startswith(installed)
-        and all(context.disk.exists(os.path.join(package.share, path)) for path in paths)
+        for package in context.environment.own_packages
+        if all(context.disk.exists(os.path.join(package.share, path)) for path in paths)
         and all(_has_program(context, package.name, program) for program in programs)
     ]
     return (having[0], paths[0]) if len(having) == 1 else None

@@ -80,12 +80,6 @@ def lack_of_package(context: Context, name: str) -> Lack:
     return Lack("package", name, f"apt install {package}" if package is not None else None)
 
 
-def is_installed(context: Context, package: Package) -> bool:
-    """Whether a package lies where ROS is installed, and not in the workspace."""
-    prefixes = (*context.environment.system_prefixes, *context.environment.ament_prefixes)
-    return package.share.startswith(tuple(f"{prefix}/" for prefix in prefixes))
-
-
 def debian_package_of(context: Context, name: str) -> str | None:
     """What a package of ROS is installed as, where the distribution that is used here has released it."""
     known, used = DISTRIBUTIONS[context.tree.generation], context.environment.distro
@@ -128,7 +122,7 @@ def is_of_family(context: Context, name: str, near: str) -> bool:
 
 def words_of_folders(context: Context) -> frozenset[str]:
     """The words in the names of the folders that packages of the workspace are in."""
-    own = (package.share for package in context.environment.packages.values() if not is_installed(context, package))
+    own = (package.share for package in context.environment.own_packages)
     folders = {os.path.dirname(share) for share in own}
     return frozenset(word for folder in folders for word in _BETWEEN.split(folder) if word)
 
@@ -146,7 +140,7 @@ def _released_dependencies(context: Context) -> frozenset[str]:
 
 def _absent_dependencies(context: Context) -> frozenset[str]:
     packages = context.environment.packages
-    own = (package.dependencies for package in packages.values() if not is_installed(context, package))
+    own = (package.dependencies for package in context.environment.own_packages)
     return frozenset[str]().union(*own) - packages.keys()
 
 
@@ -161,7 +155,7 @@ def lack_of_build(context: Context, package: str) -> Lack:
     """A package that is there without what its build makes: one of the workspace is not built, of an installed one a
     part is not installed."""
     known = context.environment.packages.get(package)
-    if known is not None and is_installed(context, known):
+    if known is not None and context.environment.is_installed(known):
         return lack_of_package(context, package)
     build = "colcon build --packages-select" if context.tree.ros.ament else "catkin build"
     return Lack("build", package, f"{build} {package}")
@@ -183,7 +177,7 @@ def _left_package(context: Context, path: str) -> Package | None:
     """The package out of whose share folder a path leads by `..`, before it is built: where that is in an installation
     is another place than in the source (`install/robot/share/robot/../../../..` is the workspace)."""
     package = package_around(context.environment, path) if context.tree.ros.ament and "/../" in path else None
-    if package is None or is_installed(context, package):
+    if package is None or context.environment.is_installed(package):
         return None
     inside = f"{os.path.normpath(path)}/".startswith(f"{package.share.rstrip('/')}/")
     return package if not inside else None

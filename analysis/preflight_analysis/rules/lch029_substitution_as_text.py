@@ -22,7 +22,6 @@ from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.installed import is_installed
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
@@ -135,7 +134,7 @@ def _program_that_replaces(context: Context, param: Param) -> str | None:
     expression for them."""
     node = next((node for node in context.tree.nodes if param.name.startswith(f"{node.name}/")), None)
     package = context.environment.packages.get(node.package) if node is not None else None
-    if package is None or is_installed(context, package):
+    if package is None or context.environment.is_installed(package):
         return None
     return _source_with(context.disk.db, package.share)
 

@@ -85,8 +85,7 @@ def writes_name(db: Database, share: str, name: str) -> bool:
 
 @query
 def _in_workspace(db: Database, environment: Environment) -> Mapping[Named, int]:
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
-    shares = {each.share for each in environment.packages.values() if not each.share.startswith(installed)}
+    shares = {each.share for each in environment.own_packages}
     counts: Counter[Named] = Counter()
     for share in sorted(shares) if len(shares) <= _MOST_PACKAGES else ():
         # A package within another one is looked at with that.

@@ -85,7 +85,7 @@ def meant_in_sources(db: Database, environment: Environment, share: str, name: s
 @query
 def is_asked_beside(db: Database, environment: Environment, share: str, leaf: str) -> bool:
     """Whether a source in another package of the workspace asks for a parameter of that name."""
-    shares = sorted(_own_shares(environment) - {share})
+    shares = sorted({each.share for each in environment.own_packages} - {share})
     found = (_in_folder(db, each) for each in shares[:_MOST_PACKAGES])
     return any(each.name == leaf for index in found if index is not None for each in index.asked)
 
@@ -156,14 +156,9 @@ def _are_opposite(name: str, other: str) -> bool:
 @query
 def _in_workspace(db: Database, environment: Environment) -> tuple[_Index, ...]:
     """Of each package; none where there are too many, or one is too large."""
-    shares = _own_shares(environment)
+    shares = {each.share for each in environment.own_packages}
     found = [_in_folder(db, share) for share in sorted(shares)] if len(shares) <= _MOST_PACKAGES else []
     return () if None in found else tuple(each for each in found if each is not None)
-
-
-def _own_shares(environment: Environment) -> set[str]:
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
-    return {each.share for each in environment.packages.values() if not each.share.startswith(installed)}
 
 
 @query

@@ -159,11 +159,8 @@ def _of_like_words(context: Context, name: str) -> Package | None:
     that all packages of the project may have, as its folder has it, tells nothing."""
     generic = _GENERIC | context.once(words_of_folders)
     words, environment = name.split("_"), context.environment
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
     here, own = [], package_around(environment, context.root)
-    for package in environment.packages.values():
-        if package.share.startswith(installed):
-            continue
+    for package in environment.own_packages:
         others = package.name.split("_")
         if package is own or _ROLES.issuperset(set(words) ^ set(others)):
             continue

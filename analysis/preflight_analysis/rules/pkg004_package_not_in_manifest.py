@@ -60,8 +60,7 @@ def _missing(launch_file: LaunchFile, environment: Environment) -> tuple[Package
     """The package of the file, and those that it uses and the package does not name."""
     owner = package_around(environment, launch_file.path)
     # What is installed is not for the user to mend; of ROS 2's installed packages no manifest was read.
-    installed = (*environment.system_prefixes, *environment.ament_prefixes)
-    if owner is None or any(owner.share.startswith(f"{prefix}/") for prefix in installed):
+    if owner is None or environment.is_installed(owner):
         return None
     missing = tuple(
         (name, span)

@@ -14,7 +14,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
-from preflight_analysis.rules.installed import is_installed, is_of_family, near_package
+from preflight_analysis.rules.installed import is_of_family, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words, nearest
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -47,7 +47,7 @@ def _packages(context: Context) -> Iterator[Package]:
     one_of_folder = {os.path.dirname(path): path for path in context.launch_files}
     found = (package_around(environment, path) for path in one_of_folder.values())
     for package in dict.fromkeys(found):
-        if package is not None and not is_installed(context, package):
+        if package is not None and not context.environment.is_installed(package):
             yield package
 
 

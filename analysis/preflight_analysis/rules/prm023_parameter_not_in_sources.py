@@ -98,8 +98,7 @@ def _of_workspace(context: Context, node: LaunchNode) -> Package | None:
         words = [word for word in split_args(node.args) if not word.startswith("-")]
         name = words[1].partition("/")[0] if len(words) > 1 else ""
     package, environment = context.environment.packages.get(name), context.environment
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
-    return None if package is None or package.share.startswith(installed) else package
+    return None if package is None or environment.is_installed(package) else package
 
 
 def _others_speak(context: Context, interface: Interface) -> bool:

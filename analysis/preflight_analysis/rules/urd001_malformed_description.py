@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
@@ -15,8 +14,6 @@ from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
-_NAME = re.compile(r"[~/]?[A-Za-z][\w/]*")
-"""Of the parameter or topic that has the description, which is what some nodes call so."""
 _KINDS = ("robot", "sdf")
 """Tags of roots that robot_state_publisher takes; SDF by a plugin (sdformat_urdf)."""
 
@@ -24,7 +21,7 @@ _KINDS = ("robot", "sdf")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for robot in robots_of(context.tree):
         description, text = robot.description, robot.text.strip()
-        if not text or _NAME.fullmatch(text):
+        if not text:
             continue
         if description.malformed is not None:
             yield _malformed(rule, context, robot, description.malformed)

@@ -45,8 +45,7 @@ def in_workspace(context: Context, patterns: Patterns) -> bool:
 
 @query
 def _in_workspace(db: Database, environment: Environment, patterns: Patterns) -> bool:
-    installed = tuple(f"{prefix}/" for prefix in (*environment.system_prefixes, *environment.ament_prefixes))
-    shares = sorted({each.share for each in environment.packages.values() if not each.share.startswith(installed)})
+    shares = sorted({each.share for each in environment.own_packages})
     return any(_in_folder(db, share, patterns, LAUNCH_SUFFIXES) for share in shares)
 
 

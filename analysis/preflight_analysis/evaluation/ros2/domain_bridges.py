@@ -9,10 +9,8 @@ from collections.abc import Mapping
 from itertools import chain
 from typing import TYPE_CHECKING
 
-import yaml
-
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, load_plain
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.words import words_of
 
@@ -34,8 +32,8 @@ def bridged_topics(node: LaunchNode, documents: Mapping[str, Document]) -> froze
     if document is None:
         return None
     try:
-        data = yaml.safe_load(document.text)
-    except (yaml.YAMLError, *CONSTRUCTION_ERRORS):
+        data = load_plain(document.text)
+    except CONSTRUCTION_ERRORS:
         return None
     topics = data.get("topics") if isinstance(data, dict) else None
     if not isinstance(topics, dict):
