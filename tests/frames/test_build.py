@@ -68,6 +68,27 @@ def test_static_transforms() -> None:
     assert _edges(frames) == {("map", "odom", True), ("base", "lidar", True)}
 
 
+def test_what_the_source_says() -> None:
+    frames = {
+        "frames": [
+            ["odom", "base", False, True, False, "/p/d.cpp", 3],
+            ["odom", "cart", False, True, True, "/p/d.cpp", 4],
+        ]
+    }
+    found = _frames('<node pkg="p" exec="n" name="n"/>', more=f"\n//- interfaces\n{json.dumps({'/n': frames})}")
+    assert [(edge.child, edge.by, edge.doubt) for edge in found.edges] == [
+        ("base", "/n (d.cpp:3)", "likely"), ("cart", "/n (d.cpp:4)", "possible"),
+    ]  # fmt: skip
+    assert found.complete
+
+
+def test_a_frame_that_the_source_does_not_tell() -> None:
+    frames = {"frames": [["odom", "base", False, True, False, "/p/d.cpp", 3], ["", "cart", False, True]]}
+    found = _frames('<node pkg="p" exec="n" name="n"/>', more=f"\n//- interfaces\n{json.dumps({'/n': frames})}")
+    assert _edges(found) == {("odom", "base", False)}
+    assert found.gaps == ("the frames that /n broadcasts are not known",)
+
+
 def test_what_runs_saw() -> None:
     interfaces = json.dumps({"/n": {"frames": [["/odom", "base"]], "answers": [
         "it waits for the transform map <- lidar, and was given the identity",

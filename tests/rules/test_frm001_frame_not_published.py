@@ -59,6 +59,42 @@ def test_a_driver_that_publishes_other_frames_than_the_robot_has() -> None:
     check(fixture(nodes, {"/driver": {"answers": [answer], "source": "settings"}}))
 
 
+def _of_source(frame: str, call: str = "Buffer::lookupTransform", **more: object) -> dict[str, object]:
+    use = [frame, call, "/" not in call, more.pop("conditional", False), "/p/src/d.cpp", 7]
+    return {"frame_uses": [use], "source": "source", "status": "not-run", **more}
+
+
+def test_what_the_source_asks_for() -> None:
+    said = "warning[FRM001] 'camera_lnk' has no publisher: /driver uses it (Buffer::lookupTransform in d.cpp:7); did"
+    nodes = f"{robot(('base_link', 'camera_link'))}\n{_UNKNOWN}\n{below(0, len(_UNKNOWN), said)}"
+    check(fixture(nodes, {"/driver": {**_of_source("camera_lnk"), "source": "settings"}}))
+
+
+@pytest.mark.parametrize(
+    "driver",
+    [
+        # What the text does not tell of the node may broadcast it.
+        _of_source("camera_lnk"),
+        {**_of_source("camera_lnk", conditional=True), "source": "settings"},
+    ],
+)
+def test_what_the_source_may_ask_for(driver: dict[str, object]) -> None:
+    nodes = f"{robot(('base_link', 'camera_link'))}\n{_UNKNOWN}\n{below(0, len(_UNKNOWN), 'info[FRM001] camera_lnk')}"
+    check(fixture(nodes, {"/driver": driver}))
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "driver",
+    [
+        {**_of_source("camera_lnk"), "frames": [["base_link", "camera_lnk", False, True, False, "/p/src/d.cpp", 9]]},
+        _of_source("trailer"),
+    ],
+)
+def test_what_a_node_broadcasts_by_its_source(driver: dict[str, object]) -> None:
+    check(fixture(f"{robot(('base_link', 'camera_link'))}\n{_UNKNOWN}", {"/driver": driver}))
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     "nodes",

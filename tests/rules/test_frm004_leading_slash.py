@@ -1,5 +1,7 @@
 """FRM004: a frame with a slash in front, which tf2 refuses."""
 
+import json
+
 import pytest
 from support.check import apply, check
 from support.frame_launch import EKF, EKF_COLUMN, below, fixture, static
@@ -27,3 +29,40 @@ def test_ros_1_takes_it_off() -> None:
       <param name="base_link_frame" value="/base"/></node>"""
     package = "\n//- /robot_localization/package.xml\n<package><name>robot_localization</name></package>"
     check(f"<launch>{node}</launch>{package}")
+
+
+_UNKNOWN = '<node pkg="p" {}="driver" name="driver"/>'
+
+
+def _source(call: str, looked_up: bool = True) -> dict[str, object]:
+    return {"/driver": {"frame_uses": [["/map", call, looked_up, False, "/p/src/d.cpp", 7]], "source": "settings"}}
+
+
+@pytest.mark.parametrize(
+    ("call", "severity"), [("lookup_transform", "warning"), ("sensor_msgs/Imu", "info"), ("lookupTransform", "warning")]
+)
+def test_the_source_of_a_node(call: str, severity: str) -> None:
+    node = _UNKNOWN.format("exec")
+    said = f"{severity}[FRM004] frame '/map' begins with '/', which tf2 refuses: /driver uses it ({call} in d.cpp:7)"
+    check(fixture(f"{node}\n{below(0, len(node), said)}", _source(call, "/" not in call)))
+
+
+@pytest.mark.silent
+def test_what_takes_the_slash_off() -> None:
+    check(fixture(_UNKNOWN.format("exec"), _source("MessageFilter")))
+
+
+def test_tf2_in_ros_1() -> None:
+    node = _UNKNOWN.format("type")
+    said = (
+        "warning[FRM004] frame '/map' begins with '/', which tf2 refuses: /driver uses it (Buffer::lookupTransform in"
+    )
+    interfaces = json.dumps(_source("Buffer::lookupTransform"))
+    check(f"<launch>\n{node}\n{below(0, len(node), said)}\n</launch>\n//- interfaces\n{interfaces}")
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(("call", "looked_up"), [("lookupTransform", True), ("sensor_msgs/Imu", False)])
+def test_tf_in_ros_1(call: str, looked_up: bool) -> None:
+    interfaces = json.dumps(_source(call, looked_up))
+    check(f"<launch>\n{_UNKNOWN.format('type')}\n</launch>\n//- interfaces\n{interfaces}")

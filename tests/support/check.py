@@ -52,6 +52,7 @@ from preflight_analysis.tracing.interface import (
     NOT_RUN,
     Endpoint,
     Frame,
+    FrameUse,
     Interface,
     MadeNode,
     Outcome,
@@ -264,7 +265,8 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
-    `answers`, `lacks`; `frames`, a list of parent and child; `md5` `{name: sum}`; `qos` `{name: {policy: value}}`;
+    `answers`, `lacks`; `frames` and `frame_uses`, lists with the fields of `Frame` and `FrameUse`; `md5` `{name: sum}`;
+    `qos` `{name: {policy: value}}`;
     `made` `{name: [file, line]}`; `builtin`, `speculative`, `on_demand` and `similar`, lists of names; `catalogued`;
     `nodes`, those that the process makes, with the fields of `MadeNode`.
     """
@@ -313,6 +315,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         tuple(params),
         notes=tuple(data.get("notes", ())),
         frames=tuple(Frame(*each) for each in data.get("frames", ())),
+        frame_uses=tuple(FrameUse(*each) for each in data.get("frame_uses", ())),
         nodes=nodes,
         stand_ins=tuple(data.get("stand_ins", ())),
     )

@@ -93,6 +93,8 @@ def _gaps(
                 yield f"the robot description of {_named(node)} is incomplete: {named(robot.description.lacks)}"
             elif robot is None or not robot.description.is_whole:
                 unread.append(_named(node))
+        elif interface is not None and any(not (frame.parent and frame.child) for frame in interface.frames):
+            unclear.append(_named(node))
         elif found or (about is not None and about.is_used):
             continue
         elif interface is None or not interface.known:

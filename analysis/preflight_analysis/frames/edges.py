@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -13,7 +14,7 @@ from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.tf_frames import frame_in_arguments
 from preflight_analysis.robot.model import GazeboPlugin
 from preflight_analysis.robot.of_launch import Robot
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import Frame, Interface
 
 _STATE_PUBLISHERS = ("robot_state_publisher", "state_publisher")
 _FIXED = "="
@@ -69,12 +70,33 @@ def edges_of_node(
     if arguments is not None:
         parent, child = plain(arguments.parent), plain(arguments.child)
         add(Edge(parent, child, arguments.static, "arguments", node, node.location, space))
-    for frame in interface.frames if interface is not None else ():
-        parent, child = plain(frame.parent), plain(frame.child)
-        add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
+    frames = interface.frames if interface is not None else ()
+    for frame in frames:
+        if not frame.inferred:
+            parent, child = plain(frame.parent), plain(frame.child)
+            add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
     for edge in _of_knowledge(node, known, given, space):
         add(replace(edge, sure=False) if has_prefix else edge)
+    # What is known of it otherwise is more than its text tells.
+    for frame in frames if not found else ():
+        add(_of_source(frame, node, space))
     return tuple(found.values())
+
+
+def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
+    """A transform that the source tells: never sure, as the node may not come to where it broadcasts."""
+    return Edge(
+        plain(frame.parent),
+        plain(frame.child),
+        frame.static,
+        "source",
+        node,
+        node.location,
+        space,
+        False,
+        f"{os.path.basename(frame.source_file)}:{frame.source_line}",
+        conditional=frame.conditional,
+    )
 
 
 def _of_knowledge(node: LaunchNode, known: Known | None, given: Sequence[Param], space: str) -> Iterator[Edge]:

@@ -11,9 +11,9 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.incremental.once import Once
 from preflight_analysis.robot.of_launch import Robot
 
-How = Literal["urdf", "arguments", "run", "knowledge", "gazebo"]
+How = Literal["urdf", "arguments", "run", "source", "knowledge", "gazebo"]
 """How a transform is known: from the joint of a robot description, the arguments of a static transform publisher, a run
-of the node, what is known of its package, or a plugin of Gazebo in the description."""
+of the node, its source, what is known of its package, or a plugin of Gazebo in the description."""
 MOST_STEPS = 1000
 """From a frame up to its root."""
 
@@ -35,6 +35,15 @@ class Edge:
     detail: str = ""
     """The joint, the parameters, the plugin or the words in which it is known."""
     robot: Robot | None = None
+    conditional: bool = False
+    """In the source, only a condition that is not known leads there."""
+
+    @property
+    def doubt(self) -> str:
+        """How far it is from sure, in a word for the user; empty where it is sure."""
+        if self.sure:
+            return ""
+        return "likely" if self.how == "source" and not self.conditional else "possible"
 
     @property
     def by(self) -> str:
@@ -58,6 +67,8 @@ class Use:
     space: str = ""
     looked_up: bool = True
     sure: bool = True
+    call: str = ""
+    """What of the node's source gets the frame, as of `FrameUse`; empty where it is known otherwise."""
 
     @property
     def location(self) -> Location:

@@ -15,7 +15,7 @@ from preflight_analysis.frames.edges import plain, space_of
 from preflight_analysis.frames.model import Mention, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import FrameUse, Interface
 
 _LEGAL = re.compile(r"/*[A-Za-z_][\w/.-]*\Z")
 _NAMES_A_FRAME = re.compile(r"(?:^|[._/])(?:\w*_)?frame(?:_?id|_?name)?$|[a-z]Frame(?:Id|ID|Name)?$")
@@ -39,7 +39,18 @@ def uses_of_node(
         if (asked := _ASKED.search(answer)) is not None:
             what = f"transform {asked[1]} <- {asked[2]}"
             found += (Use(plain(frame), frame, node, what, None, space) for frame in asked.groups() if is_frame(frame))
+    for use in interface.frame_uses if interface is not None else ():
+        if is_frame(use.frame):
+            found.append(_of_source(use, node, given, space))
     return tuple(found)
+
+
+def _of_source(use: FrameUse, node: LaunchNode, given: Sequence[Param], space: str) -> Use:
+    """A frame that the source names; where a parameter of the node has it for its value, that is where it is set."""
+    what = f"{use.call} in {os.path.basename(use.source_file)}:{use.source_line}"
+    params = (param for name, param in own_params(node, given) if param.value == use.frame)
+    param = next(params, None)
+    return Use(plain(use.frame), use.frame, node, what, param, space, use.looked_up, not use.conditional, use.call)
 
 
 def _of_knowledge(

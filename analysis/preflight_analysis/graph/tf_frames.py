@@ -17,11 +17,12 @@ _PARENT_PARAM, _CHILD_PARAM = "frame_id", "child_frame_id"
 
 
 def frames_of(node: LaunchNode, interface: Interface) -> tuple[Frame, ...]:
-    """Those that a run saw, and for `static_transform_publisher` what its arguments say."""
+    """Those that a run saw or the source tells, and for `static_transform_publisher` what its arguments say."""
     given = frame_in_arguments(node)
+    known = tuple(frame for frame in interface.frames if frame.parent and frame.child)
     if given is None:
-        return interface.frames
-    return tuple(sorted({given, *(f for f in interface.frames if (f.parent, f.child) != (given.parent, given.child))}))
+        return known
+    return tuple(sorted({given, *(f for f in known if (f.parent, f.child) != (given.parent, given.child))}))
 
 
 def frame_in_arguments(node: LaunchNode) -> Frame | None:

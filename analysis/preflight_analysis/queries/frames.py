@@ -119,7 +119,7 @@ def _publishers(symbol: FrameSymbol, frames: Frames) -> Iterator[str]:
     yield ""
     for edge in edges[:_SHOWN]:
         where = place(symbol.analysis, place_of_edge(symbol.analysis.context, edge))
-        sure = "" if edge.sure else ", possible"
+        sure = f", {edge.doubt}" if edge.doubt else ""
         yield f"- {code(edge.parent)} → {code(edge.child)} by {escaped(edge.by)}{sure} — {where}"
 
 

@@ -272,7 +272,7 @@ def _frame(context: Context, branch: Branch) -> Item:
         ", ".join(edge.by for edge in branch.edges),
         location=place,
         file=place.file if place is not None else None,
-        note="" if all(edge.sure for edge in branch.edges) else "possible",
+        note=next((edge.doubt for edge in branch.edges if edge.doubt), ""),
         children=tuple(_frame(context, each) for each in branch.children),
     )
 

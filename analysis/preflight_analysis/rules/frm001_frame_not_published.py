@@ -44,14 +44,18 @@ def _judged(frames: Frames, missing: MissingFrame, is_mentioned: bool) -> tuple[
     if missing.near is not None:
         # What a robot includes and that is not here may have the frame itself.
         in_part = any(edge.robot is not None and edge.robot.description.lacks for edge in frames.edges)
-        if is_mentioned or not use.sure or in_part:
+        # What the text of a node tells is believed where all others are known.
+        in_doubt = not use.sure or (use.call and not frames.complete)
+        if is_mentioned or in_doubt or in_part:
             return "info", "possible"
         return "warning", "likely" if frames.complete else "possible"
     if is_mentioned or not any(edge.how == "urdf" and edge.sure for edge in frames.edges):
         return None  # what has no robot in it is started beside another launch
     if frames.complete:
-        return "info", "likely" if use.sure else "possible"
-    return ("hint", "possible") if use.param is not None and use.frame not in _OF_OTHER_LAUNCHES else None
+        return "info", "likely" if use.sure and not use.call else "possible"
+    return (
+        ("hint", "possible") if use.param is not None and not use.call and use.frame not in _OF_OTHER_LAUNCHES else None
+    )
 
 
 RULE = Rule(

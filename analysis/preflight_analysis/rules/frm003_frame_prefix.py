@@ -25,11 +25,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ends = (edge.child, edge.parent)
             published = next(end for end in ends if end.endswith(use.frame) or use.frame.endswith(end))
             message = f"frame '{use.frame}' is published as '{published}': {use.node.name} uses it ({use.what})"
+        known = use.sure and not use.call
         yield rule.finding(
             message,
             place_of_use(context, use),
-            confidence="likely" if use.sure else "possible",
-            severity=None if use.sure else "info",
+            confidence="likely" if known else "possible",
+            severity=None if known else "info",
             related=(
                 Related(f"published by {edge.by}", place_of_edge(context, edge)),
                 *(include_chain(use.node.origin) if use.param is None else ()),

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
-from preflight_analysis.tracing.interface import Endpoint, MadeNode, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, Frame, FrameUse, MadeNode, ParamUse
 
 _MAX_FOUND = 500
 _MAX_NODES = 32
+_MAX_FRAMES = 100
+_LONGEST_FRAME = 200
+_NO_FRAME = re.compile(r"\s")
 
 
 class Collector:
@@ -21,6 +25,8 @@ class Collector:
         self._endpoints: dict[tuple[str, str, str | None], Endpoint] = {}
         self._uses: dict[tuple[str, str, bool], ParamUse] = {}
         self._nodes: dict[MadeNode, None] = {}
+        self._frames: dict[tuple[str, str, bool], Frame] = {}
+        self._frame_uses: dict[tuple[str, str], FrameUse] = {}
         self._alternatives = False
         self._unknown_nodes = False
         self._missed = False
@@ -44,6 +50,16 @@ class Collector:
         branches of a condition for example."""
         ambiguous = self._unknown_nodes or (self._alternatives and len(self._nodes) > 1)
         return () if ambiguous else tuple(self._nodes)
+
+    @property
+    def frames(self) -> tuple[Frame, ...]:
+        """The transforms that are broadcast, in order."""
+        return tuple(self._frames.values())
+
+    @property
+    def frame_uses(self) -> tuple[FrameUse, ...]:
+        """The frames that are asked for or put into messages, in order."""
+        return tuple(self._frame_uses.values())
 
     @property
     def whole(self) -> bool:
@@ -96,6 +112,32 @@ class Collector:
                 self._uses[key] = replace(before, conditional=False)
         else:
             self.miss()
+
+    def broadcast(self, parent: Any, child: Any, static: bool, file: str, line: int) -> None:
+        """A transform that is broadcast; a frame that is not known is noted as such. Callbacks count like the rest:
+        most transforms are broadcast in one."""
+        if len(self._frames) >= _MAX_FRAMES:
+            return
+        named = Frame(_frame(parent), _frame(child), static, True, self.branches.inside, file, line)
+        key = (named.parent, named.child, static)
+        before = self._frames.get(key)
+        if before is None or (before.conditional and not named.conditional):
+            self._frames[key] = named
+
+    def use_frame(self, frame: Any, call: str, looked_up: bool, file: str, line: int) -> None:
+        """A frame that is asked for, or stands in a message that is published."""
+        named = _frame(frame)
+        if not named or len(self._frame_uses) >= _MAX_FRAMES:
+            return
+        use = FrameUse(named, call, looked_up, self.branches.inside, file, line)
+        before = self._frame_uses.get((named, call))
+        if before is None or (before.conditional and not use.conditional):
+            self._frame_uses[named, call] = use
+
+
+def _frame(value: Any) -> str:
+    """The name of a frame, empty where it is not known or can be none."""
+    return value if isinstance(value, str) and len(value) < _LONGEST_FRAME and not _NO_FRAME.search(value) else ""
 
 
 def is_name(value: Any) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 from tree_sitter import Node
 
 from preflight_analysis.source.branches import ExitError
+from preflight_analysis.source.cpp_frames import message_of
 from preflight_analysis.source.cpp_objects import Objects
 from preflight_analysis.source.cpp_operators import (
     MAX_ITEMS,
@@ -29,6 +30,7 @@ from preflight_analysis.source.cpp_values import (
     Fluent,
     Function,
     Instance,
+    Message,
     Place,
     Placeholder,
     Reference,
@@ -107,6 +109,8 @@ class CallExpressions(Objects):
             return self._make(type_, args, place, scope)
         if type_ is not None and (name in SMART_POINTERS or standard(type_.name) in STANDARD | CALLABLE):
             return self._make(type_, args, place, scope)
+        if type_ is not None and (message := message_of(type_, args)) is not None:
+            return message
         if len(path) == 1 and scope.this is not None:
             found = self._library_method(scope.this, call)
             if found is not UNKNOWN:
@@ -202,7 +206,8 @@ class CallExpressions(Objects):
     def _container(self, owner: list[Any] | dict[Any, Any], name: str, args: list[Argument]) -> Any:
         if isinstance(owner, list) and name in ("push_back", "emplace_back", "insert", "push", "add") and args:
             if len(owner) < MAX_ITEMS and not self._branches.inside:
-                owner.append(args[-1].value)
+                last = args[-1].value
+                owner.append(last.copy() if isinstance(last, Message) else last)
             return None
         if name == "clear" and not self._branches.inside:
             owner.clear()

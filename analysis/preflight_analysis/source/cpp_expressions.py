@@ -12,7 +12,7 @@ from preflight_analysis.source.cpp_call_expressions import MAX_WAITING, CallExpr
 from preflight_analysis.source.cpp_operators import MAX_ITEMS, binary, item, next_word, number, truth, unary
 from preflight_analysis.source.cpp_program import CppProgram
 from preflight_analysis.source.cpp_text import first_child, parameters_of, path_of, text_of
-from preflight_analysis.source.cpp_values import Calls, Fluent, Function, Instance, Reference, Scope, Stream
+from preflight_analysis.source.cpp_values import Calls, Fluent, Function, Instance, Message, Reference, Scope, Stream
 from preflight_analysis.source.python_values import UNKNOWN
 
 MAX_STEPS = 80_000
@@ -108,7 +108,7 @@ class Expressions(CallExpressions):
         name = text_of(node.child_by_field_name("field"))
         if isinstance(owner, Instance):
             return owner.names.get(name, UNKNOWN)
-        return UNKNOWN
+        return owner.inner(name) if isinstance(owner, Message) else UNKNOWN
 
     def _binary(self, node: Node, scope: Scope) -> Any:
         operator = text_of(node.child_by_field_name("operator"))
@@ -162,7 +162,8 @@ class Expressions(CallExpressions):
         if reference is not None:
             if isinstance(value, list):
                 value = list(value)
-            self._branches.store(reference.names, reference.name, value)
+            stored = value.copy() if isinstance(value, Message) else value
+            self._branches.store(reference.names, reference.name, stored)
         return value
 
     def _update(self, node: Node, scope: Scope) -> Any:
@@ -184,7 +185,7 @@ class Expressions(CallExpressions):
                 return self._variable(path_of(node), scope)
             case "field_expression":
                 owner = self._value(node.child_by_field_name("argument"), scope)
-                if isinstance(owner, Instance):
+                if isinstance(owner, (Instance, Message)):
                     return Reference(owner.names, text_of(node.child_by_field_name("field")))
             case "pointer_expression":
                 return self._lvalue(node.child_by_field_name("argument"), scope)

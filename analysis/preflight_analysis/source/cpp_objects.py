@@ -7,6 +7,7 @@ from typing import Any
 
 from tree_sitter import Node
 
+from preflight_analysis.source.cpp_frames import message_of
 from preflight_analysis.source.cpp_functions import MAX_DEPTH, Functions
 from preflight_analysis.source.cpp_names import fitting
 from preflight_analysis.source.cpp_operators import converted
@@ -26,6 +27,7 @@ from preflight_analysis.source.cpp_values import (
     Class,
     CppType,
     Instance,
+    Message,
     Place,
     Scope,
     Stream,
@@ -68,7 +70,9 @@ class Objects(Functions):
             return converted(value, type_)
         if isinstance(value, list) and standard(type_.name) in LISTS | MAPS:
             return self._make(type_, [Argument(value)], place, scope)
-        return Unmade(type_) if value is UNKNOWN and standard(type_.name) != "std::string" else value
+        if value is UNKNOWN and standard(type_.name) != "std::string":
+            return Unmade(type_)
+        return value.copy() if isinstance(value, Message) and not (pointer or is_reference(field.declarator)) else value
 
     def _new(self, node: Node, scope: Scope) -> Any:
         type_ = self._type(node.child_by_field_name("type"), scope)
@@ -110,6 +114,8 @@ class Objects(Functions):
             return self._object(cls, args)
         if last in SMART_POINTERS or last.endswith("Ptr") or name in CALLABLE:
             return first if args else Unmade(pointed(type_))
+        if (message := message_of(type_, args)) is not None:
+            return message
         return self._calls.make(type_, args, place)
 
     def _object(self, cls: Class, args: list[Argument]) -> Instance:

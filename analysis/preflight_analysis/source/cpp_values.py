@@ -67,6 +67,26 @@ class Unmade:
 
 
 @dataclass(eq=False, slots=True)
+class Message:
+    """A message, or a stamped transform of tf, with the fields that are set. Only what names frames is of interest."""
+
+    type: CppType
+    names: dict[str, Any] = field(default_factory=dict)
+
+    def inner(self, name: str) -> Any:
+        """A field: the header is a message itself, whatever it was set to; others are known once they are set."""
+        value = self.names.get(name, UNKNOWN)
+        if name != "header" or isinstance(value, Message):
+            return value
+        found = self.names[name] = Message(CppType("std_msgs::Header"))
+        return found
+
+    def copy(self) -> Message:
+        """Another message that says the same."""
+        return Message(self.type, {k: v.copy() if isinstance(v, Message) else v for k, v in self.names.items()})
+
+
+@dataclass(eq=False, slots=True)
 class Scope:
     """The names of one call of a function."""
 

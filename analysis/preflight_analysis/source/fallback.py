@@ -8,6 +8,7 @@ from itertools import chain, compress
 from operator import is_, is_not
 from typing import Any, Literal
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.generation import Generation
@@ -48,8 +49,9 @@ class Fallback:
         return kept.each_row(_whole, columns)
 
 
-_Gap = Literal["all", "places", "later", "places, later"]
+_Gap = Literal["all", "places", "later", "places, later", "frames"]
 """What is not known of a node."""
+_TF = ("tf", "tf_static")
 
 
 def _whole(
@@ -59,6 +61,8 @@ def _whole(
         return interface
     if gap == "all":
         return _with_more(node, interface, found)
+    if isinstance(found, SourceInterface) and not interface.frames and not interface.frame_uses:
+        interface = replace(interface, frames=found.frames, frame_uses=found.frame_uses)
     more = _with_places(interface, found) if "places" in gap else interface
     return _with_later(node, more, found) if "later" in gap else more
 
@@ -69,7 +73,9 @@ def _gap(node: LaunchNode, interface: Interface, ros: Generation) -> _Gap | None
     placeless = _is_placeless(interface, ros)
     if _may_declare_later(node, interface, ros):
         return "places, later" if placeless else "later"
-    return "places" if placeless else None
+    if placeless:
+        return "places"
+    return "frames" if _has_unknown_frames(interface) else None
 
 
 def _launch_params(
@@ -116,6 +122,13 @@ def _may_declare_later(node: LaunchNode, interface: Interface, ros: Generation) 
     return declares and any(param.name not in declared for param in node.params)
 
 
+def _has_unknown_frames(interface: Interface) -> bool:
+    """Whether its run told that it broadcasts frames or listens to them, and not which."""
+    if interface.source not in ("trace", "similar") or interface.frames or interface.frame_uses:
+        return False
+    return any(not end.inferred and names.leaf(end.name) in _TF for end in interface.endpoints)
+
+
 def _with_later(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
     """With what the node is given and only its source declares."""
     seen = {use.name.removeprefix("~") for use in interface.params}
@@ -159,11 +172,11 @@ def _described(use: ParamUse, said: ParamUse) -> ParamUse:
 def _with_more(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
     """The interface itself where it came to its event loop and the rest adds nothing, as a kept trace of the same."""
     if isinstance(found, Interface):
-        more = interface.with_more("similar", found.endpoints, found.params)
+        more = interface.with_more("similar", found.endpoints, found.params, frames=found.frames)
         return replace(more, elsewhere=found.elsewhere) if _is_more(more, interface) else interface
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
     params = tuple(replace(use, inferred=True) for use in found.params)
-    whole = interface.with_more("source", endpoints, params, found.nodes)
+    whole = interface.with_more("source", endpoints, params, found.nodes, found.frames, found.frame_uses)
     if not _is_more(whole, interface):
         return interface
     whole = replace(whole, whole=found.whole)
@@ -174,4 +187,8 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
 
 
 def _is_more(whole: Interface, interface: Interface) -> bool:
-    return not interface.likely_complete or (whole.endpoints, whole.params) != (interface.endpoints, interface.params)
+    return not interface.likely_complete or _content(whole) != _content(interface)
+
+
+def _content(interface: Interface) -> tuple[object, ...]:
+    return interface.endpoints, interface.params, interface.frames, interface.frame_uses

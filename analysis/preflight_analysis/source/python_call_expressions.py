@@ -9,6 +9,7 @@ from typing import Any
 
 from preflight_analysis.source.branches import ExitError, same
 from preflight_analysis.source.python_expressions import Expressions
+from preflight_analysis.source.python_frames import Message
 from preflight_analysis.source.python_modules import Calls
 from preflight_analysis.source.python_operators import MAX_ITEMS, builtin, items_of, text_method
 from preflight_analysis.source.python_values import (
@@ -183,7 +184,7 @@ class CallExpressions(Expressions):
             return text_method(owner, method, args)
         if method in ("append", "add") and isinstance(owner, list) and args:
             if len(owner) < MAX_ITEMS and not self._branches.inside:
-                owner.append(args[0])
+                owner.append(args[0].copy() if isinstance(args[0], Message) else args[0])
             return None
         if isinstance(owner, dict) and method in _OBJECT_METHODS:
             if method == "get" and args:

@@ -11,6 +11,7 @@ from typing import Any
 from preflight_analysis.evaluation import names
 from preflight_analysis.source import rclcpp_qos
 from preflight_analysis.source.branches import Branches
+from preflight_analysis.source.cpp_frames import MESSAGE_FILTERS, WORDS, note_filter, note_frames
 from preflight_analysis.source.cpp_operators import converted
 from preflight_analysis.source.cpp_values import (
     Argument,
@@ -19,6 +20,7 @@ from preflight_analysis.source.cpp_values import (
     CppType,
     Function,
     Instance,
+    Message,
     Place,
     Unmade,
     value_at,
@@ -78,7 +80,7 @@ class RclcppCalls(Parameters):
         "get_parameters get_parameter_or get_parameter_types Subscriber SubscriberFilter ImageTransport Node "
         "TransformListener TransformBroadcaster StaticTransformBroadcaster Updater CameraInfoManager LifecycleNode "
         "SimpleActionServer ServiceClient InterProcessPollingSubscriber ClassLoader ParamListener "
-        "wait_for_message".split()
+        f"wait_for_message {WORDS}".split()
     )
 
     def __init__(
@@ -153,6 +155,8 @@ class RclcppCalls(Parameters):
                 self._image("subscriber", False, args, place)
         if name.rpartition("::")[2] == "ParamListener" and self._listener(name, given):
             return Unmade(type_)
+        if name in MESSAGE_FILTERS:
+            note_filter(self.collected, args, place.file, place.line)
         if name in LOADERS:
             self._any_parameter(place)  # what it loads declares its own
             self.collected.miss()
@@ -261,7 +265,7 @@ class RclcppCalls(Parameters):
         if full == "rclcpp::wait_for_message":
             text = next((v for v in values(call.args) if isinstance(v, str)), UNKNOWN)
             message = value_at(call.args, 0)
-            type_ = self._type(message.type, "msg") if isinstance(message, Unmade) else None
+            type_ = self._type(message.type, "msg") if isinstance(message, (Message, Unmade)) else None
             self._endpoint(
                 "subscriber",
                 first_node(values(call.args)).name(text),
@@ -280,6 +284,8 @@ class RclcppCalls(Parameters):
 
     def method(self, owner: Any, call: Call) -> Any:
         """Note what a method makes; its value where it has one that is known."""
+        if not self._in_dead_code:
+            note_frames(self.collected, owner, call)
         if isinstance(owner, Qos):
             return rclcpp_qos.changed(owner, call.name, values(call.args))
         if isinstance(owner, Options) and call.name == "arguments" and not call.args:

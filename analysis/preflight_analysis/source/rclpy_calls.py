@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.python_frames import Message, has_tree, message_of, note_frames
 from preflight_analysis.source.python_libraries import makes_no_ends
 from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain, known
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
@@ -109,6 +110,9 @@ class RclpyCalls:
         def given(index: int, keyword: str) -> Any:
             return known(args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN))
 
+        note_frames(self.collected, path, args, kwargs, file, line)
+        if (message := message_of(path, kwargs)) is not None:
+            return message
         if path.startswith("rclpy.") and method in _METHODS:
             role, kind, (type_name, end_name, qos_name) = _METHODS[method]
             qos = _qos(given(_QOS_AT[method], qos_name)) if method in _QOS_AT else {}
@@ -124,6 +128,8 @@ class RclpyCalls:
         if fixed := _FIXED.get(name):
             for role, topic, type_ in fixed:
                 self.collected.add_endpoint(Endpoint(role, topic, type_, None, {}, file, line))
+            return Imported(f"{name}()")
+        if has_tree(name):
             return Imported(f"{name}()")
         if name in _DESCRIBING:
             return Instance(Class(name.rpartition(".")[2], {}, ()), _all_known(kwargs))
@@ -300,4 +306,6 @@ def _plain(path: str) -> str:
 
 def _has_node(value: Any) -> bool:
     """Whether it is a node, or an object of the program that may have one."""
+    if isinstance(value, Message):
+        return False
     return isinstance(value, Instance) or (isinstance(value, Imported) and value.path == "rclpy.Node()")

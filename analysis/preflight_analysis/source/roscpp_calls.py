@@ -9,6 +9,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import is_name
 from preflight_analysis.source.config_params import Config
+from preflight_analysis.source.cpp_frames import MESSAGE_FILTERS, WORDS, note_filter, note_frames
 from preflight_analysis.source.cpp_values import (
     Argument,
     Call,
@@ -61,7 +62,8 @@ class RoscppCalls(Parameters):
         "advertise advertiseCamera advertiseService subscribe subscribeCamera serviceClient createClient call "
         "waitForService waitForMessage ImageTransport SubscriberFilter Subscriber RealtimePublisher Loader "
         "TransformListener TransformBroadcaster StaticTransformBroadcaster Updater Server CameraInfoManager "
-        "SimpleActionServer SimpleActionClient ActionServer ActionClient InteractiveMarkerServer".split()
+        "SimpleActionServer SimpleActionClient ActionServer ActionClient InteractiveMarkerServer "
+        f"{WORDS}".split()
     ) - {"get", "set", "has"} | {"ros"}
 
     def __init__(
@@ -117,6 +119,8 @@ class RoscppCalls(Parameters):
         """An object of a library's class, and what its constructor makes."""
         name = type_.name.removeprefix("::")
         given = values(args)
+        if name in MESSAGE_FILTERS:
+            note_filter(self.collected, args, place.file, place.line)
         handle = next((v for v in given if isinstance(v, (Handle, Unmade)) and is_handle(v)), None)
         known = handle_of(handle)
         if name == HANDLE:
@@ -256,6 +260,7 @@ class RoscppCalls(Parameters):
 
     def method(self, owner: Any, call: Call) -> Any:
         """Note what a method makes; its value where it has one that is known."""
+        note_frames(self.collected, owner, call)
         if isinstance(owner, Instance):
             space = NODELET_HANDLES.get(call.name)
             if space is not None:

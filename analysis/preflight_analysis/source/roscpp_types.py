@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from preflight_analysis.source.cpp_values import Argument, CppType, Function, Unmade, values
+from preflight_analysis.source.cpp_values import Argument, CppType, Function, Message, Unmade, values
 from preflight_analysis.source.roscpp_api import ANY_MESSAGE
 
 _WRAPPERS = frozenset({"shared_ptr", "MessageEvent", "ServiceEvent", "Ptr", "ConstPtr"})
@@ -57,7 +57,7 @@ class MessageTypes:
 
     def service_of(self, value: Any) -> str | None:
         """The service that an object of its class is for."""
-        return self.of_half(value.type) if isinstance(value, Unmade) else None
+        return self.of_half(value.type) if isinstance(value, (Message, Unmade)) else None
 
     def of(self, type_: CppType) -> str | None:
         """`pkg/Name` of a class that messages, services or actions are made of."""

@@ -12,6 +12,7 @@ from preflight_analysis.source.branches import Branches
 from preflight_analysis.source.collector import Collector, is_name
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.known_params import KnownParams
+from preflight_analysis.source.python_frames import has_tree, message_of, note_frames
 from preflight_analysis.source.python_libraries import makes_no_ends
 from preflight_analysis.source.python_values import UNKNOWN, Imported, Later, StarImported, is_plain, known
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
@@ -103,6 +104,9 @@ class RospyCalls:
         def given(index: int, keyword: str) -> Any:
             return known(args[index] if index < len(args) else kwargs.get(keyword, UNKNOWN))
 
+        note_frames(self.collected, path, args, kwargs, file, line)
+        if (message := message_of(path, kwargs)) is not None:
+            return message
         if factory := _ENDPOINTS.get(name):
             role, (first, second), kinds = factory
             type_ = self._type(given(1, second), kinds)
@@ -114,6 +118,8 @@ class RospyCalls:
                 self.collected.add_endpoint(Endpoint(role, topic, type_, None, {}, file, line))
             if name == "dynamic_reconfigure.Server":
                 self._configured(given(0, "type"))
+            return Imported(f"{name}()")
+        if has_tree(name):
             return Imported(f"{name}()")
         if name == "rospy.wait_for_service":
             service = given(0, "service")

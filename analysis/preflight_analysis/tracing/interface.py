@@ -158,11 +158,38 @@ class ParamUse:
 
 @dataclass(frozen=True, slots=True, order=True)
 class Frame:
-    """A transform that the node broadcasts (tf, tf2), from the frame `parent` to `child`."""
+    """A transform that the node broadcasts (tf, tf2), from the frame `parent` to `child`. One that its source does not
+    tell is empty."""
 
     parent: str
     child: str
     static: bool = False
+    inferred: bool = False
+    """Read from the source code, not seen in a run."""
+    conditional: bool = False
+    """In the source, only a condition that is not known leads there."""
+    source_file: str = ""
+    """Where in the node's source it is broadcast, line counted from 1."""
+    source_line: int = 0
+
+
+BUFFER = "Buffer"
+"""The class of tf2 that is asked for transforms, and stands before its methods (`Buffer::lookupTransform`)."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class FrameUse:
+    """A frame that the node's source names. `call` is the method that gets it (`lookupTransform`), or the type of the
+    message whose header has it (`sensor_msgs/LaserScan`)."""
+
+    frame: str
+    call: str
+    looked_up: bool = True
+    """Whether the node asks for a transform; otherwise the frame stands in a message that it publishes."""
+    conditional: bool = False
+    """As of `Frame`."""
+    source_file: str = ""
+    source_line: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,7 +276,9 @@ class Interface:
     """What else the user should know of the run: blocked writes, ignored SIGTERM, dropped event lines."""
 
     frames: tuple[Frame, ...] = ()
-    """What it was seen to broadcast; other frames may follow."""
+    """What it was seen to broadcast, or what its source says that it does; other frames may follow."""
+    frame_uses: tuple[FrameUse, ...] = ()
+    """The frames that its source asks for or puts into messages."""
     nodes: tuple[MadeNode, ...] = ()
     """ROS 2: those that the process was seen to make, or that its source makes; what its libraries make in C++ alone is
     not among them. Empty where it is not known which."""
@@ -327,6 +356,7 @@ class Interface:
                 params=tuple(p for p in self.params if (p.node if p.node in others else first) == name),
                 nodes=tuple(each for each in self.nodes if (each.full if each.full in others else first) == name),
                 frames=self.frames if name == first else (),
+                frame_uses=self.frame_uses if name == first else (),
             )
 
         return {name: of(name) for name in (first, *others)}
@@ -342,11 +372,14 @@ class Interface:
         endpoints: tuple[Endpoint, ...],
         params: tuple[ParamUse, ...],
         nodes: tuple[MadeNode, ...] = (),
+        frames: tuple[Frame, ...] = (),
+        frame_uses: tuple[FrameUse, ...] = (),
     ) -> Interface:
         """What a run saw together with what `source` says beyond that, types of what it saw among it."""
         seen = {(e.role, e.name) for e in self.endpoints}
         types = {(e.role, e.name): e.type for e in endpoints}
         asked = {p.name for p in self.params}
+        broadcast = {(f.parent, f.child) for f in self.frames}
         return replace(
             self,
             source=source,
@@ -356,6 +389,8 @@ class Interface:
             ),
             params=self.params + tuple(p for p in params if p.name not in asked),
             nodes=self.nodes or nodes,
+            frames=self.frames + tuple(f for f in frames if (f.parent, f.child) not in broadcast),
+            frame_uses=self.frame_uses + frame_uses,
         )
 
 

@@ -49,7 +49,7 @@ def _lines(analysis: Analysis) -> Iterator[str]:
         for depth, branch in branches(forest(frames, space)):
             # Several parents of one frame are a mistake: each has its line.
             sources = [
-                f"{edge.by}{'' if edge.sure else ', possible'}"
+                f"{edge.by}{f', {edge.doubt}' if edge.doubt else ''}"
                 f"{f', parent {edge.parent}' if edge.parent != branch.edges[0].parent else ''}"
                 f"  [{place(place_of_edge(context, edge), documents, os.getcwd())}]"
                 for edge in branch.edges
