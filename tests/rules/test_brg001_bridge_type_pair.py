@@ -39,12 +39,18 @@ def test_a_type_that_the_bridge_does_not_know_is_information(tmp_path: Path) -> 
     assert (found.severity, found.confidence) == ("info", "possible")
 
 
+def test_a_type_without_its_kind(tmp_path: Path) -> None:
+    (found,) = found_in(tmp_path, "/odom@nav_msgs/Odometry[gz.msgs.Odometry")
+    assert found.message == "the bridge does not know 'nav_msgs/Odometry'; did you mean 'nav_msgs/msg/Odometry'?"
+    assert (found.severity, found.fixes[0].edits[0].text) == ("warning", "nav_msgs/msg/Odometry")
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     "args",
     [
         "/cmd_vel@geometry_msgs/msg/Twist@gz.msgs.Twist /tf@tf2_msgs/msg/TFMessage[ignition.msgs.Pose_V",
-        "/odom@nav_msgs/Odometry]gz.msgs.OdometryWithCovariance",
+        "/odom@nav_msgs/msg/Odometry]gz.msgs.OdometryWithCovariance",
         "/world/w/control@ros_gz_interfaces/srv/ControlWorld",
     ],
 )

@@ -13,13 +13,11 @@ from typing import Any
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.ros2.bridges import is_bridge
+from preflight_analysis.evaluation.ros2.bridges import Argument, arguments_of, is_bridge
 from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.tracing.interface import Endpoint, Role
-from preflight_analysis.tracing.request import split_args
 
-_ARGUMENT = re.compile(r"([^@\s]+)@(\w+/(?:msg/)?\w+)([@\[\]])[\w.:]+\Z")
 _TYPE = re.compile(r"\w+/(?:msg/)?\w+\Z")
 _ROLES: dict[str, tuple[Role, ...]] = {
     "@": ("publisher", "subscriber"),
@@ -37,12 +35,16 @@ def bridged(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> 
     that ROS writes `package/msg/Name` for `package/Name`."""
     if not is_bridge(node):
         return
-    rows = [(found[1], found[2], found[3]) for word in split_args(node.args) if (found := _ARGUMENT.match(word))]
+    rows = [(each.topic, each.ros, each.direction) for each in arguments_of(node) if _is_topic(each)]
     for name, type_, direction in (*rows, *_configured(config)):
         package, _, rest = type_.partition("/")
         kind = "msg/" if kinds_in_types else ""
         for role in _ROLES.get(direction, ()) if names.is_legal(name) else ():
             yield Endpoint(role, name, f"{package}/{kind}{rest.removeprefix('msg/')}")
+
+
+def _is_topic(given: Argument) -> bool:
+    return not given.refused and _TYPE.match(given.ros) is not None
 
 
 def _configured(config: Document | None) -> Iterator[tuple[str, str, str]]:

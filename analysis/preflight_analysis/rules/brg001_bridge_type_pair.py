@@ -22,7 +22,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for pair in type_pairs(context):
         prefix, _, name = pair.gazebo.rpartition(".")
         convertible = pairs.get(pair.ros.replace("/msg/", "/"), ())
+        if name in convertible and "/msg/" in pair.ros:
+            continue
         if name in convertible:
+            meant = pair.ros.replace("/", "/msg/")
+            yield rule.finding(
+                f"the bridge does not know '{pair.ros}'; did you mean '{meant}'?",
+                pair.ros_place,
+                confidence="likely",
+                related=include_chain(pair.node.origin),
+                fixes=rename(context, pair.ros_place, pair.ros, meant),
+            )
             continue
         # A package of one's own may convert further types, hardly other pairs of the known ones.
         near = nearest(name, convertible) or (convertible[0] if len(convertible) == 1 else None)
@@ -44,8 +54,8 @@ RULE = Rule(
     name="bridge-type-pair",
     severity="warning",
     what="Checks for a ROS type and a Gazebo type in the arguments or the file of `ros_gz_bridge` that the bridge of "
-    "Humble to Jazzy does not convert into each other. A type that the bridge does not know is information, because a "
-    "build of your own may have more.",
+    "Humble to Kilted does not convert into each other. A ROS type needs `/msg/`. A type that the bridge does not know "
+    "is information, because a build of your own may have more.",
     why="The bridge does not create this topic: `Failed to create a bridge`. The others work, and nothing arrives on "
     "this one.",
     example="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.PointCloudPacked']",

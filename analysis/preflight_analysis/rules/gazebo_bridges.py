@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
 import yaml
@@ -12,68 +11,129 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
 from preflight_analysis.environment.installed_paths import located
-from preflight_analysis.evaluation.ros2.bridges import config_file_of, is_bridge
+from preflight_analysis.evaluation.ros2.bridges import arguments_of, config_file_of, is_bridge
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.tracing.request import split_args
-
-_ARGUMENT = re.compile(r"[^@\s]+@(\w+/(?:msg/)?\w+)[@\[\]]([\w.]+)\Z")
 
 
 @dataclass(frozen=True, slots=True)
 class TypePair:
-    """The types of one bridged topic, and where the one of Gazebo is written."""
+    """The types of one bridged topic, and where the one of Gazebo and that of ROS are written."""
 
     node: LaunchNode
     ros: str
     gazebo: str
     place: Location
+    ros_place: Location
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One entry of a bridge's file: its scalars by their keys, and their places."""
+    """One entry of a bridge's file: its scalars by their keys, their places, and the places of all keys. `is_map`:
+    whether it has keys at all."""
 
     node: LaunchNode
     values: Mapping[str, tuple[str, Location]]
+    keys: Mapping[str, Location]
     place: Location
+    is_map: bool = True
+
+    @property
+    def ros_topic(self) -> tuple[str, Location] | None:
+        """The name on the side of ROS, as the bridge takes it."""
+        found = (self.values.get(key) for key in _ROS_NAMES)
+        return next((each for each in found if each is not None and each[0]), None)
+
+
+_ROS_NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ign_topic_name")
+
+
+@dataclass(frozen=True, slots=True)
+class Bridge:
+    """One bridged topic. `direction` is `GZ_TO_ROS`, `ROS_TO_GZ` or `BIDIRECTIONAL`; `place` is where that is written,
+    `turned` what is written there and what the other direction would be."""
+
+    node: LaunchNode
+    topic: str
+    ros: str
+    direction: str
+    place: Location
+    turned: tuple[str, str]
+
+
+_DIRECTIONS = {"@": "BIDIRECTIONAL", "[": "GZ_TO_ROS", "]": "ROS_TO_GZ"}
+_OTHER = {"[": "]", "]": "[", "GZ_TO_ROS": "ROS_TO_GZ", "ROS_TO_GZ": "GZ_TO_ROS"}
+
+
+def bridges(context: Context) -> Iterator[Bridge]:
+    """The topics of all bridges, those of arguments first."""
+    for node in context.tree.nodes:
+        for given in arguments_of(node):
+            if not given.refused and not given.is_service:
+                sign = given.direction
+                other = given.word.replace(f"{given.ros}{sign}", f"{given.ros}{_OTHER.get(sign, sign)}")
+                place = argument_location(context, node, given.word)
+                yield Bridge(node, given.topic, given.ros, _DIRECTIONS[sign], place, (given.word, other))
+    for entry in context.once(entries):
+        topic, ros = entry.ros_topic, entry.values.get("ros_type_name")
+        direction, place = entry.values.get("direction", ("BIDIRECTIONAL", entry.place))
+        if topic is not None and ros is not None:
+            yield Bridge(entry.node, topic[0], ros[0], direction, place, (direction, _OTHER.get(direction, direction)))
 
 
 def type_pairs(context: Context) -> Iterator[TypePair]:
     """Those of all bridges, arguments first."""
     for node in context.tree.nodes:
-        for word in split_args(node.args) if is_bridge(node) else ():
-            if (found := _ARGUMENT.match(word)) is not None:
-                yield TypePair(node, found[1], found[2], argument_location(context, node, word))
+        for given in arguments_of(node):
+            if not given.refused and not given.is_service:
+                place = argument_location(context, node, given.word)
+                yield TypePair(node, given.ros, given.gazebo, place, place)
     for entry in context.once(entries):
         ros, gazebo = entry.values.get("ros_type_name"), entry.values.get("gz_type_name")
         if ros is not None and gazebo is not None:
-            yield TypePair(entry.node, ros[0], gazebo[0], gazebo[1])
+            yield TypePair(entry.node, ros[0], gazebo[0], gazebo[1], ros[1])
 
 
 def entries(context: Context) -> tuple[Entry, ...]:
     """The entries of the files of all bridges, those of one file once. Ask through `context.once`."""
-    files = {path: node for node in context.tree.nodes if is_bridge(node) and (path := config_file_of(node))}
     found = []
-    for given, node in files.items():
-        path = located(context.disk, context.environment, given)
-        document = context.documents.get(path)
-        for row in document.once(_rows) if document is not None else ():
+    for path, node, document in _files(context):
+        root = document.once(_root)
+        for row in root.value if isinstance(root, yaml.SequenceNode) else ():
+            pairs = row.value if isinstance(row, yaml.MappingNode) else ()
+            named = [(key, value) for key, value in pairs if isinstance(key, yaml.ScalarNode)]
             values = {
                 key.value: (value.value, context.location(path, span_of(value)))
-                for key, value in row.value
-                if isinstance(key, yaml.ScalarNode) and isinstance(value, yaml.ScalarNode)
+                for key, value in named
+                if isinstance(value, yaml.ScalarNode)
             }
-            first = row.value[0][0] if row.value else row
-            found.append(Entry(node, values, context.location(path, span_of(first))))
+            keys = {key.value: context.location(path, span_of(key)) for key, _ in named}
+            place = context.location(path, span_of(pairs[0][0] if pairs else row))
+            found.append(Entry(node, values, keys, place, isinstance(row, yaml.MappingNode)))
     return tuple(found)
 
 
-def _rows(document: Document) -> tuple[yaml.MappingNode, ...]:
+def not_listed(context: Context) -> Iterator[tuple[LaunchNode, Location]]:
+    """The bridges whose file has something else than a list, and where."""
+    for path, node, document in _files(context):
+        root = document.once(_root)
+        if root is not None and not isinstance(root, yaml.SequenceNode):
+            first = root.value[0][0] if isinstance(root, yaml.MappingNode) and root.value else root
+            yield node, context.location(path, span_of(first))
+
+
+def _files(context: Context) -> Iterator[tuple[str, LaunchNode, Document]]:
+    files = {path: node for node in context.tree.nodes if is_bridge(node) and (path := config_file_of(node))}
+    for given, node in files.items():
+        path = located(context.disk, context.environment, given)
+        document = context.documents.get(path)
+        if document is not None:
+            yield path, node, document
+
+
+def _root(document: Document) -> yaml.Node | None:
     try:
-        root = compose_fast(document.text)
+        return compose_fast(document.text)
     except CONSTRUCTION_ERRORS:
-        return ()
-    rows = root.value if isinstance(root, yaml.SequenceNode) else ()
-    return tuple(row for row in rows if isinstance(row, yaml.MappingNode))
+        return None

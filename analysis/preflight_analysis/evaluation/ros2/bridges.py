@@ -1,12 +1,16 @@
-"""The configuration files of bridges between ROS and Gazebo (`ros_gz_bridge`), which the launch hands to them.
+"""What the launch hands to bridges between ROS and Gazebo (`ros_gz_bridge`): arguments and configuration files.
 
-https://docs.ros.org/en/jazzy/p/ros_gz_bridge/
+https://docs.ros.org/en/jazzy/p/ros_gz_bridge/; how an argument is taken apart, and what is refused: `main` in
+src/parameter_bridge.cpp of gazebosim/ros_gz, the same in humble 5cc92f80, jazzy 739cb42a and ros2 a4d00a90.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.words import words_of
 
@@ -15,6 +19,72 @@ if TYPE_CHECKING:
 
 PACKAGES = ("ros_gz_bridge", "ros_ign_bridge")
 _CONFIG = "config_file"
+_PROGRAM = "parameter_bridge"
+_DIRECTIONS = "@[]"
+"""In the order in which they are looked for: both ways, to ROS, to Gazebo."""
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """One argument of a bridge. `direction` is `@`, `[` or `]`, empty where it has none. `refused` says why the bridge
+    does not take it, in words that follow the argument; `ends`: it then exits, with all its topics."""
+
+    word: str
+    topic: str = ""
+    ros: str = ""
+    direction: str = ""
+    gazebo: str = ""
+    refused: str = ""
+    ends: bool = False
+
+    @property
+    def is_service(self) -> bool:
+        """Whether it names a service instead of a topic."""
+        return "/srv/" in self.ros
+
+
+def arguments_of(node: LaunchNode) -> Iterator[Argument]:
+    """Those of a bridge beside the ones that are for ROS, as far as they are known; none of other nodes."""
+    for word in _beside_ros(words_of(node.args)) if is_bridge(node) and node.executable == _PROGRAM else ():
+        if not is_unknown(word):
+            yield parse_argument(word)
+
+
+def parse_argument(word: str) -> Argument:
+    """The argument, taken apart as the bridge does."""
+    topic, sign, rest = word.partition("@")
+    if not sign or not topic:
+        return Argument(word, refused="is not TOPIC@ROS_TYPE@GZ_TYPE", ends=True)
+    # A sign in the first place is none, as the type of ROS would be empty.
+    direction = next((each for each in _DIRECTIONS if rest.find(each) > 0), "")
+    ros, _, gazebo = rest.partition(direction) if direction else (rest, "", "")
+    found = Argument(word, topic, ros, direction, gazebo)
+    refused = _refused(found)
+    return Argument(word, topic, ros, direction, gazebo, refused, bool(direction)) if refused else found
+
+
+def _refused(given: Argument) -> str:
+    if given.is_service:
+        if given.direction in ("[", "]"):
+            return f"separates the types of a service by '{given.direction}' instead of '@'"
+        request, sign, _ = given.gazebo.partition("@")
+        return "names one type of Gazebo, a service has two" if given.direction and not (request and sign) else ""
+    if not given.direction:
+        return "names no type of Gazebo"
+    if not given.gazebo:
+        return f"names no type of Gazebo after '{given.direction}'"
+    return "has more than two types" if "@" in given.gazebo else ""
+
+
+def _beside_ros(words: list[str]) -> Iterator[str]:
+    inside = False
+    for word in words:
+        if word == "--ros-args":
+            inside = True
+        elif inside:
+            inside = word != "--"
+        else:
+            yield word
 
 
 def is_bridge(node: LaunchNode) -> bool:
