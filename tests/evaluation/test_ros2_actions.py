@@ -206,6 +206,9 @@ SPEAKS: dict[str, tuple[str, Any, Any]] = {
     ),
     "reset_env": ('<set_env name="A" value="b"/><reset_env/>' + NODE.format("n$(env A c)"), _names, ["/nc"]),
     **{kind: (f'<{kind} message="$(var a)"/>', _wrong, ["UndeclaredArgument"]) for kind in TAGS if kind[:3] == "log"},
+    "ros_gz_bridge": ('<ros_gz_bridge bridge_name="b" config_file="/b.yaml" namespace="r"/>', _names, ["/r/b"]),
+    "gz_server": ('<gz_server world_sdf_file="/a.sdf"/>', _names, ["/gzserver"]),
+    "gz_spawn_model": ('<gz_spawn_model entity_name="a" yaw="1"/>', _names, ["/create"]),
     "shutdown": ('<shutdown reason="$(var a)"/>', _wrong, ["UndeclaredArgument"]),
 }
 

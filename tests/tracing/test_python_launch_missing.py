@@ -756,6 +756,24 @@ def test_files_that_are_written_into_the_share_folder_are_there(harness: PythonH
     assert ["missing.urdf" in each.message for each in findings] == [True]
 
 
+def test_the_actions_of_ros_gz_are_known_where_they_are_not_installed(harness: PythonHarness) -> None:
+    tree = tree_of(
+        harness,
+        """
+from ros_gz_bridge.actions import RosGzBridge
+from ros_gz_sim.actions import GzServer
+
+def generate_launch_description():
+    return LaunchDescription([
+        GzServer(world_sdf_file="/a.sdf"),
+        RosGzBridge(bridge_name="b", config_file="/b.yaml", namespace="r", condition=IfCondition("true")),
+        RosGzBridge(bridge_name="c", config_file="/c.yaml", condition=IfCondition("false"))])
+""",
+    )
+    assert [node.name for node in tree.nodes] == ["/gzserver", "/r/b"]
+    assert [(param.name, param.value) for param in tree.nodes[1].params] == [("config_file", "/b.yaml")]
+
+
 PAL = """
 from dataclasses import dataclass
 from launch_pal.actions import CheckPublicSim

@@ -20,6 +20,7 @@ from . import (
     moveit_configs,
     nav2_common,
     processes,
+    ros_gz,
     ros_namespaces,
     ros_nodes,
     ros_parameters,
@@ -374,6 +375,13 @@ FALLBACK: dict[str, dict[str, Any]] = {
         launch_pal, "insert_ros_param_prefix", "merge_param_files", "parse_parametric_yaml", "substitute_variables"
     ),
     "launch_pal.robot_arguments": _named(launch_pal, "CommonArgs", "RobotArgs"),
+    "ros_gz_bridge": {},
+    "ros_gz_bridge.actions": _named(ros_gz, "RosGzBridge"),
+    "ros_gz_bridge.actions.ros_gz_bridge": _named(ros_gz, "RosGzBridge"),
+    "ros_gz_sim": {},
+    "ros_gz_sim.actions": _named(ros_gz, "GzServer", "GzSpawnModel"),
+    "ros_gz_sim.actions.gz_spawn_model": _named(ros_gz, "GzSpawnModel"),
+    "ros_gz_sim.actions.gzserver": _named(ros_gz, "GzServer"),
     "ros2pkg": {},
     "ros2pkg.api": {
         "get_package_names": lambda: list(RECORDER.packages),
