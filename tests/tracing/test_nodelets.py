@@ -5,9 +5,11 @@ from __future__ import annotations
 import shutil
 import subprocess
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.model import Package
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import TraceRequest
@@ -119,3 +121,29 @@ def test_arguments_of_the_loaders_process_are_those_of_the_nodelet(program: Path
     """`_rate:=5` sets a private parameter of the process that is given it."""
     found = traced(loaded(program, "load", "vision/OfProcess", "manager", "_rate:=5"))
     assert {("publisher", "~of_process", "std_msgs/String"), ("publisher", "~image", "std_msgs/String")} <= own(found)
+
+
+DESCRIPTION = '<library path="lib/libx"><class name="{}" type="x::X" base_class_type="nodelet::Nodelet"/></library>'
+
+
+@pytest.mark.parametrize(
+    ("declared", "ran"),
+    [("vision/Other", False), ("vision/Plain", True), ("vision/Plan", True), (None, True)],
+)
+def test_what_no_package_declares_is_not_run(program: Path, tmp_path: Path, declared: str | None, ran: bool) -> None:
+    """The package that declares it has any name; a slip of the name is for the loader to tell, and where a description
+    is missing nothing is known."""
+    share = tmp_path / "vision_ros"
+    share.mkdir()
+    (share / "package.xml").write_text('<package><export><nodelet plugin="${prefix}/nodelets.xml"/></export></package>')
+    if declared is not None:
+        (share / "nodelets.xml").write_text(DESCRIPTION.format(declared))
+    packages = [Package(each.name, str(each), str(each / "package.xml")) for each in (program.parent, share)]
+    around = replace(environment(program.parent), packages={each.name: each for each in packages})
+    found = Tracer(around, None).trace(loaded(program, "load", "vision/Plain", "manager"), threading.Event())
+    assert found.outcome.status == ("spinning" if ran else "not-run")
+    assert own(found) >= (OWN | LOADING if ran else LOADING)
+    if not ran:
+        assert (
+            found.outcome.reason == "package 'vision' of nodelet 'vision/Plain' is not among those of this environment"
+        )

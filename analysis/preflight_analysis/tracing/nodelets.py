@@ -11,17 +11,21 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from rapidfuzz.distance import OSA
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import workspace_packages
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.request import TraceRequest, split_args
 
@@ -98,6 +102,36 @@ _SLIP = 3
 """Edits between the name of a nodelet and the one that was meant, at most."""
 _NO_LIBRARY = re.compile(r"Could not find library corresponding to plugin .* library '([^']*)' actually exists")
 _NO_CLASS = re.compile(r"the class (\S+) with base class type nodelet::Nodelet does not exist\. Declared types are(.*)")
+_PACKAGE_NOT_THERE = "package '{}' of nodelet '{}' is not among those of this environment"
+_DESCRIPTION = re.compile(r"""<nodelet\s+plugin\s*=\s*["']([^"']+)["']""")
+_CLASS = re.compile(r"""\b(?:name|type)\s*=\s*["']([^"']+)["']""")
+
+
+def why_undeclared(request: TraceRequest, environment: Environment, disk: Disk) -> str | None:
+    """Why a nodelet need not be run: its package is not there, and no other one declares a class of nearly that name. A
+    run would say the same, by `why_not_there`."""
+    name = plugin(request)
+    if name is None or "nodelet" not in environment.packages:
+        return None
+    package = name.partition("/")[0]
+    declared = _declared(disk.db, environment) if package not in environment.packages else None
+    if declared is None or any(map(_is_slip_of(name), declared)):
+        return None
+    return _PACKAGE_NOT_THERE.format(package, name)
+
+
+@query
+def _declared(db: Database, environment: Environment) -> frozenset[str] | None:
+    """All names in the descriptions of nodelets that packages export; None where one cannot be read."""
+    disk, found = Disk(db), set[str]()
+    for package in (*environment.packages.values(), *chain.from_iterable(environment.shadowed.values())):
+        for exported in _DESCRIPTION.findall(disk.content(package.manifest) or ""):
+            path = os.path.join(package.share, exported.replace("${prefix}", package.share))
+            described = disk.content(os.path.normpath(path))
+            if described is None:
+                return None
+            found.update(each.replace("::", "/") for each in _CLASS.findall(described))
+    return frozenset(found)
 
 
 def may_turn_up(found: Interface) -> bool:
@@ -120,10 +154,14 @@ def why_not_there(found: Interface, request: TraceRequest, environment: Environm
             return f"the library '{library}' of nodelet '{name}' is not built yet"
     elif (missing := _NO_CLASS.search(said)) is not None:
         # A class of nearly that name is the one that was meant.
-        slip = any(OSA.distance(name, other) <= _SLIP for other in missing[2].split())
+        slip = any(map(_is_slip_of(name), missing[2].split()))
         if not slip and package not in environment.packages:
-            return f"package '{package}' of nodelet '{name}' is not among those of this environment"
+            return _PACKAGE_NOT_THERE.format(package, name)
     return None
+
+
+def _is_slip_of(name: str) -> Callable[[str], bool]:
+    return lambda other: OSA.distance(name, other, score_cutoff=_SLIP) <= _SLIP
 
 
 @dataclass(frozen=True, slots=True)

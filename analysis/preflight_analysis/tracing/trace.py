@@ -88,6 +88,9 @@ class Tracer(KeptTraces):
             return _not_run(f"no sandbox: {status.reason}")
         if cancel.is_set():
             return _not_run("the run was cancelled")
+        undeclared = nodelets.why_undeclared(request, self.environment, self._disk)
+        if undeclared is not None:
+            return _not_run(undeclared)
         before = _identities(request)
         built = self.libraries[request.generation].build() if preloaded(request) else NO_PRELOAD
         if not request.ros.has_master and built.reason is not None:
