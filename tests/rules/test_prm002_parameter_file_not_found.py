@@ -49,6 +49,16 @@ def test_a_file_that_another_package_of_the_same_name_has(tmp_path: Path) -> Non
     assert "no.yaml" in said["error"]
 
 
+def test_an_empty_path(tmp_path: Path) -> None:
+    launch = tmp_path / "main.launch"
+    launch.write_text('<launch><arg name="f" default=""/><rosparam command="load" file="$(arg f)"/></launch>')
+    environment = Environment(1, "noetic", {}, (str(tmp_path),), {}, {}, (), (), None, str(tmp_path))
+    findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
+    assert [(each.rule, each.severity, each.message) for each in findings] == [
+        ("PRM002", "error", "parameter file '' does not exist"),
+    ]
+
+
 def test_a_relative_path_beside_the_launch_file(tmp_path: Path) -> None:
     """It is there for those who start the launch in that folder."""
     share = tmp_path / "p"

@@ -97,7 +97,7 @@ def _is_beside(context: Context, kind: UnreadablePath, place: Location) -> bool:
     """Whether a parameter file with a relative path is there for those who start the launch in the folder of its launch
     file."""
     workspace = context.environment.workspace
-    if workspace is None or not isinstance(kind, ParameterFileNotFound):
+    if workspace is None or not kind.path or not isinstance(kind, ParameterFileNotFound):
         return False
     if package_folder(kind.path, context.environment) is not None:
         return False
