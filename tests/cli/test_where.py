@@ -60,3 +60,16 @@ def test_what_cannot_be_answered(
     assert (done.code, done.out) == (2, "")
     assert text in done.err
     assert harness.sandbox_starts() == 0
+
+
+def test_what_is_not_known_may_set_it_too(harness: Harness, preflight: Run) -> None:
+    path = Path(harness.workspace, "launch/loaded.launch")
+    path.write_text(
+        '<launch>\n  <param name="a/b" value="1"/>\n  <rosparam ns="a" file="/not_here.yaml"/>\n</launch>\n'
+    )
+    done = preflight("where", "launch/loaded.launch", "/a/b", "--no-run")
+    assert [line.split()[0] for line in done.out.splitlines()] == ["parameter", "applies", "unknown", "no"]
+    assert done.out.splitlines()[2].endswith("[launch/loaded.launch:3:4]")
+    done = preflight("where", "launch/loaded.launch", "/a/b", "--no-run", "--format", "json", "--paths", "relative")
+    (unknown,) = done.json["parameters"][0]["unknown"]
+    assert (unknown["what"], unknown["file"]) == ("<rosparam>", "launch/loaded.launch")

@@ -58,3 +58,15 @@ def test_what_cannot_be_answered(harness: Harness, preflight: Run, words: tuple[
     done = preflight("why", FILE, *words, "--no-run")
     assert (done.code, done.out) == (2, "")
     assert text in done.err
+
+
+def test_two_nodes_that_are_not_known_to_share_anything(harness: Harness, preflight: Run) -> None:
+    path = Path(harness.workspace, "launch/apart.launch")
+    path.write_text(
+        '<launch>\n  <node pkg="joy" type="joy_node" name="joy"/>\n'
+        '  <node pkg="amcl" type="amcl" name="amcl"/>\n</launch>\n'
+    )
+    done = preflight("why", "launch/apart.launch", "joy", "amcl", "--no-run")
+    title, *lines = done.out.splitlines()
+    assert (done.code, len([line for line in lines if line.lstrip().startswith("?")])) == (0, 2)
+    assert title == "/joy -> /amcl: no topic, service or action is known that they share; 2 links are unknown"

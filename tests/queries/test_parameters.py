@@ -76,6 +76,47 @@ def test_the_last_part_of_a_name_means_all_nodes_that_have_it() -> None:
     assert [each.name for each in parameters(analysis_of(ROS2), "rate")] == ["/robot/other:rate", "/robot/talker:rate"]
 
 
+UNKNOWN = """//- /main.launch.xml
+<launch>
+  <node pkg="p" exec="a" name="talker"><param from="$(command 'which params')"/></node>
+  <node pkg="p" exec="b" name="other"><param name="rate" value="7"/></node>
+</launch>"""
+
+
+def test_a_parameter_file_that_is_not_known_may_set_it() -> None:
+    analysis = analysis_of(UNKNOWN)
+    talker, other = parameters(analysis, "use_sim_time")[::-1]
+    assert talker.name == "/talker:use_sim_time"
+    assert [place(each.location, analysis.all_documents) for each in talker.unknowns] == ["/main.launch.xml:2:53"]
+    assert other.unknowns == ()
+
+
+def test_a_section_with_the_name_of_a_node_that_has_none_here_may_set_it() -> None:
+    unnamed = ROS2.replace('exec="a" name="talker" namespace="robot"', 'exec="a"')
+    (found,) = parameters(analysis_of(unnamed), "/a:rate")
+    assert [each.what for each in found.unknowns] == ["sections with the name of the node"]
+
+
+ROS1_UNKNOWN = """//- /main.launch
+<launch>
+  <rosparam ns="talker" command="load" file="/not_here.yaml"/>
+  <param name="/talker/rate" value="1"/>
+  <param name="/other/rate" value="1"/>
+</launch>"""
+
+
+def test_a_file_of_ros_1_that_is_not_known_may_set_what_is_below_its_namespace() -> None:
+    other, talker = parameters(analysis_of(ROS1_UNKNOWN), "rate")
+    assert (len(talker.unknowns), len(other.unknowns)) == (1, 0)
+
+
+@pytest.mark.parametrize(("text", "name"), [(ROS1, "/use_sim_time"), (ROS2, "/robot/talker:use_sim_time")])
+def test_every_node_reads_whether_time_is_simulated(text: str, name: str) -> None:
+    (found,) = parameters(analysis_of(text), name)
+    assert [node for node, _ in found.uses] == [name.rpartition(":")[0] or "/talker"]
+    assert (found.settings, found.declared and found.declared.default) == ((), False)
+
+
 def test_near_names() -> None:
     with pytest.raises(NoSuchParameterError) as error:
         parameters(analysis_of(ROS2), "talker:rat")

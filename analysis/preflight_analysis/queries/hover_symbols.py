@@ -92,6 +92,10 @@ def _parameter(analysis: Analysis, name: str) -> str | None:
     kind = default_text(found.declared) if found.declared is not None else ""
     lines = [f"{title}{f': {kind}' if kind else ''}"]
     lines += ["", *_settings(analysis, found.settings)] if found.settings else ["", "Not set in this launch."]
+    lines += [
+        f"- may also be set at {place(analysis, each.location)}: {escaped(each.what)} ({escaped(each.reason)})"
+        for each in found.unknowns[:_SHOWN]
+    ]
     lines += ["", *_users(analysis, found.uses)]
     return "\n".join(lines)
 

@@ -7,11 +7,14 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchTree, Param
+from preflight_analysis.evaluation.tree import LaunchTree, Param, Unknown
 from preflight_analysis.queries.symbol_at import own_parameter, settings_of
 from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.parameters import OF_ALL_NODES
 from preflight_analysis.tracing.interface import ParamUse
 from preflight_analysis.workspace.workspace import Analysis
+
+_OF_ALL_NODES_OF_ROS_1 = {"/use_sim_time": ParamUse("/use_sim_time", "get", False, has_default=True, builtin=True)}
 
 
 class NoSuchParameterError(Exception):
@@ -25,11 +28,13 @@ class NoSuchParameterError(Exception):
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """One parameter. `name` is the full one, in ROS 2 `/node:name`. `settings` are the places that set it, the one that
-    applies first; `uses` are the calls of nodes, each with the node's name."""
+    applies first; `uses` are the calls of nodes, each with the node's name. `unknowns` are what is not known of the
+    launch and may set it too."""
 
     name: str
     settings: tuple[Param, ...]
     uses: tuple[tuple[str, ParamUse], ...]
+    unknowns: tuple[Unknown, ...] = ()
 
     @property
     def node(self) -> str:
@@ -54,7 +59,9 @@ def parameter(analysis: Analysis, name: str) -> Parameter | None:
     for param in reversed([param for full, param in settings_of(analysis.tree) if full == name]):
         settings.setdefault(param.place, param)
     uses = tuple((node, use) for full, node, use in _uses(analysis) if full == name)
-    return Parameter(name, tuple(settings.values()), uses) if settings or uses else None
+    if not settings and not uses:
+        return None
+    return Parameter(name, tuple(settings.values()), uses, tuple(dict.fromkeys(_unknowns(analysis.tree, name))))
 
 
 def parameters(analysis: Analysis, name: str) -> tuple[Parameter, ...]:
@@ -80,9 +87,42 @@ def section(tree: LaunchTree, param: Param) -> str:
 
 
 def _uses(analysis: Analysis) -> Iterator[tuple[str, str, ParamUse]]:
+    tree, asked = analysis.tree, set()
     for read in analysis.graph.param_reads if analysis.graph is not None else ():
-        full = own_parameter(read.node, read.use.name) if analysis.tree.ros.own_parameters else read.name
-        yield full, read.node.name, read.use
+        if read.use.access != "list":
+            full = own_parameter(read.node, read.use.name) if tree.ros.own_parameters else read.name
+            asked.add((full, read.node.name))
+            yield full, read.node.name, read.use
+    for node in tree.nodes:
+        if node.kind == "process":
+            continue
+        for name, use in (OF_ALL_NODES if tree.ros.own_parameters else _OF_ALL_NODES_OF_ROS_1).items():
+            full = own_parameter(node, name) if tree.ros.own_parameters else name
+            if (full, node.name) not in asked:
+                yield full, node.name, use
+
+
+def _unknowns(tree: LaunchTree, name: str) -> Iterator[Unknown]:
+    if not tree.ros.own_parameters:
+        for each in tree.unknowns:
+            of_any = each.param is None and each.what == "<rosparam>"
+            if of_any or (each.param is not None and f"{name}/".startswith(f"{each.param.rstrip('/')}/")):
+                yield each
+        return
+    owner = name.rpartition(":")[0]
+    for node in tree.nodes:
+        if node.name == owner:
+            yield from node.unknowns
+            if not (node.named or node.name_from_code) and any(
+                source.path is not None for source in node.param_sources
+            ):
+                yield Unknown("sections with the name of the node", "the launch file does not name it", node.location)
+            tag = node.action.span
+            yield from (
+                each
+                for each in tree.unknowns
+                if each.location.file == node.location.file and tag.start <= each.location.span.start < tag.end
+            )
 
 
 def _may_be(full: str, name: str) -> bool:

@@ -15,6 +15,14 @@ from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse
 
+OF_ALL_NODES = {
+    "use_sim_time": ParamUse("~use_sim_time", "get", False, has_default=True, builtin=True),
+    "start_type_description_service": ParamUse(
+        "~start_type_description_service", "get", True, has_default=True, builtin=True
+    ),
+}
+"""What the client libraries of ROS 2 declare for each node, whatever is known of it; the second since Jazzy."""
+
 
 def namespaces(context: Context) -> frozenset[str]:
     """Those in which parameters are. Ask through `context.once`."""

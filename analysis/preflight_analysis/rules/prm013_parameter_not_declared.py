@@ -11,13 +11,13 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.rules.parameters import OF_ALL_NODES
 from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import reports_params
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
-_OF_ALL_NODES = frozenset({"use_sim_time", "start_type_description_service"})
 _PREFIXES = ("qos_overrides.",)
 _CLOCK = "use_sim_time"
 _OF_TRANSPORT = re.compile(
@@ -45,7 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         given = {(param.name, param.place.file) for param in node.params}
         for param in node.params:
-            if param.name in declared or param.name in _OF_ALL_NODES or param.name.startswith(_PREFIXES):
+            if param.name in declared or param.name in OF_ALL_NODES or param.name.startswith(_PREFIXES):
                 continue
             if is_slip(param.name, _CLOCK):
                 continue

@@ -7,7 +7,7 @@ from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
-from preflight_analysis.rules.parameters import refusal_finding
+from preflight_analysis.rules.parameters import OF_ALL_NODES, refusal_finding
 from preflight_analysis.rules.problems import shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
@@ -20,8 +20,6 @@ _NAMES = {
     "string": "a string",
     "byte array": "bytes (which an empty list means)",
 }
-_OF_ALL_NODES = {"use_sim_time": ParamUse("~use_sim_time", "get", False, has_default=True, builtin=True)}
-"""What the client libraries declare for each node, whatever is known of it."""
 _ENDS = "the node exits (InvalidParameterTypeException)"
 
 
@@ -32,7 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not node.params:
             continue
         uses = {u.name.removeprefix("~"): u for u in interface.params if u.access == "get"}
-        known = {**_OF_ALL_NODES, **uses} if node.kind != "process" else uses
+        known = {**OF_ALL_NODES, **uses} if node.kind != "process" else uses
         declared = {name: use for name, use in known.items() if not use.dynamic}
         for param in node.params:
             use = declared.get(param.name)

@@ -29,6 +29,7 @@ last part. The command runs the nodes in a sandbox to see which parameters they 
 --no-run executes nothing. Exit codes: 0 found, 2 the command failed."""
 SCHEMA = "ros-preflight/where/1"
 _LENGTH = 200
+_USERS = 8
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -72,6 +73,9 @@ def _lines(found: Parameter, analysis: Analysis) -> Iterator[str]:
         where = place(param.place, analysis.all_documents, os.getcwd())
         yield f"  {state:<10}  {_shown(param.value)} [{where}]{f' section {key!r}' if key else ''}"
         state = "overridden"
+    for each in found.unknowns:
+        where = place(each.location, analysis.all_documents, os.getcwd())
+        yield f"  {'unknown':<10}  may also be set here: {each.what} ({each.reason}) [{where}]"
     declared = found.declared
     if declared is not None and declared.has_default:
         yield f"  {'default':<10}  {_shown(declared.default)}{_in_code(declared)}"
@@ -79,14 +83,15 @@ def _lines(found: Parameter, analysis: Analysis) -> Iterator[str]:
         yield f"  {'default':<10}  none{_in_code(declared)}"
     users = list(dict.fromkeys(node for node, use in found.uses if use.access != "set"))
     if users:
-        yield f"  {'read by':<10}  {', '.join(users)}"
+        more = f" and {len(users) - _USERS} more" if len(users) > _USERS else ""
+        yield f"  {'read by':<10}  {', '.join(users[:_USERS])}{more}"
     else:
         yield "  no node is known to read it"
 
 
 def _shown(value: ParamValue) -> str:
     if isinstance(value, CommandValue):
-        return f"output of {value.command}"
+        return f"output of {' '.join(value.command.split())}"
     if value is None:
         return "unresolved"
     text = " ".join(str(json_value(value)).split()) or "''"
@@ -107,6 +112,10 @@ def _json(found: Parameter, analysis: Analysis) -> dict[str, Any]:
         "node": found.node or None,
         "settings": [
             {"applies": not number, **_setting(param, analysis)} for number, param in enumerate(found.settings)
+        ],
+        "unknown": [
+            {"what": each.what, "reason": each.reason, **place_json(each.location, analysis.all_documents)}
+            for each in found.unknowns
         ],
         "declared": _declared(found.declared),
         "uses": [

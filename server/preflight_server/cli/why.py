@@ -132,7 +132,10 @@ def _verdict(chain: Chain) -> str:
     if chain.broken is not None:
         return f"{pair}: not connected: {chain.broken.text}"
     links = "link is" if chain.unknown == 1 else "links are"
-    return f"{pair}: connected" if not chain.unknown else f"{pair}: no broken link; {chain.unknown} {links} unknown"
+    if not chain.unknown:
+        return f"{pair}: connected"
+    state = "no broken link" if chain.channel is not None else "no topic, service or action is known that they share"
+    return f"{pair}: {state}; {chain.unknown} {links} unknown"
 
 
 def _lines(links: Sequence[Link], analysis: Analysis) -> Iterator[str]:

@@ -82,7 +82,8 @@ def _why(document: Document) -> Iterator[str]:
         yield f"{start['node']} is {'started' if start['started'] else 'not started'}"
         yield from map(_link, start["links"])
     for chain in document.get("chains", ()):
-        state = {True: "connected", False: "not connected", None: "no broken link, some links are unknown"}
+        so_far = "no broken link" if chain["channel"] else "no topic, service or action is known that they share"
+        state = {True: "connected", False: "not connected", None: f"{so_far}, some links are unknown"}
         over = f" over {chain['channel']}" if chain["channel"] else ""
         yield f"{chain['provider']} -> {chain['consumer']}{over}: {state[chain['connected']]}"
         yield from map(_link, chain["links"])
@@ -99,6 +100,8 @@ def _where(document: Document) -> Iterator[str]:
         for setting in parameter["settings"]:
             state = "applies" if setting["applies"] else "overridden"
             yield f"  {state}: {json.dumps(setting['value'])} [{_place(setting)}]"
+        for unknown in parameter["unknown"]:
+            yield f"  unknown: {unknown['what']} ({unknown['reason']}) [{_place(unknown)}]"
         declared = parameter["declared"]
         if declared is not None and "default" in declared:
             yield f"  default: {json.dumps(declared['default'])}"
