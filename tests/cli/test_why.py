@@ -70,3 +70,43 @@ def test_two_nodes_that_are_not_known_to_share_anything(harness: Harness, prefli
     title, *lines = done.out.splitlines()
     assert (done.code, len([line for line in lines if line.lstrip().startswith("?")])) == (0, 2)
     assert title == "/joy -> /amcl: no topic, service or action is known that they share; 2 links are unknown"
+
+
+IN_PYTHON = """
+from launch import LaunchDescription
+from launch.conditions import UnlessCondition
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    spawner = Node(package="controller_manager", executable="spawner", arguments=["joint_state_broadcaster"])
+    kind = {"joint_state_broadcaster.type": "joint_state_broadcaster/JointStateBroadcaster"}
+    manager = Node(
+        package="controller_manager",
+        executable="ros2_control_node",
+        name="controller_manager",
+        parameters=[kind],
+        condition=UnlessCondition("false"),
+    )
+    return LaunchDescription([manager, spawner])
+"""
+
+
+def test_a_condition_in_python_is_shown_as_it_is_written(harness: Harness, preflight: Run) -> None:
+    Path(harness.workspace, "launch/arm.launch.py").write_text(IN_PYTHON)
+    done = preflight("why", "launch/arm.launch.py", "controller_manager")
+    assert 'under the condition UnlessCondition("false") [launch/arm.launch.py:14:19]' in done.out
+    assert "controller_manager is started here" in done.out
+
+
+def test_a_controller_is_started_within_its_manager(harness: Harness, preflight: Run) -> None:
+    Path(harness.workspace, "launch/arm.launch.py").write_text(IN_PYTHON)
+    done = preflight("why", "launch/arm.launch.py", "joint_state_broadcaster")
+    assert done.out.startswith("/joint_state_broadcaster is started\n")
+    assert "/joint_state_broadcaster is started here within /controller_manager" in done.out
+
+
+def test_nodes_of_a_launch_file_of_the_catalogue(harness: Harness, preflight: Run) -> None:
+    path = Path(harness.workspace, "launch/mux.launch")
+    path.write_text('<launch><include file="$(find twist_mux)/launch/twist_mux.launch"/></launch>\n')
+    done = preflight("why", "launch/mux.launch", "twist_mux", "twist_marker", "--no-run")
+    assert done.out.startswith("/twist_mux -> /twist_marker over the topic '/twist_mux/")

@@ -162,7 +162,7 @@ def test_a_bridge_between_domains(args: str, state: str, end: str) -> None:
             """
             //- /main.launch.xml
             <launch><arg name="sim" default="true"/><group><push_ros_namespace namespace="robot"/>
-            <node pkg="p" exec="a" name="a" if="$(var sim)"/></group>
+            <node pkg="p" exec="a" name="a" namespace="" if="$(var sim)"/></group>
             <group><node pkg="p" exec="b" name="b" namespace="robot"/><push_ros_namespace namespace="late"/></group>
             </launch>""",
             ["/a is in the namespace 'robot'", "/b is in the namespace 'robot'"],
@@ -249,8 +249,8 @@ CONDITION = """
 """
 
 
-def started(name: str) -> Start:
-    at = at_cursor(CONDITION)
+def started(name: str, sim: str = "false") -> Start:
+    at = at_cursor(CONDITION.replace('default="false"', f'default="{sim}"'))
     return why_started(at.analysis, name, at.evaluate)
 
 
@@ -264,9 +264,22 @@ def test_a_condition_leaves_a_node_out() -> None:
 def test_what_starts_a_node() -> None:
     start = started("base")
     assert start.node == "/base"
-    assert [(link.about, link.state) for link in start.links] == [("started", "ok"), ("finding", "broken")]
+    assert [(link.about, link.state) for link in start.links] == [
+        ("condition", "ok"),
+        ("started", "ok"),
+        ("finding", "broken"),
+    ]
     assert start.broken is not None
     assert start.broken.text.startswith("PKG002: ")
+
+
+def test_the_conditions_and_files_on_the_way_to_a_node() -> None:
+    start = started("/world/gazebo", sim="true")
+    assert [link.text for link in start.links if link.state == "ok"] == [
+        "includes the file below",
+        'under the condition if="$(arg sim)"',
+        "/world/gazebo is started here",
+    ]
 
 
 def test_no_condition_leads_to_it() -> None:

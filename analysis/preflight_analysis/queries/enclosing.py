@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
@@ -29,15 +30,19 @@ def conditions_of(context: Context, node: LaunchNode) -> Iterator[Written]:
         for action in around:
             for name in _CONDITIONS:
                 if (value := action.value(name)) is not None:
-                    yield Written(f'{name}="{" ".join(value.text.split())}"', context.location(file, value.span))
+                    place = context.location(file, value.span)
+                    in_python = context.launch_files[file].is_python
+                    text = context.text(place) if in_python else f'{name}="{value.text}"'
+                    yield Written(" ".join(text.split()), place)
 
 
 def namespaces_of(context: Context, node: LaunchNode) -> Iterator[Written]:
     """What puts the node into its namespace."""
     for file, around in _around(context, node):
-        for action, inner in zip(around, (*around[1:], None), strict=True):
+        for action, inner in zip_longest(around, around[1:]):
             for value in _spaces(action, inner):
-                yield Written(f"'{value.text}'", context.location(file, value.span))
+                if value.text.strip("/"):
+                    yield Written(f"'{value.text}'", context.location(file, value.span))
 
 
 def _spaces(action: Action, inner: Action | None) -> Iterator[Value]:

@@ -267,6 +267,8 @@ def _evidence(connection: Connection) -> str:
         return "; seen in a run with another configuration"
     if end.catalogued:
         return f"; from {end.catalogued}"
+    if end.displayed:
+        return "; from its configuration"
     if end.inferred:
         return "; from its source, under a condition" if end.conditional else "; from its source"
     return ""

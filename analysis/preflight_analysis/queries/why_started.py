@@ -8,6 +8,7 @@ from itertools import islice
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables, assignments
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, NotTaken
+from preflight_analysis.queries.enclosing import conditions_of
 from preflight_analysis.queries.why import Link, NoSuchNodeError, first_broken, node_named
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -37,16 +38,16 @@ class Start:
 def why_started(analysis: Analysis, name: str, evaluate: Evaluate) -> Start:
     """What starts the node, or which condition leaves it out. Raises `NoSuchNodeError` where no arguments that the
     conditions ask for start a node of that name."""
-    tree = analysis.tree
+    nodes = analysis.graph.tree.nodes if analysis.graph is not None else analysis.tree.nodes
     try:
-        node = node_named(tree.nodes, name)
+        node = node_named(nodes, name)
     except NoSuchNodeError as error:
         found = next(_left_out(analysis, name, evaluate), None)
         if found is None:
             raise error from None
         node, left_out, wanted = found
         return Start(node.name, (_condition(left_out, wanted),), wanted)
-    return Start(node.name, (*_started(node), *_problems(analysis, node)), {})
+    return Start(node.name, (*_started(analysis, node), *_problems(analysis, node)), {})
 
 
 def _left_out(
@@ -77,11 +78,14 @@ def _condition(left_out: NotTaken, wanted: Mapping[str, str]) -> Link:
     return Link("condition", "broken", text, left_out.place)
 
 
-def _started(node: LaunchNode) -> Iterator[Link]:
+def _started(analysis: Analysis, node: LaunchNode) -> Iterator[Link]:
     for step in node.origin[:-1]:
         yield Link("include", "ok", "includes the file below", step)
+    for condition in conditions_of(analysis.context, node):
+        yield Link("condition", "ok", f"under the condition {condition.text}", condition.place)
     when = " after a timer or an event" if node.deferred else ""
-    yield Link("started", "ok", f"{node.name} is started here{when}", node.location)
+    within = f" within {node.within}" if node.within is not None else ""
+    yield Link("started", "ok", f"{node.name} is started here{within}{when}", node.location)
 
 
 def _problems(analysis: Analysis, node: LaunchNode) -> Iterator[Link]:

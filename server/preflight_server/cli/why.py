@@ -76,7 +76,12 @@ def _started(project: Project, name: str, args: argparse.Namespace) -> int:
     def evaluate(wanted: Assignment) -> LaunchTree:
         return project.workspace.evaluated(analysis.root, wanted).tree
 
-    start = why_started(analysis, name, evaluate)
+    try:
+        start = why_started(analysis, name, evaluate)
+    except NoSuchNodeError:
+        # Controllers and other nodes that a node of the launch makes are known with the interfaces only.
+        analysis = run_nodes(project, argparse.Namespace(**{**vars(args), "no_run": True}))
+        start = why_started(analysis, name, evaluate)
     if args.format == "json":
         data = {"schema": SCHEMA, "start": _start_json(start, analysis)}
         print_json(with_paths(data, args, [workspace_of(analysis.root)]))
