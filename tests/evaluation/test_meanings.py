@@ -7,6 +7,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.meanings import Known, KnownMeanings, meant_by
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.knowledge.read import read_knowledge
+from support.check import analyse, read_fixture
 
 NOWHERE = Location.of_file("/a.yaml")
 EVERY = KnownMeanings((), None, 2)
@@ -106,6 +107,39 @@ def test_whether_it_is_of_the_version_that_is_used(package: str, name: str, dist
     found = KnownMeanings((), distro, 2).of(package, "executables", name)
     assert found is not None
     assert found.is_used is used
+
+
+def test_a_default_within_a_text_needs_its_value() -> None:
+    asked = '{out: {topic: publisher, default: "${in}_relay"}}'
+    assert meant(asked, **{"in": "scan"}) == [("out", "scan_relay", None, False)]
+    assert meant(asked) == []
+
+
+def test_a_name_that_is_always_the_same_with_a_text_behind_it() -> None:
+    asked = '{=in: [{topic: subscriber, when: {t: raw}}, {topic: subscriber, append: "/${t}", when: {t: "!raw"}}]}'
+    said = read_knowledge(f"package: p\nentries:\n- executables: [e]\n  parameters: {asked}")
+    known = Known(said.entries[0], "p", "", True)
+
+    def names(transport: str) -> list[str]:
+        params = [("t", Param("t", transport, (NOWHERE,)))]
+        return [f"{each.value}{each.append}" for each in meant_by(known, params, EVERY)]
+
+    assert names("raw") == ["in"]
+    assert names("theora") == ["in/theora"]
+
+
+def test_what_is_given_for_a_type_and_is_none() -> None:
+    asked = "{x: {topic: publisher, type: $kind}}"
+    assert meant(asked, x="/t", kind="std_msgs/Bool") == [("x", "/t", "std_msgs/Bool", True)]
+    assert meant(asked, x="/t", kind="{data: 1}") == []
+
+
+def test_a_node_that_had_another_name() -> None:
+    text = '//- /a.launch.xml\n<launch><node pkg="ros_ign_gazebo" exec="create" name="c"/></launch>'
+    tree = analyse(read_fixture(text)).tree
+    found = KnownMeanings((), "jazzy", 2).of_node(tree.nodes[0])
+    assert found is not None
+    assert (found.package, found.is_used) == ("ros_gz_sim", False)
 
 
 def test_a_package_of_the_other_generation() -> None:

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.workspace import Analysis
 from support.package_elsewhere import analysed
@@ -81,3 +82,33 @@ def test_a_parameter_of_any_node_that_says_so_by_its_name(tmp_path: Path) -> Non
     )
     analysis = analysed(tmp_path, launch, **{"../../.ros-preflight.yaml": settings})
     assert ends(analysis, "/reader") == [("subscriber", "/scan", "sensor_msgs/LaserScan", "/reader/scan_topic")]
+
+
+def all_ends(
+    folder: Path, node: str, distro: str, files: dict[str, str] | None = None
+) -> set[tuple[str, str, str | None]]:
+    """Role, name as the node gave it and type of each end of the only node of a launch file."""
+    name = "a.launch" if distro == "noetic" else "a.launch.xml"
+    graph = analysed(folder, f"<launch>{node}</launch>", name, distro, **(files or {})).graph
+    assert graph is not None
+    return {(end.role, end.name, end.type) for end in graph.interfaces[0].endpoints if not end.builtin}
+
+
+@pytest.mark.parametrize("args", ["-topic robot_description -name r -z -0.5", "--topic=robot_description -name r"])
+def test_an_option_of_a_command_line_names_a_topic(tmp_path: Path, args: str) -> None:
+    node = f'<node pkg="ros_gz_sim" exec="create" name="spawn" args="{args}"/>'
+    assert ("subscriber", "robot_description", "std_msgs/msg/String") in all_ends(tmp_path, node, "jazzy")
+
+
+@pytest.mark.parametrize(
+    ("distro", "given"),
+    [
+        ("humble", 'args="compressed raw"/>'),
+        ("jazzy", '><param name="in_transport" value="compressed"/><param name="out_transport" value="raw"/></node>'),
+    ],
+)
+def test_a_transport_is_part_of_the_name(tmp_path: Path, distro: str, given: str) -> None:
+    node = f'<node pkg="image_transport" exec="republish" name="r" {given}'
+    found = all_ends(tmp_path, node, distro)
+    assert ("subscriber", "in/compressed", "sensor_msgs/msg/CompressedImage") in found
+    assert ("publisher", "out", "sensor_msgs/msg/Image") in found

@@ -8,11 +8,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import compress
 from operator import attrgetter
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.catalogue.released import DISTRIBUTIONS
+from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.known_arguments import arguments_of
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.knowledge.load import knowledge_of
@@ -23,6 +27,13 @@ _LISTED = re.compile(r"\{(\w[\w.]*)\}")
 _PACKAGE = re.compile(r"(\w+)(?:::|/)")
 _OTHER = "$"
 """Before the name of a parameter whose value is meant."""
+_WITHIN = re.compile(r"\$\{([\w.]+)\}")
+"""The same within a text."""
+_ANY = "*"
+_TYPE = re.compile(r"\w+/(?:\w+/)?\w+")
+_TYPED = ("topic", "service", "action")
+_FIXED = "="
+"""Before a name that no parameter gives."""
 _KEPT = 4096
 _MOST = 256
 """Items of a list."""
@@ -49,9 +60,14 @@ class KnownMeanings:
     generation: int
 
     def of_node(self, node: LaunchNode) -> Known | None:
-        """What is known of a node; None where nothing is."""
+        """What is known of a node; None where nothing is. What had another name then is not sure to be the same."""
         package, kind, name = place_of(node)
-        return self.of(package, kind, name)
+        found = self.of(package, kind, name)
+        if found is not None:
+            return found
+        others = other_names(package, kind, name, distribution_of(self.generation, self.distro))
+        known = next(filter(None, (self.of(other, kind, named) for other, named in others)), None)
+        return known._replace(is_used=False) if known is not None else None
 
     def within(self, node: LaunchNode, process: LaunchNode) -> Known | None:
         """What is known of a node that the process of another one makes beside it: a costmap, or a controller, whose
@@ -74,13 +90,14 @@ class KnownMeanings:
 
     def of(self, package: str, kind: EntryKind, name: str) -> Known | None:
         """What is known of an executable, a component, ... of a package."""
+        distributions = DISTRIBUTIONS[self.generation]
         for said in self.own:
-            entry = said.entry(kind, name, self.distro) if said.package == package else None
+            entry = said.entry(kind, name, self.distro, distributions) if said.package == package else None
             if entry is not None:
                 return Known(entry, package, said.evidence(self.distro), True)
         common = knowledge_of(package)
-        entry = common.entry(kind, name, self.distro) if common is not None else None
-        if common is None or entry is None or DISTRIBUTIONS[self.generation].keys().isdisjoint(entry.distributions):
+        entry = common.entry(kind, name, self.distro, distributions) if common is not None else None
+        if common is None or entry is None or distributions.keys().isdisjoint(entry.distributions):
             return None
         return Known(entry, package, common.evidence(self.distro), self._is_used(entry))
 
@@ -106,8 +123,9 @@ def place_of(node: LaunchNode) -> tuple[str, EntryKind, str]:
 
 class Meant(NamedTuple):
     """A value and what it stands for. `parameter` is the name as the node asks for it (`odom0`, `scan.topic`); `param`
-    is what sets it, None of a default. The items of a list come one by one. `type` is that of a topic, service or
-    action, `package/Name`, None where it is not known."""
+    is what sets it, None of a default, an argument or a name that is always the same. The items of a list come one by
+    one. `type` is that of a topic, service or action, `package/Name`, None where it is not known. `append` is what
+    makes the name behind the value."""
 
     meaning: Meaning
     known: Known
@@ -115,6 +133,7 @@ class Meant(NamedTuple):
     value: Any
     param: Param | None
     type: str | None = None
+    append: str = ""
 
     def type_of(self, settings: Settings) -> str | None:
         """The type of a topic, service or action, `package/Name`; None where that is not known."""
@@ -127,14 +146,21 @@ class Meant(NamedTuple):
         found = settings.value(type_.removeprefix(_OTHER), self.parameter)
         return found if isinstance(found, str) else None
 
+    def has_broken_type(self) -> bool:
+        """Whether its type is given and none."""
+        return self.type not in (None, _ANY) and not _TYPE.fullmatch(self.type or "")
+
 
 class Settings:
-    """The parameters of a node below one name, with dots between the parts of theirs, and the defaults of those that
-    its knowledge has a meaning for."""
+    """The parameters of a node below one name, with dots between the parts of theirs, the defaults of those that its
+    knowledge has a meaning for, and its arguments, which count first."""
 
-    def __init__(self, known: Known, params: Sequence[tuple[str, Param]]) -> None:
+    def __init__(
+        self, known: Known, params: Sequence[tuple[str, Param]], arguments: Mapping[str, Any] = MappingProxyType({})
+    ) -> None:
         self.known = known
         self.params = dict(params)
+        self.arguments = arguments
         self.defaults = {each.pattern: each.default for each in known.entry.meanings if each.default is not None}
 
     def value(self, name: str, beside: str = "") -> Any:
@@ -142,15 +168,26 @@ class Settings:
         stands beside another."""
         if name.startswith("./"):
             name = f"{beside.rpartition('.')[0]}.{name[2:]}".removeprefix(".")
+        if name in self.arguments:
+            return self.arguments[name]
         found = self.params.get(name)
         return found.value if found is not None else self.default(name)
 
     def default(self, name: str) -> Any:
-        """The value that a parameter has where it is not set: `$x` is that of another one."""
+        """The value that a parameter has where it is not set: `$x` is that of another one, `${x}` within a text."""
         found = self.defaults.get(name)
-        if isinstance(found, str) and found.startswith(_OTHER) and found != f"{_OTHER}{name}":
-            return self.value(found.removeprefix(_OTHER))
-        return found
+        if not isinstance(found, str) or f"{_OTHER}{name}" == found or f"{_OTHER}{{{name}}}" in found:
+            return found
+        if _WITHIN.search(found):
+            return self.filled(found)
+        return self.value(found.removeprefix(_OTHER)) if found.startswith(_OTHER) else found
+
+    def filled(self, text: str) -> str | None:
+        """A text with the values of `${x}`; None where one of them is not known."""
+        values = {each[1]: self.value(each[1]) for each in _WITHIN.finditer(text)}
+        if not all(isinstance(value, str) and value for value in values.values()):
+            return None
+        return _WITHIN.sub(lambda each: str(values[each[1]]), text)
 
     def holds(self, conditions: Mapping[str, Any], beside: str = "") -> bool:
         """Whether all parameters have the values that are asked of them: `$x` is that of another one, `!` any other."""
@@ -213,19 +250,34 @@ def own_params(node: LaunchNode, given: Sequence[Param]) -> tuple[tuple[str, Par
     return tuple((param.name.removeprefix(below).replace("/", "."), param) for param in given)
 
 
+def meant_of_node(node: LaunchNode, known: Known, given: Sequence[Param], every: KnownMeanings) -> tuple[Meant, ...]:
+    """All values that mean something of a node with its parameters, as `own_params` takes them, and its arguments."""
+    return meant_by(known, own_params(node, given), every, arguments=arguments_of(node, known.entry))
+
+
 def meant_by(
-    known: Known, params: Sequence[tuple[str, Param]], every: KnownMeanings, prefix: str = ""
+    known: Known,
+    params: Sequence[tuple[str, Param]],
+    every: KnownMeanings,
+    prefix: str = "",
+    arguments: Mapping[str, Any] = MappingProxyType({}),
 ) -> tuple[Meant, ...]:
     """All values that mean something, in the order of what is known, defaults among them; behind each plugin what its
     own parameters mean, which stand below its name. `prefix` is that name, with a dot."""
-    settings = Settings(known, params)
+    settings = Settings(known, params, arguments)
     found: list[Meant] = []
     for meaning in known.entry.meanings:
         for each in _of_meaning(meaning, settings):
             if not settings.holds(meaning.when, each.parameter):
                 continue
             type_ = each.type_of(settings) if meaning.type or meaning.type_by else None
-            found.append(each._replace(parameter=f"{prefix}{each.parameter}", type=type_))
+            append = settings.filled(meaning.append) if meaning.append else ""
+            if append is None:
+                continue
+            made = each._replace(parameter=f"{prefix}{each.parameter}", type=type_, append=append)
+            if meaning.kind in _TYPED and made.has_broken_type():
+                continue
+            found.append(made)
             if meaning.kind == "plugin" and isinstance(each.value, str) and prefix.count(".") < _MAX_DEPTH:
                 name, dot, _ = each.parameter.rpartition(".")
                 plugin = every.plugin(each.value) if dot else None
@@ -236,13 +288,21 @@ def meant_by(
 
 
 def _of_meaning(meaning: Meaning, settings: Settings) -> Iterator[Meant]:
+    if meaning.pattern.startswith(_FIXED):
+        yield Meant(meaning, settings.known, meaning.pattern, meaning.pattern.removeprefix(_FIXED), None)
+        return
     for name in _expanded(meaning.pattern, settings):
+        if name in settings.arguments:
+            value = settings.arguments[name]
+            for each in value if isinstance(value, list) else [value]:
+                yield Meant(meaning, settings.known, name, each, None)
+            continue
         for parameter, value, param in _values(name, settings):
             for each in value[:_MOST] if isinstance(value, (list, tuple)) else (value,):
                 yield Meant(meaning, settings.known, parameter, each, param)
         if name not in settings.params and meaning.default is not None and "*" not in name and _NUMBER not in name:
             default = settings.default(meaning.pattern)
-            for each in default if isinstance(default, list) else [default]:
+            for each in default if isinstance(default, list) else [] if default is None else [default]:
                 yield Meant(meaning, settings.known, name, each, None)
 
 

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.partial_text import named
 from preflight_analysis.evaluation.ros2.spawners import SPAWN
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.frames.edges import (
+    ANY,
     edges_of_node,
     edges_of_plugins,
     edges_of_robot,
@@ -94,6 +95,8 @@ def _gaps(
             elif robot is None or not robot.description.is_whole:
                 unread.append(_named(node))
         elif interface is not None and any(not (frame.parent and frame.child) for frame in interface.frames):
+            unclear.append(_named(node))
+        elif about is not None and any(each.child == ANY for each in about.entry.frames):
             unclear.append(_named(node))
         elif found or (about is not None and about.is_used):
             continue

@@ -17,6 +17,8 @@ from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.tracing.interface import Frame, Interface
 
 _STATE_PUBLISHERS = ("robot_state_publisher", "state_publisher")
+ANY = "*"
+"""In what is known of a package: frames that no parameter names."""
 _FIXED = "="
 """In what is known of a package: before a frame that no parameter names."""
 _OTHER = "$"
@@ -104,6 +106,8 @@ def _of_knowledge(node: LaunchNode, known: Known | None, given: Sequence[Param],
         return
     settings = Settings(known, own_params(node, given))
     for each in known.entry.frames:
+        if each.child == ANY:
+            continue
         parent, child = _frame(settings, each.parent), _frame(settings, each.child)
         if not (parent and child) or not settings.holds(each.when):
             continue

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.disk import Disk, text_of
 from preflight_analysis.documents.reading import Text
-from preflight_analysis.evaluation.meanings import Known, KnownMeanings, meant_by, own_params
+from preflight_analysis.evaluation.meanings import Known, KnownMeanings, meant_of_node, own_params
 from preflight_analysis.evaluation.rviz import rviz_config_of
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.frames.edges import plain, space_of
@@ -56,7 +56,7 @@ def _of_source(use: FrameUse, node: LaunchNode, given: Sequence[Param], space: s
 def _of_knowledge(
     node: LaunchNode, known: Known, given: Sequence[Param], space: str, every: KnownMeanings
 ) -> Iterator[Use]:
-    for each in meant_by(known, own_params(node, given), every):
+    for each in meant_of_node(node, known, given, every):
         meaning, value = each.meaning, each.value
         if meaning.kind != "frame" or meaning.role not in ("used", "named") or not is_frame(value):
             continue

@@ -5,7 +5,7 @@ docs/knowledge.md describes the files that this is read from.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import field
 from typing import Any, Literal
 
@@ -30,14 +30,14 @@ ENTRY_KINDS: tuple[EntryKind, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What the values of the parameters of a pattern stand for.
+    """What the values of the parameters of a pattern stand for, or a name that is always the same, after `=`.
 
     `pattern` has the names of parameters with dots between: `odom{N}` stands for `odom0`, `odom1`, ...;
     `{topics}.type` for `front.type` where the parameter `topics` lists `front`; `*` for one name or for each item of
     a list. `role` is one of `ROLES`. `type` is that of a topic, service or action as `package/Name`, of a joint its
     interfaces; `type_by` has it by the value of another parameter. `default` is the value where the parameter is not
-    set, `$x` that of the parameter `x`. `when` are values that other parameters must have, one of several where it is
-    a list; `!x` is any value but `x`.
+    set, `$x` that of the parameter `x`, which `${x}` is within a text. `when` are values that other parameters must
+    have, one of several where it is a list; `!x` is any value but `x`.
     """
 
     pattern: str
@@ -49,12 +49,15 @@ class Meaning:
     when: Mapping[str, Any] = field(default_factory=dict)
     qos: Mapping[str, Any] = field(default_factory=dict)
     append: str = ""
-    """What is put behind the value to make the name: `/compressed`."""
+    """What is put behind the value to make the name: `/compressed`, `/${transport}` for that of a parameter."""
+    remapped: bool = False
+    """Whether a remap of the value changes the beginning of that name."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """A transform that is broadcast. `parent` and `child` name parameters, or are frames where they begin with `=`."""
+    """A transform that is broadcast. `parent` and `child` name parameters, or are frames where they begin with `=`. A
+    child `*` stands for frames that no parameter names."""
 
     parent: str
     child: str
@@ -66,6 +69,10 @@ class Frames:
 class Entry:
     """What is known of some executables, components, ... of a package: `names` has them by their kind.
 
+    `arguments` are forms of its command line, of which the first that fits counts: `messages {topic} [{out}] {more}...`
+    has words that stand as they are and names of others. `options` has the names of what stands behind options. What
+    has a name is a parameter for `meanings`. `whole`: whether they have all endpoints of the node.
+
     `within` has what other nodes there are in the process, by their full name below the namespace of the process, with
     the component or plugin that says what they are.
     """
@@ -75,6 +82,9 @@ class Entry:
     frames: tuple[Frames, ...] = ()
     distributions: tuple[str, ...] = ()
     within: Mapping[str, str] = field(default_factory=dict)
+    arguments: tuple[str, ...] = ()
+    options: Mapping[str, str] = field(default_factory=dict)
+    whole: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +98,8 @@ class Problem:
 @dataclass(frozen=True, slots=True)
 class Knowledge:
     """What a file says of a package. `source` is where that was read: repository, branch, commit, files, and `also` the
-    commits of other distributions; empty for a user's own. What is wrong in it is left out and stands in `problems`."""
+    commits of other distributions, `owner/name@commit` in another repository; empty for a user's own. What is wrong in
+    it is left out and stands in `problems`."""
 
     package: str = ""
     entries: tuple[Entry, ...] = ()
@@ -105,9 +116,14 @@ class Knowledge:
         commit = str(of_distro or self.source.get("commit", ""))
         if not repository:
             return f"the knowledge file of {self.package}"
+        other, at, of_other = commit.rpartition("@")
+        if at:
+            repository, commit = other, of_other
         return f"what is known of {self.package} ({repository} at {commit[:7]})"
 
-    def entry(self, kind: EntryKind, name: str, distro: str | None) -> Entry | None:
-        """What is known of an executable, component, ... as that distribution has it, else as any has it."""
+    def entry(self, kind: EntryKind, name: str, distro: str | None, others: Collection[str] = ()) -> Entry | None:
+        """What is known of an executable, component, ... as that distribution has it, else as one of `others` has it;
+        of what names no distribution in any case."""
         found = [each for each in self.entries if name in each.names.get(kind, ())]
-        return next((each for each in found if distro in each.distributions), found[0] if found else None)
+        of_others = (each for each in found if not each.distributions or not set(others).isdisjoint(each.distributions))
+        return next((each for each in found if distro in each.distributions), None) or next(of_others, None)

@@ -22,6 +22,7 @@ from preflight_analysis.knowledge.model import (
     Problem,
 )
 
+_OF_ENTRIES = ("parameters", "arguments", "options", "broadcasts", "distributions", "within", "whole")
 _MAX_VALUES = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
 
@@ -74,21 +75,32 @@ class _Reader:
             if key.value in ENTRY_KINDS:
                 names[key.value] = self._texts(value, key.value)
             elif key.value == "parameters":
-                pairs = self._pairs(value, "parameters")
-                given["meanings"] = tuple(made for k, v in pairs if (made := self.meaning(k, v)) is not None)
+                given["meanings"] = tuple(self._meanings(value))
             elif key.value == "broadcasts":
                 frames = map(self.frames, self._items(value, "broadcasts"))
                 given["frames"] = tuple(each for each in frames if each is not None)
             elif key.value == "distributions":
                 given["distributions"] = self._texts(value, "distributions")
-            elif key.value == "within":
-                given["within"] = {k.value: self._text(v, k.value) for k, v in self._pairs(value, "within")}
+            elif key.value == "arguments":
+                given["arguments"] = self._texts(value, "arguments")
+            elif key.value in ("within", "options"):
+                given[key.value] = {k.value: self._text(v, k.value) for k, v in self._pairs(value, key.value)}
+            elif key.value == "whole":
+                given["whole"] = self._plain(value) is True
             else:
-                known = (*ENTRY_KINDS, "parameters", "broadcasts", "distributions", "within")
-                self._unknown(key, "an entry", known)
+                self._unknown(key, "an entry", (*ENTRY_KINDS, *_OF_ENTRIES))
         if not names:
             self._wrong(node, f"an entry needs one of: {', '.join(ENTRY_KINDS)}")
         return Entry(names, **given)
+
+    def _meanings(self, node: yaml.Node) -> Iterator[Meaning]:
+        """Those of each parameter, which may have a list of them."""
+        for key, value in self._pairs(node, "parameters"):
+            several = self._items(value, key.value) if isinstance(value, yaml.SequenceNode) else [value]
+            for each in several:
+                meaning = self.meaning(key, each)
+                if meaning is not None:
+                    yield meaning
 
     def meaning(self, key: yaml.ScalarNode, node: yaml.Node) -> Meaning | None:
         kind: Kind | None = None
@@ -112,8 +124,11 @@ class _Reader:
                 given[name.value] = {k.value: self._plain(v) for k, v in self._pairs(value, name.value)}
             elif name.value == "append":
                 given["append"] = self._text(value, "append")
+            elif name.value == "remapped":
+                given["remapped"] = self._plain(value) is True
             else:
-                self._unknown(name, f"'{key.value}'", (*ROLES, "type", "default", "when", "qos", "append"))
+                known = (*ROLES, "type", "default", "when", "qos", "append", "remapped")
+                self._unknown(name, f"'{key.value}'", known)
         if kind is None and given.keys() == {"default"}:
             kind = "value"
         if kind is None:

@@ -33,8 +33,10 @@ def schema() -> dict[str, Any]:
             "when": _CONDITIONS,
             "qos": {"type": "object"},
             "append": _TEXT,
+            "remapped": {"type": "boolean", "description": "Whether a remap of the value changes the name."},
         },
     )
+    meaning["anyOf"] = [*({"required": [kind]} for kind in ROLES), {"required": ["default"], "maxProperties": 1}]
     broadcast = _object(
         "A transform that the node broadcasts. A frame is a parameter, or a name after '='.",
         {"parent": _TEXT, "child": _TEXT, "static": {"type": "boolean"}, "when": _CONDITIONS},
@@ -48,13 +50,15 @@ def schema() -> dict[str, Any]:
                 "type": "object",
                 "description": "Patterns of names: odom{N}, sources.*.topic, {sources}.topic.",
                 "additionalProperties": {
-                    **meaning,
-                    "anyOf": [
-                        *({"required": [kind]} for kind in ROLES),
-                        {"required": ["default"], "maxProperties": 1},
-                    ],
+                    "oneOf": [meaning, {"type": "array", "items": meaning, "description": "Of several conditions."}]
                 },
             },
+            "arguments": {
+                **_TEXTS,
+                "description": "Forms of the command line: 'messages {topic} [{output}]', '{output} {inputs}...'.",
+            },
+            "options": {**_of_texts(), "description": "Options, and the name of the word behind each."},
+            "whole": {"type": "boolean", "description": "Whether these are all endpoints of the node."},
             "broadcasts": {"type": "array", "items": broadcast},
             "distributions": _TEXTS,
             "within": _of_texts(),

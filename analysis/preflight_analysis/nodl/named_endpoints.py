@@ -16,11 +16,12 @@ from preflight_analysis.evaluation.meanings import (
     KnownMeanings,
     Meant,
     known_of_nodes,
-    meant_by,
+    meant_of_node,
     own_params,
     params_of_nodes,
 )
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy, Role
 
@@ -58,16 +59,19 @@ def _with_named(
     if interface.pending or (known is None and not given):
         return interface
     params = own_params(node, given)
-    meant = meant_by(known, params, every) if known is not None else ()
+    meant = meant_of_node(node, known, given, every) if known is not None else ()
     by_name = {(end.role, end.name): at for at, end in enumerate(interface.endpoints)}
     found: dict[int, NamedBy] = {}
     confirmed: dict[int, str] = {}
+    typed: dict[int, str] = {}
     more: dict[tuple[str, str], Endpoint] = {}
+    without: set[int] = set()
+    may_have_more = not (interface.known_in_full or interface.declared)
     for each in meant:
         role = _ROLES.get((each.meaning.kind, each.meaning.role))
         if role is None or not isinstance(each.value, str) or not names.is_legal(each.value):
             continue
-        name = f"{each.value}{each.meaning.append}"
+        name = f"{_base(node, each, every.generation)}{each.append}"
         named_by = NamedBy(each.param.name, each.param.place) if each.param is not None else None
         at = by_name.get((role, name))
         if at is not None:
@@ -75,24 +79,41 @@ def _with_named(
                 found.setdefault(at, named_by)
             if interface.endpoints[at].of_other_distribution and each.known.is_used:
                 confirmed[at] = each.known.evidence
-        elif name and not (interface.known_in_full or interface.declared):
+            if interface.endpoints[at].type is None and each.type is not None:
+                typed[at] = _type_of(each, each.type, kinds_in_types)
+        elif name and may_have_more:
             more[role, name] = _endpoint(role, name, each, named_by, kinds_in_types)
+            if name != each.value and (role, each.value) in by_name:
+                without.add(by_name[role, each.value])
     for at, named_by in _by_their_names(interface, params):
         found.setdefault(at, named_by)
-    if not found and not confirmed and not more:
+    if not (found or confirmed or typed or more):
         return interface
     ends = [replace(end, named_by=found[at]) if at in found else end for at, end in enumerate(interface.endpoints)]
     for at, evidence in confirmed.items():
         ends[at] = replace(ends[at], catalogued=evidence, of_other_distribution=False)
-    source = interface.source if interface.known else "catalogue"
-    return replace(interface, source=source, endpoints=(*ends, *more.values()))
+    for at, type_ in typed.items():
+        ends[at] = replace(ends[at], type=type_)
+    if without:
+        ends = [end for at, end in enumerate(ends) if at not in without]
+    whole = known is not None and known.entry.whole and may_have_more
+    source = interface.source if interface.known else "source" if whole else "catalogue"
+    return replace(interface, source=source, endpoints=(*ends, *more.values()), whole=interface.whole or whole)
+
+
+def _base(node: LaunchNode, meant: Meant, generation: int) -> str:
+    """The value, or what a remap makes of it where that changes the beginning of the name."""
+    value = str(meant.value)
+    if not (meant.meaning.remapped and meant.append):
+        return value
+    found = effective_remaps(node, generation).get(names.resolve(value, node.name))
+    return found[1] if found is not None else names.resolve(value, node.name)
 
 
 def _endpoint(role: Role, name: str, meant: Meant, named_by: NamedBy | None, kinds_in_types: bool) -> Endpoint:
-    type_ = meant.type
-    if type_ is not None and type_ != "*" and kinds_in_types:
-        package, _, rest = type_.partition("/")
-        type_ = f"{package}/{_KINDS[meant.meaning.kind]}/{rest.rpartition('/')[2]}"
+    type_ = _type_of(meant, meant.type, kinds_in_types) if meant.type is not None else None
+    if meant.known.entry.whole:
+        return Endpoint(role, name, type_, None, meant.meaning.qos, named_by=named_by)
     return Endpoint(
         role,
         name,
@@ -104,6 +125,13 @@ def _endpoint(role: Role, name: str, meant: Meant, named_by: NamedBy | None, kin
         of_other_distribution=not meant.known.is_used,
         named_by=named_by,
     )
+
+
+def _type_of(meant: Meant, type_: str, kinds_in_types: bool) -> str:
+    if type_ == "*" or not kinds_in_types:
+        return type_
+    package, _, rest = type_.partition("/")
+    return f"{package}/{_KINDS[meant.meaning.kind]}/{rest.rpartition('/')[2]}"
 
 
 def _by_their_names(interface: Interface, params: Sequence[tuple[str, Param]]) -> Iterator[tuple[int, NamedBy]]:

@@ -9,8 +9,7 @@ from preflight_analysis.evaluation.meanings import (
     KnownMeanings,
     Meant,
     known_of_nodes,
-    meant_by,
-    own_params,
+    meant_of_node,
     params_of_nodes,
 )
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -30,4 +29,4 @@ def meant_values(context: Context) -> tuple[NodeMeant, ...]:
 
 
 def _of_node(node: LaunchNode, known: Known | None, given: Sequence[Param], every: KnownMeanings) -> NodeMeant | None:
-    return (node, meant_by(known, own_params(node, given), every)) if known is not None else None
+    return (node, meant_of_node(node, known, given, every)) if known is not None else None

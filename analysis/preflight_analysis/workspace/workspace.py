@@ -38,7 +38,7 @@ from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.nodl.catalogued import from_catalogue
-from preflight_analysis.nodl.command_lines import with_command_lines
+from preflight_analysis.nodl.configured import with_configured
 from preflight_analysis.nodl.installed import NodlFiles
 from preflight_analysis.nodl.loaded_plugins import LoadedPlugins
 from preflight_analysis.nodl.moveit_clients import with_moveit_clients
@@ -397,7 +397,7 @@ class Workspace:
         if not tree.ros.own_parameters:
             interfaces = with_simulated_controllers(tree, interfaces, environment)
         interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
-        interfaces = with_command_lines(tree, interfaces, documents, kept)
+        interfaces = with_configured(tree, interfaces, documents, kept)
         known = KnownMeanings(self.own_knowledge.files, environment.distro, tree.generation)
         return with_named_endpoints(tree, with_moveit_clients(tree, interfaces, kept), known, kept)
 
