@@ -111,6 +111,22 @@ def test_what_is_known_of_a_package() -> None:
     assert not _frames(node.format('<param name="publish_tf" value="false"/>')).edges
 
 
+def test_frames_that_no_parameter_names() -> None:
+    madgwick = '<node pkg="imu_filter_madgwick" exec="imu_filter_madgwick_node" name="imu">{}</node>'
+    package = "\n//- /imu_filter_madgwick/package.xml\n<package><name>imu_filter_madgwick</name></package>"
+    frames = _frames(madgwick.format(""), more=package)
+    assert not frames.edges
+    assert frames.gaps == ("the frames that /imu broadcasts are not known",)
+    silent = _frames(madgwick.format('<param name="publish_tf" value="false"/>'), more=package)
+    assert "broadcasts" not in "".join(silent.gaps)
+
+
+def test_a_frame_whose_name_is_made_of_a_parameter() -> None:
+    node = '<node pkg="mavros" type="mavros_node" name="mavros"><param name="map_frame_id" value="local"/></node>'
+    edges = _edges(_frames(node, ros=1, more="\n//- /mavros/package.xml\n<package><name>mavros</name></package>"))
+    assert {("local", "local_ned", True), ("odom", "odom_ned", True)} <= edges
+
+
 def test_namespaces_of_tf_are_apart() -> None:
     node = """<node pkg="tf2_ros" exec="static_transform_publisher" name="{0}" namespace="{0}"
       args="0 0 0 0 0 0 map odom">{1}</node>"""

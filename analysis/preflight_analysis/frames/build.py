@@ -12,10 +12,10 @@ from preflight_analysis.evaluation.partial_text import named
 from preflight_analysis.evaluation.ros2.spawners import SPAWN
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.frames.edges import (
-    ANY,
     edges_of_node,
     edges_of_plugins,
     edges_of_robot,
+    has_unnamed,
     is_state_publisher,
     prefix_of,
     space_of,
@@ -41,13 +41,14 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     params = params_of_nodes(tree, known, kept)
     edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation, _has_prefix(tree))
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
+    unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
     shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
     return Frames(
         (*_of_robots(tree), *chain.from_iterable(edges)),
         (*chain.from_iterable(uses), *shown),
         tuple(chain.from_iterable(mentions)),
-        tuple(_gaps(tree, nodes, interfaces, known, edges)),
+        tuple(_gaps(tree, nodes, interfaces, known, unnamed, edges)),
     )
 
 
@@ -81,22 +82,22 @@ def _gaps(
     nodes: Sequence[LaunchNode],
     interfaces: Sequence[Interface | None],
     known: Sequence[Known | None],
+    unnamed: Sequence[bool],
     edges: Sequence[tuple[Edge, ...]],
 ) -> Iterator[str]:
     """Why there may be more frames than are known."""
     if not tree.complete:
         yield "parts of the launch are unresolved"
     unread, unseen, unclear = list[str](), list[str](), list[str]()
-    for node, interface, about, found in zip(nodes, interfaces, known, edges, strict=True):
+    rows = zip(nodes, interfaces, known, unnamed, edges, strict=True)
+    for node, interface, about, has_others, found in rows:
         if is_state_publisher(node):
             robot = _robot_of(tree, node)
             if robot is not None and robot.description.lacks:
                 yield f"the robot description of {_named(node)} is incomplete: {named(robot.description.lacks)}"
             elif robot is None or not robot.description.is_whole:
                 unread.append(_named(node))
-        elif interface is not None and any(not (frame.parent and frame.child) for frame in interface.frames):
-            unclear.append(_named(node))
-        elif about is not None and any(each.child == ANY for each in about.entry.frames):
+        elif has_others:
             unclear.append(_named(node))
         elif found or (about is not None and about.is_used):
             continue

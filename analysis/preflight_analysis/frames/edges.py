@@ -101,6 +101,16 @@ def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
     )
 
 
+def has_unnamed(node: LaunchNode, interface: Interface | None, known: Known | None, given: Sequence[Param]) -> bool:
+    """Whether it broadcasts frames whose names are not known."""
+    if interface is not None and any(not (frame.parent and frame.child) for frame in interface.frames):
+        return True
+    if known is None or not any(each.child == ANY for each in known.entry.frames):
+        return False
+    settings = Settings(known, own_params(node, given))
+    return any(settings.holds(each.when) for each in known.entry.frames if each.child == ANY)
+
+
 def _of_knowledge(node: LaunchNode, known: Known | None, given: Sequence[Param], space: str) -> Iterator[Edge]:
     if known is None or not known.entry.frames:
         return
@@ -126,7 +136,7 @@ def _param(settings: Settings, name: str) -> Param | None:
 
 
 def _frame(settings: Settings, name: str) -> str:
-    value = name.removeprefix(_FIXED) if name.startswith(_FIXED) else settings.value(name)
+    value = settings.filled(name.removeprefix(_FIXED)) if name.startswith(_FIXED) else settings.value(name)
     return plain(value) if isinstance(value, str) else ""
 
 
