@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import run_rules
 from support import package_elsewhere
 from support.action_interfaces import server
@@ -125,3 +126,74 @@ def test_one_definition_in_two_packages() -> None:
         //- interfaces
         {"/a": {"publishers": {"/tf": "tf/tfMessage"}}, "/b": {"subscribers": {"/tf": "tf2_msgs/TFMessage"}}}
     """)
+
+
+_MANAGER = """<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager">
+<param from="$(dirname)/c.yaml"/></node><node pkg="controller_manager" exec="spawner" args="base"/>"""
+_BASE = """controller_manager: {ros__parameters: {base: {type: diff_drive_controller/DiffDriveController}}}
+base: {ros__parameters: {left_wheel_names: [a], right_wheel_names: [b]}}
+t: {ros__parameters: {STAMPED}}
+"""
+
+
+def _teleop(folder: Path, package: str, executable: str, stamped: str, distro: str) -> list[Finding]:
+    node = f'<node pkg="{package}" exec="{executable}" name="t"><param from="$(dirname)/c.yaml"/>'
+    text = f'<launch>{_MANAGER}{node}<remap from="cmd_vel" to="/base/cmd_vel"/></node></launch>'
+    files = {"c.yaml": _BASE.replace("STAMPED", stamped)}
+    analysis = package_elsewhere.analysed(folder, text, "a.launch.xml", distro, **files)
+    return [each for each in run_rules(analysis.context) if each.rule == "TOP003"]
+
+
+_TELEOPS = [
+    ("teleop_twist_keyboard", "teleop_twist_keyboard", "stamped"),
+    ("teleop_twist_joy", "teleop_node", "publish_stamped_twist"),
+]
+
+
+@pytest.mark.parametrize(("package", "executable", "param"), _TELEOPS)
+@pytest.mark.parametrize("set_to", ["", "False"])
+def test_a_velocity_without_a_stamp(tmp_path: Path, package: str, executable: str, param: str, set_to: str) -> None:
+    (found,) = _teleop(tmp_path, package, executable, f"{param}: {set_to}" if set_to else "", "jazzy")
+    assert found.message.endswith(f"/base subscribes to geometry_msgs/msg/TwistStamped; set '{param}' of /t to true")
+    assert (found.severity, found.confidence) == ("error", "likely")
+    assert [fix.title for fix in found.fixes] == (["Replace 'False' with 'True'"] if set_to else [])
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(("package", "executable", "param"), _TELEOPS)
+def test_a_velocity_with_a_stamp(tmp_path: Path, package: str, executable: str, param: str) -> None:
+    assert not _teleop(tmp_path, package, executable, f"{param}: true", "jazzy")
+
+
+_NAVIGATION = """<node pkg="nav2_controller" exec="controller_server" name="controller_server">{}</node>
+<node pkg="turtlebot3_node" exec="turtlebot3_ros"/>"""
+
+
+@pytest.mark.parametrize(
+    ("set_to", "distro", "severities"),
+    [
+        ("true", "jazzy", ["error"]),
+        ("true", "kilted", []),
+        ("false", "jazzy", []),
+        ("", "jazzy", []),
+        ("", "kilted", []),
+    ],
+)
+def test_velocities_of_navigation(tmp_path: Path, set_to: str, distro: str, severities: list[str]) -> None:
+    """What Kilted does without the parameter is not known: its default is another one."""
+    param = f'<param name="enable_stamped_cmd_vel" value="{set_to}"/>' if set_to else ""
+    text = f"<launch>{_NAVIGATION.format(param)}</launch>"
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", distro)
+    found = [each for each in run_rules(analysis.context) if each.rule == "TOP003"]
+    assert [each.severity for each in found] == severities
+    assert all("set 'enable_stamped_cmd_vel' of /controller_server to false" in each.message for each in found)
+
+
+def test_behaviors_have_the_types_of_their_server(tmp_path: Path) -> None:
+    server = '<node pkg="nav2_behaviors" exec="behavior_server"><param name="enable_stamped_cmd_vel" value="true"/>'
+    text = f'<launch>{server}</node><node pkg="turtlebot3_node" exec="turtlebot3_ros"/></launch>'
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy")
+    assert analysis.graph is not None
+    assert {end.endpoint.type for end in analysis.graph.topics["/cmd_vel"].providers} == {
+        "geometry_msgs/msg/TwistStamped"
+    }

@@ -23,7 +23,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.groups import GROUPS
-from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, NamedBy, ParamUse, Range, Role
+from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, NamedBy, ParamUse, Range, Role, TypedBy
 
 _KEPT = 1024
 _TYPE = ".type"
@@ -88,7 +88,7 @@ def _filled_in(
         found = next(filter(None, others), None)
     if found is None:
         return interface
-    found = _as_remapped(node, _as_set(node, given, found))
+    found = _as_remapped(node, _as_set(node, given, found, newer=is_newer(environment.distro, distro)))
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
@@ -145,16 +145,18 @@ def _namespace(param: Param) -> str:
     return param.name.rpartition("/")[0]
 
 
-def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued) -> Catalogued:
+def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued, *, newer: bool) -> Catalogued:
     """With the names and types of ends that parameters of the node give: `odom0` stands for `odom1` and all others of a
-    series, `topics.*.topic` for what is below each of `topics`."""
+    series, `topics.*.topic` for what is below each of `topics`. `newer`: as `typed_end`."""
     if not found.by_parameter and not found.typed:
         return found
     own = [(param.name.removeprefix(f"{node.name}/"), param) for param in given]
-    words = {name: str(param.value).lower() for name, param in own}
-    typed = {
-        id(end): replace(end, type=types[words[name]]) for end, name, types in found.typed if words.get(name) in types
-    }
+    by_name = dict(own)
+    typed = {}
+    for end, name, types in found.typed:
+        param = by_name.get(name)
+        value, place = (param.value, param.place) if param is not None else (None, None)
+        typed[id(end)] = typed_end(end, TypedBy(name, place, tuple(types.items())), value, newer=newer)
     ends = [typed.get(id(end), end) for end in found.endpoints]
     for pattern, each in found.by_parameter:
         end = typed.get(id(each), each)
@@ -167,6 +169,20 @@ def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued) -> Cata
                 by = NamedBy(param.name, param.place)
                 ends.append(replace(end, name=value, conditional=end.conditional and bool(end.name), named_by=by))
     return replace(found, endpoints=tuple(ends))
+
+
+def typed_end(end: Endpoint, by: TypedBy, value: object, *, newer: bool) -> Endpoint:
+    """With the type that a parameter gives, which has the value, None where it is not set. `newer`: the distribution is
+    newer than the one of the catalogue, and may have another default."""
+    unset = None if newer else end.type
+    type_ = unset if value is None else dict(by.types).get(str(value).lower(), end.type)
+    return replace(end, type=type_, typed_by=by)
+
+
+def is_newer(distro: str | None, known: str) -> bool:
+    """Whether it is newer than the one that the catalogue knows; False where it is not known."""
+    every = (*DISTRIBUTIONS[1], *DISTRIBUTIONS[2])
+    return distro in every and known in every and every.index(distro) > every.index(known)
 
 
 def _as_remapped(node: LaunchNode, found: Catalogued) -> Catalogued:

@@ -19,16 +19,18 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.nodl.catalogued import Catalogued, catalogued
+from preflight_analysis.nodl.catalogued import Catalogued, catalogued, is_newer, typed_end
 from preflight_analysis.nodl.plugins import package_of
 from preflight_analysis.rules.plugin_params import KIND, LISTED
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy
+from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy, TypedBy
 
 _NAME = "{}"
 _OWN = ""
 """Stands for the node of the launch file among those that it has."""
+_OF_LOADER = "../"
+"""How the data begins the name of a parameter of the node that loads the plugin."""
 _MOST = 64
 """Plugins of a node."""
 
@@ -71,11 +73,16 @@ class LoadedPlugins:
         listed = {item for name, value in values.items() if not name.endswith(KIND) for item in _items(value)}
         for name, type_ in [*_types(values, listed)][:_MOST]:
             below = {key[len(name) + 1 :]: value for key, value in values.items() if key.startswith(f"{name}.")}
-            for end in self._ends_of(name, type_, below, places):
+            for end in self._ends_of(name, type_, below, values, places):
                 yield end if host.name == _OWN else replace(end, name=names.resolve(end.name, host.name))
 
     def _ends_of(
-        self, name: str, type_: str, below: Mapping[str, Any], places: Mapping[str, Location]
+        self,
+        name: str,
+        type_: str,
+        below: Mapping[str, Any],
+        values: Mapping[str, Any],
+        places: Mapping[str, Location],
     ) -> Iterator[Endpoint]:
         package = package_of(type_)
         here = self._environment.packages.get(package)
@@ -92,7 +99,9 @@ class LoadedPlugins:
         distro = distribution_of(2, self._environment.distro)
         found = catalogued(package, "plugins", type_, distro, is_used=self._environment.distro == distro)
         if found is not None:
-            yield from _as_loaded(name, found, below, places)
+            more = {f"{_OF_LOADER}{key}": value for key, value in values.items()}
+            newer = is_newer(self._environment.distro, distro)
+            yield from _as_loaded(name, found, {**below, **more}, places, newer=newer)
 
 
 def _hosts(interface: Interface) -> tuple[_Host, ...]:
@@ -148,7 +157,7 @@ def _items(value: Any) -> Sequence[str]:
 
 
 def _as_loaded(
-    name: str, found: Catalogued, below: Mapping[str, Any], places: Mapping[str, Location]
+    name: str, found: Catalogued, below: Mapping[str, Any], places: Mapping[str, Location], *, newer: bool
 ) -> Iterator[Endpoint]:
     """With the name that the plugin is loaded by, once for each item of what it has lists of."""
     named = {id(end): param for param, end in found.by_parameter}
@@ -163,8 +172,16 @@ def _as_loaded(
 
             called = below.get(made(by)) if by else None
             called = called if isinstance(called, str) and called else made(end.name)
-            type_ = types.get(str(below.get(made(kind))).lower(), end.type) if kind else end.type
             if called and names.is_legal(called):
                 param = f"{name}.{made(by)}"
                 named_by = NamedBy(param, places[param]) if by and param in places else None
-                yield replace(end, name=called, type=type_, named_by=named_by)
+                loaded = replace(end, name=called, named_by=named_by)
+                if kind:
+                    key = made(kind)
+                    above = key.removeprefix(_OF_LOADER)
+                    param = above if above != key else f"{name}.{key}"
+                    typed_by = TypedBy(param, places.get(param), tuple(types.items()))
+                    # A default of the loader itself may be that of another distribution.
+                    value = below.get(key) if above == key or param in places else None
+                    loaded = typed_end(loaded, typed_by, value, newer=newer and above != key)
+                yield loaded

@@ -48,7 +48,8 @@ RULE = Rule(
     severity="error",
     what="Checks for a topic whose publisher and subscriber have different types, or different definitions (MD5 "
     "sums) of one type. `*` matches any type. It also checks for one node that uses a topic with two types. The "
-    "finding is a warning if the subscriber is a display in the configuration of RViz.",
+    "finding is a warning if the subscriber is a display in the configuration of RViz. Where a parameter decides the "
+    "type, such as `enable_stamped_cmd_vel` of Nav2, the finding names it.",
     why="The two nodes refuse to connect, with one line in a log. No message arrives.",
     example="<!-- /pose: geometry_msgs/Pose published, geometry_msgs/PoseStamped subscribed -->\n"
     '<remap from="goal" to="/pose"/>',

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.value_places import value_place
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.rules.channels import channels_of, of_all_kinds
+from preflight_analysis.rules.controllers import controllers_of
 from preflight_analysis.rules.interface_files import lacks_type
 from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.tracing.interface import Endpoint
 
 _MESSAGES = "_msgs"
 _SAME = {"tf/tfMessage": "tf2_msgs/TFMessage"}
@@ -28,13 +31,15 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
         site, other = (consumer, provider)
         if not consumer.is_placed and provider.is_placed:
             site, other = provider, consumer
+        advice, fixes = _deciding_parameter(context, provider, consumer)
         yield rule.finding(
             f"type mismatch on '{consumer.name}': {provider.node.name} {verbs.provides} "
             f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} "
-            f"{consumer.endpoint.type or 'an unknown type'}{difference}",
+            f"{consumer.endpoint.type or 'an unknown type'}{difference}{advice}",
             connection_location(site),
-            severity=_severity(context, consumer.endpoint, provider.endpoint),
-            confidence=_confidence(graph, consumer, provider),
+            fixes=fixes,
+            severity=_severity(context, consumer, provider),
+            confidence=_confidence(context, graph, consumer, provider),
             related=(
                 related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
                 *include_chain(site.node.origin),
@@ -43,20 +48,59 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
         )
 
 
-def _severity(context: Context, consumer: Endpoint, provider: Endpoint) -> Severity | None:
+def _deciding_parameter(context: Context, provider: Connection, consumer: Connection) -> tuple[str, tuple[Fix, ...]]:
+    """The parameter that would give one end the type of the other, for the message; and what changes it where it is
+    set."""
+    for end, other in ((provider, consumer), (consumer, provider)):
+        by = end.endpoint.typed_by
+        for value, type_ in by.types if by is not None and other.endpoint.type is not None else ():
+            if by is not None and in_short(type_) == in_short(other.endpoint.type or ""):
+                advice = f"; set '{by.parameter}' of {end.node.name} to {value}"
+                return advice, _set_to(context, by.place, value) if by.place is not None else ()
+    return "", ()
+
+
+def _set_to(context: Context, place: Location, value: str) -> tuple[Fix, ...]:
+    """What writes the value, true or false, for the other one; `place` is that of the parameter's name, or its tag."""
+    document = context.documents.get(place.file)
+    for other in {"true": ("false", "False"), "false": ("true", "True")}.get(value, ()):
+        at = value_place(place, other, document) or place
+        if found := rename(context, at, other, value.title() if other.istitle() else value):
+            return found
+    return ()
+
+
+def _severity(context: Context, consumer: Connection, provider: Connection) -> Severity | None:
     """None for that of the rule. The robot moves without what a display shows. A type for which its package has no
     file is from another module than the program seems to have it from."""
-    unfounded = any(lacks_type(context, each.type) for each in (consumer, provider))
-    if _is_doubtful(consumer, provider) or unfounded:
+    unfounded = any(lacks_type(context, each.endpoint.type) for each in (consumer, provider))
+    if _is_doubtful(context, consumer, provider) or unfounded:
         return "info"
-    return "warning" if consumer.displayed else None
+    return "warning" if consumer.endpoint.displayed else None
 
 
-def _is_doubtful(one: Endpoint, other: Endpoint) -> bool:
+def _is_assumed(context: Context, end: Connection) -> bool:
+    """Whether it is only assumed that the node has the end. What the catalogue says of a controller is sure enough once
+    the launch activates that."""
+    endpoint = end.endpoint
+    if not endpoint.assumed or endpoint.similar or endpoint.of_other_distribution or not endpoint.catalogued:
+        return endpoint.assumed
+    return end.node.name not in context.once(_active_controllers)
+
+
+def _active_controllers(context: Context) -> frozenset[str]:
+    """The full names of the nodes of controllers that the launch activates."""
+    return frozenset(
+        names.join(names.parent(each.manager), each.name) for each in controllers_of(context) if each.is_active
+    )
+
+
+def _is_doubtful(context: Context, consumer: Connection, provider: Connection) -> bool:
     """Whether an end is only assumed, or one of the catalogue may be of another version, with the message in another
     package of the same project, for messages alone (`rtabmap_msgs`, `rtabmap_ros`)."""
-    if one.assumed or other.assumed:
+    if _is_assumed(context, consumer) or _is_assumed(context, provider):
         return True
+    one, other = consumer.endpoint, provider.endpoint
     if not (one.catalogued or other.catalogued) or one.type is None or other.type is None:
         return False
     (package, _, name), (other_package, _, other_name) = one.type.partition("/"), other.type.partition("/")
@@ -117,9 +161,9 @@ def in_short(name: str) -> str:
     return _SAME.get(short, short)
 
 
-def _confidence(graph: Graph, *connections: Connection) -> Confidence:
+def _confidence(context: Context, graph: Graph, *connections: Connection) -> Confidence:
     """Types that a run showed are certain; those of an annotation are the user's word, source code is only read."""
-    if any(connection.endpoint.assumed for connection in connections):
+    if any(_is_assumed(context, connection) for connection in connections):
         return "possible"
     for connection in connections:
         index = next(i for i, node in enumerate(graph.tree.nodes) if node is connection.node)

@@ -45,6 +45,15 @@ class NamedBy(NamedTuple):
     display: str = ""
 
 
+class TypedBy(NamedTuple):
+    """The parameter whose value decides the type of an endpoint, where that value is written, None where it is not
+    set, and the types by the value in words."""
+
+    parameter: str
+    place: Location | None
+    types: tuple[tuple[str, str], ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Endpoint:
     """One end of a topic, service or action. `name` is as the node gave it (`chatter`, `~state`, `/scan`): namespaces
@@ -83,6 +92,8 @@ class Endpoint:
     """Of what the catalogue says: whether it knows that of another distribution than is used."""
     named_by: NamedBy | None = field(default=None, metadata={TRANSIENT: True})
     """The parameter of the launch that gives the name; no run tells it."""
+    typed_by: TypedBy | None = field(default=None, metadata={TRANSIENT: True})
+    """The parameter that decides the type; no run tells it."""
 
     @property
     def assumed(self) -> bool:

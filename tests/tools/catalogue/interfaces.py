@@ -28,6 +28,7 @@ from preflight_analysis.tracing.trace import Tracer
 from tools.catalogue.plugins import plugins_of
 from tools.catalogue.repositories import Snapshot
 from tools.catalogue.sources import (
+    ADDED_PARAMETERS,
     CONTROLLERS,
     DECLARED,
     GENERATIONS,
@@ -37,6 +38,7 @@ from tools.catalogue.sources import (
     OTHER_VERSIONS,
     RUN,
     SOURCES,
+    STAMPED,
 )
 
 _LIBRARIES = frozenset({"roscpp", "rospy", "rclpy", "rclcpp", "nodelet"})
@@ -221,13 +223,16 @@ def facts_of_package(environment: Environment, disk: Disk, package: Package) -> 
         said = _controller(analysis, SourceKey(None, None, package.name, "", controller, f"/{_NAME}", "", ()))
         if said is not None:
             controllers[controller] = said
-    return {
+    found = {
         "executables": executables,
         "components": components,
         "nodelets": nodelets,
         "controllers": controllers,
         "plugins": dict(_plugins(analysis, package)) if package.is_ament else {},
     }
+    if package.is_ament:
+        _add_stamped(found, package.name)
+    return found
 
 
 def _plugins(analysis: SourceAnalysis, package: Package) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -271,7 +276,27 @@ def _add_declared(said: dict[str, Any], declared: Mapping[str, Sequence[Mapping[
     name."""
     for group, rows in declared.items():
         names = {row["name"] for row in rows if "name" in row}
-        said[group] = [*(row for row in said.get(group, ()) if row.get("name") not in names), *map(dict, rows)]
+        before = {row["name"]: row for row in said.get(group, ()) if row.get("name") in names}
+        added = ({**_kept(before.get(row.get("name", ""), {})), **row} for row in rows)
+        said[group] = [*(row for row in said.get(group, ()) if row.get("name") not in names), *added]
+
+
+def _kept(row: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in row.items() if key == "qos"}
+
+
+def _add_stamped(of_package: Mapping[str, dict[str, dict[str, Any]]], package: str) -> None:
+    """Note which velocities have their types by a parameter; and the parameters that a snapshot is too old for."""
+    param, types = STAMPED
+    for kind in ("executables", "components", "plugins"):
+        for said in of_package[kind].values():
+            if kind != "plugins" and package in ADDED_PARAMETERS:
+                said["parameters"] = {**said.get("parameters", {}), **ADDED_PARAMETERS[package]}
+            by = f"../{param}" if kind == "plugins" else f"~{param}"
+            known = package == "nav2_behaviors" if kind == "plugins" else by in said.get("parameters", {})
+            for row in (row for group in GROUPS.values() for row in said.get(group, ()) if known):
+                if row.get("type") == types["false"]:
+                    row["typed_by"] = {by: types}
 
 
 def _add_named_by_parameters(analysis: SourceAnalysis, key: SourceKey, said: dict[str, Any], *, typed: bool) -> None:

@@ -262,6 +262,9 @@ _SOURCES = {
     "publishers": [{"named_by": "~*.polygon_pub_topic", "type": "geometry_msgs/msg/PolygonStamped"}],
 }
 _STAMPED = {"true": "geometry_msgs/msg/TwistStamped", "false": "geometry_msgs/msg/Twist"}
+_TELEOP_JOY = {
+    "publishers": [{"name": "cmd_vel", "type": _STAMPED["false"], "typed_by": {"~publish_stamped_twist": _STAMPED}}],
+}
 DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[str, Any]]]]]] = {
     "jazzy": {
         "nav2_collision_monitor": dict.fromkeys(
@@ -281,6 +284,15 @@ DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[s
                 ],
             },
         },
+        # github:ros2/teleop_twist_keyboard/pull/26 and github:ros2/teleop_twist_joy/pull/42
+        "teleop_twist_keyboard": {
+            "teleop_twist_keyboard": {
+                "publishers": [
+                    {"name": "cmd_vel", "type": _STAMPED["false"], "typed_by": {"~stamped": _STAMPED}},
+                ],
+            },
+        },
+        "teleop_twist_joy": dict.fromkeys(("teleop_node", "teleop_twist_joy::TeleopTwistJoy"), _TELEOP_JOY),
         "ackermann_mux": {
             "ackermann_mux": {
                 "subscriptions": [
@@ -315,6 +327,23 @@ DECLARED: Mapping[str, Mapping[str, Mapping[str, Mapping[str, Sequence[Mapping[s
 their arguments make, or that a library of another repository does: by distribution, package and executable, component
 or nodelet, in the groups of NoDL. `*` is for any name, and in ROS 1 for each item of a list; `typed_by` is the
 parameter that decides the type, and the type by its value."""
+STAMPED = ("enable_stamped_cmd_vel", _STAMPED)
+"""A parameter of nodes of Nav2 and TurtleBot3, and what it makes of the types of velocities that they send and get:
+`TwistPublisher` and `TwistSubscriber` of nav2_util."""
+ADDED_PARAMETERS: Mapping[str, Mapping[str, Mapping[str, Any]]] = {
+    "teleop_twist_keyboard": {
+        "~stamped": {"type": "bool", "default_value": False},
+        "~frame_id": {"type": "string", "default_value": ""},
+        # github:ros2/teleop_twist_keyboard/pull/34
+        "~speed": {"type": "double", "default_value": 0.5},
+        "~turn": {"type": "double", "default_value": 1.0},
+    },
+    "teleop_twist_joy": {
+        "~publish_stamped_twist": {"type": "bool", "default_value": False},
+        "~frame": {"type": "string", "default_value": "teleop_twist_joy"},
+    },
+}
+"""Parameters of all nodes of a package of ROS 2 that are newer than its snapshot."""
 VALUES: Mapping[str, Sequence[str]] = {"data_type": ("LaserScan", "PointCloud2")}
 """What parameters of plugins have of which types depend, by the last part of their names: sources of costmaps."""
 OTHER_VERSIONS = {"jazzy": {"ros-navigation/navigation2": ("humble", "kilted", "main")}}
