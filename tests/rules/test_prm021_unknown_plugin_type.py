@@ -39,10 +39,20 @@ def test_a_type_that_is_nearly_the_packages_own(type_: str, meant: str) -> None:
     assert [edit.text for fix in finding.fixes for edit in fix.edits] == [meant]
 
 
+def test_the_only_controller_of_its_package_without_some_words() -> None:
+    """In another version of the package it may have been called so."""
+    type_ = "picknik_reset_fault_controller/FaultController"
+    (finding,) = check(FIXTURE.format(type_) + f"                {'^' * len(type_)} info[PRM021] unknown controller\n")
+    assert "did you mean 'picknik_reset_fault_controller/PicknikResetFaultController'?" in finding.message
+    assert finding.confidence == "possible"
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     "type_",
     [
+        "picknik_reset_fault_controller/Controller",
+        "picknik_reset_fault_controller/OwnFaultController",
         "diff_drive_controller/DiffDriveController",
         "position_controllers/GripperActionController",
         "nobody_knows/DiffDriveControler",

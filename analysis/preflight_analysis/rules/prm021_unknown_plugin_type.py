@@ -25,7 +25,8 @@ from preflight_analysis.rules.rule import Context, Rule
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _ALIKE = 0.6
 """How many of all the words of two names have to be in both."""
-
+_FEWEST = 2
+"""Words of a name that is another one without some of its words; one alone is `Controller`."""
 
 _KINDS = {".type": "controller", ".plugin": "plugin"}
 _OF_PACKAGE = re.compile(r"(\w+)(?:/|::)\w+\Z")
@@ -51,6 +52,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for named in document.once(_types_in) if document is not None else ():
             known, own = context.plugins.names(named.package), context.plugins.exported(named.package)
             meant = _meant(named, known or own, is_own=bool(own))
+            abridged = _unabridged(named, known) if meant is None and not own else None
+            meant = meant or abridged
             if meant is None:
                 continue
             place = context.location(path, named.span)
@@ -59,6 +62,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"unknown {named.kind} '{named.type}' of package '{named.package}'; did you mean '{meant}'? "
                 f"Source: {by}",
                 place,
+                # Another version of the package may have had the shorter name.
+                severity="info" if abridged is not None and environment.distro != distro else None,
                 confidence="likely" if own or environment.distro == distro else "possible",
                 related=(getter,),
                 fixes=rename(context, place, named.type, meant),
@@ -79,8 +84,7 @@ def _meant(named: _Named, known: Iterable[str], *, is_own: bool) -> str | None:
     """The only one that is a slip away, or of controllers has most of the words: what a package has had in other
     versions is called otherwise altogether. `is_own`: descriptions that a build writes are not among those of the
     workspace, so that only a slip counts."""
-    mark = "/" if "/" in named.type else "::"
-    others = [each.replace("/", mark).replace("::", mark) for each in known]
+    others = _written_alike(named, known)
     if named.type in others:
         return None
     near = [each for each in others if is_slip(named.type, each)]
@@ -89,9 +93,27 @@ def _meant(named: _Named, known: Iterable[str], *, is_own: bool) -> str | None:
     return near[0] if len(near) == 1 else None
 
 
+def _unabridged(named: _Named, known: Iterable[str]) -> str | None:
+    """The only controller of a package, where the type has some of its words and no other ones."""
+    others = _written_alike(named, known) if named.kind == "controller" else []
+    if len(others) != 1:
+        return None
+    mine, theirs = _words(named.type), _words(others[0])
+    return others[0] if mine < theirs and len(mine) >= _FEWEST else None
+
+
+def _written_alike(named: _Named, known: Iterable[str]) -> list[str]:
+    mark = "/" if "/" in named.type else "::"
+    return [each.replace("/", mark).replace("::", mark) for each in known]
+
+
 def _share_most(type_: str, other: str) -> bool:
-    mine, theirs = ({*_WORD.findall(each.partition("/")[2])} for each in (type_, other))
+    mine, theirs = _words(type_), _words(other)
     return len(mine & theirs) >= _ALIKE * len(mine | theirs)
+
+
+def _words(type_: str) -> set[str]:
+    return {*_WORD.findall(type_.partition("/")[2])}
 
 
 RULE = Rule(
@@ -100,7 +122,9 @@ RULE = Rule(
     severity="warning",
     what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, "
     "if the package has one of a similar name. The catalogue lists the types of common packages. For packages of "
-    "the workspace the plugin descriptions list them, and only typos are reported.",
+    "the workspace the plugin descriptions list them, and only typos are reported. It is information if the type is "
+    "that of the only controller of the package without some of its words, and the catalogue is of another "
+    "distribution.",
     why="pluginlib does not find the class. The spawner of the controller exits, or the node does not start.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
