@@ -154,3 +154,23 @@ def test_what_a_condition_decides_is_not_sure(harness: SourceHarness) -> None:
     assert (found.severity, found.confidence) == ("warning", "possible")
     _script(harness, "other", "rospy.Subscriber('chatter', String, print)")
     assert _findings(harness, nodes + '<node pkg="p" type="other" name="other"/>')["TOP001"].severity == "info"
+
+
+@pytest.mark.parametrize(
+    ("talk", "hear", "severity"),
+    [
+        ("rospy.Publisher(sys.stdin.readline(), String)", "", "info"),
+        ("rospy.Publisher(sys.stdin.readline(), rospy.AnyMsg)", "", "info"),
+        ("", "rospy.Subscriber(sys.stdin.readline(), String, print)", "info"),
+        ("rospy.Subscriber(sys.stdin.readline(), String, print)", "", "warning"),
+        ("rospy.get_param(sys.stdin.readline())", "", "warning"),
+    ],
+)
+def test_another_end_whose_name_is_computed_may_be_the_right_one(
+    harness: SourceHarness, talk: str, hear: str, severity: str
+) -> None:
+    _script(harness, "talk", f"rospy.Publisher('chatter', String)\n{talk}")
+    _script(harness, "hear", f"rospy.Subscriber('chater', String, print)\n{hear}")
+    nodes = '<node pkg="p" type="talk" name="talk"/><node pkg="p" type="hear" name="hear"/>'
+    found = _findings(harness, nodes)["TOP001"]
+    assert (found.severity, found.confidence) == (severity, "possible")

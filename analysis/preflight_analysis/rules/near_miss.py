@@ -82,7 +82,7 @@ def weight(near: NearMiss, complete: bool, likely_complete: bool) -> tuple[Sever
     lone = near.provider_dangles and not _of_another_node(near)
     alike = near.likeness == "typo" or (lone and (likely_complete or is_word_more(*_both_names(near))))
     evidence = near.same_type and alike
-    on_demand = any(connection.on_demand for connection in connections)
+    on_demand = any(connection.on_demand or connection.beside_unnamed for connection in connections)
     # Two ends that nobody else has anything to do with speak for each other, be one of them but assumed.
     both_lone = near.provider_dangles and (near.likeness == "typo" or _same_leaf(near))
     doubtful = on_demand or (not both_lone and any(connection.assumed for connection in connections))

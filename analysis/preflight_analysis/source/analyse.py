@@ -26,7 +26,7 @@ from preflight_analysis.source.config_params import ConfigParam, config_params
 from preflight_analysis.source.known_params import KnownParams, LaunchParams
 from preflight_analysis.source.python_text import parse
 from preflight_analysis.source.python_values import UNKNOWN
-from preflight_analysis.tracing.interface import Endpoint, Frame, FrameUse, MadeNode, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, Frame, FrameUse, MadeNode, ParamUse, Role
 
 if TYPE_CHECKING:
     from preflight_analysis.source.cpp_analysis import CppAnalysis
@@ -56,6 +56,8 @@ class SourceInterface:
     """The transforms that it broadcasts; a frame of them that is not known is empty."""
     frame_uses: tuple[FrameUse, ...] = ()
     """The frames that it asks for or puts into messages."""
+    unnamed: tuple[tuple[Role, str | None], ...] = ()
+    """Role and type of the ends that it makes beside these, under names that are not known."""
 
 
 _NOTHING = SourceInterface()
@@ -169,7 +171,7 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
         cpp, named = _cpp(environment, disk), (node.name, node.package, node.executable)
         found = cpp.read(named, args, resolved, params, config)
     said = SourceInterface(found.endpoints, found.params, found.nodes, frames=found.frames, frame_uses=found.frame_uses)
-    return replace(said, whole=found.whole) if said != _NOTHING else _NOTHING
+    return replace(said, whole=found.whole, unnamed=found.unnamed) if said != _NOTHING else _NOTHING
 
 
 @query

@@ -8,7 +8,7 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
-from preflight_analysis.tracing.interface import Endpoint, Frame, FrameUse, MadeNode, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, Frame, FrameUse, MadeNode, ParamUse, Role
 
 _MAX_FOUND = 500
 _MAX_NODES = 32
@@ -30,6 +30,7 @@ class Collector:
         self._alternatives = False
         self._unknown_nodes = False
         self._missed = False
+        self._unnamed: dict[tuple[Role, str | None], None] = {}
         self.branches = Branches()
         """Those of the program that is gone through."""
 
@@ -38,6 +39,11 @@ class Collector:
         """The ends found, in order; a service that is only waited for is one that is called."""
         called = {e.name for e in self._endpoints.values() if e.role == "client"}
         return (*self._endpoints.values(), *(e for e in self._awaited if e.name not in called))
+
+    @property
+    def unnamed(self) -> tuple[tuple[Role, str | None], ...]:
+        """Role and type of the ends that were left out, each once."""
+        return tuple(self._unnamed)
 
     @property
     def params(self) -> tuple[ParamUse, ...]:
@@ -92,6 +98,7 @@ class Collector:
             elif before.conditional and not self.branches.speculative:
                 self._endpoints[key] = replace(before, conditional=False)
         else:
+            self._unnamed[endpoint.role, endpoint.type] = None
             self.miss()
 
     def await_service(self, endpoint: Endpoint) -> None:

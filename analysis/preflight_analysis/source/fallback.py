@@ -16,7 +16,7 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Before, Kept
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, source_key
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Interface, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.tracing.similar import SimilarTraces, asked
 
 
@@ -175,6 +175,7 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
         more = interface.with_more("similar", found.endpoints, found.params, frames=found.frames)
         return replace(more, elsewhere=found.elsewhere) if _is_more(more, interface) else interface
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
+    interface, endpoints = replace(interface, endpoints=_beside(found, interface.endpoints)), _beside(found, endpoints)
     params = tuple(replace(use, inferred=True) for use in found.params)
     whole = interface.with_more("source", endpoints, params, found.nodes, found.frames, found.frame_uses)
     if not _is_more(whole, interface):
@@ -184,6 +185,17 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
         return whole
     # There is no executable, but what it is to be made of.
     return replace(whole, outcome=replace(whole.outcome, reason="it is not built yet"))
+
+
+def _beside(found: SourceInterface, endpoints: tuple[Endpoint, ...]) -> tuple[Endpoint, ...]:
+    """The ends, each with whether others of its role and type have names that are not known."""
+    unnamed = {*found.unnamed}
+    return tuple(
+        replace(each, beside_unnamed=True)
+        if not unnamed.isdisjoint(((each.role, each.type), (each.role, None), (each.role, "*")))
+        else each
+        for each in endpoints
+    )
 
 
 def _is_more(whole: Interface, interface: Interface) -> bool:

@@ -83,6 +83,8 @@ class Endpoint:
     """Made once somebody was at the other end of another topic of the node."""
     stood_in: bool = False
     """Made in a run without some of the modules that the node imports, which others stood in for."""
+    beside_unnamed: bool = False
+    """The source of its node makes others of the role and type, of whose names is not known how they are computed."""
     node: str | None = None
     """ROS 2, of a process that makes several nodes: the full name that the one had which made it. None for the node of
     the launch file."""
