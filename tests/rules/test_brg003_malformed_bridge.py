@@ -72,6 +72,7 @@ def test_old_keys_are_gone_since_jazzy(tmp_path: Path) -> None:
         ("/a@std_msgs/msg/String@gz.msgs.StringMsg@b", "has more than two types: parameter_bridge exits", "error"),
         ("/s@a/srv/B[gz.msgs.C", "separates the types of a service by '[' instead of '@': parameter", "error"),
         ("/s@a/srv/B@gz.msgs.C", "names one type of Gazebo, a service has two: parameter_bridge exits", "error"),
+        ("/model//scan@std_msgs/msg/String@gz.msgs.StringMsg", "has a topic name that ROS refuses: param", "info"),
         ("my-robot@std_msgs/msg/String@gz.msgs.StringMsg", "has a topic name that ROS refuses: param", "error"),
     ],
 )
@@ -88,6 +89,8 @@ def test_arguments_that_it_refuses(tmp_path: Path, argument: str, said: str, sev
         "/a@std_msgs/msg/String@gz.msgs.StringMsg b@std_msgs/msg/String[gz.msgs.StringMsg",
         "/s@a/srv/B /t@a/srv/B@gz.msgs.C@gz.msgs.D --ros-args -r a:=b -- c@std_msgs/msg/String]gz.msgs.StringMsg",
         "--ros-args -p config_file:=/nowhere/bridge.yaml",
+        "/world/$(var name)/scan@std_msgs/msg/String@gz.msgs.StringMsg /a@std_msgs/msg/String[gz.msgs.StringMsg",
+        "/world/$(command 'echo $(var name)')/scan@std_msgs/msg/String@gz.msgs.StringMsg",
     ],
 )
 def test_arguments_that_it_takes(tmp_path: Path, args: str) -> None:

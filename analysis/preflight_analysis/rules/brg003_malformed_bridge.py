@@ -60,11 +60,13 @@ def _of_arguments(rule: Rule, context: Context) -> Iterator[Finding]:
             if not wrong:
                 continue
             ends = given.ends or not given.refused
+            # A name with nothing between two slashes has an argument in it that an includer gives.
+            by_others = not given.refused and "//" in given.topic
             yield rule.finding(
                 f"bridge argument '{given.word}' {wrong}: " + ("parameter_bridge exits" if ends else "nothing passes"),
                 argument_location(context, node, given.word),
-                severity=None if ends else "warning",
-                confidence="likely",
+                severity="info" if by_others else None if ends else "warning",
+                confidence="possible" if by_others else "likely",
                 related=include_chain(node.origin),
             )
 
@@ -114,7 +116,8 @@ RULE = Rule(
     what="Checks for what `ros_gz_bridge` refuses. An argument of `parameter_bridge` is `TOPIC@ROS_TYPE@GZ_TYPE`, with "
     "`[` or `]` in place of the second `@` for one direction. An entry of its file has both types, a `direction` "
     "that exists, and one name: `topic_name`, or those of the two sides. The old `ign_` keys are refused from Jazzy "
-    "on. Entries of services are not checked.",
+    "on. Entries of services are not checked. An argument with `//` in its name is information, as an includer may "
+    "give the name between.",
     why="parameter_bridge prints its usage and exits, with all its topics. Of a file it reports "
     "`Could not parse entry`, and the topic does not pass.",
     example="- topic_name: /cmd_vel\n  ros_type_name: geometry_msgs/msg/Twist\n  gz_type_name: gz.msgs.Twist\n"

@@ -22,6 +22,7 @@ _CONFIG = "config_file"
 _PROGRAM = "parameter_bridge"
 _DIRECTIONS = "@[]"
 """In the order in which they are looked for: both ways, to ROS, to Gazebo."""
+_OF_SUBSTITUTION = frozenset("$()")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +46,14 @@ class Argument:
 
 def arguments_of(node: LaunchNode) -> Iterator[Argument]:
     """Those of a bridge beside the ones that are for ROS, as far as they are known; none of other nodes."""
-    for word in _beside_ros(words_of(node.args)) if is_bridge(node) and node.executable == _PROGRAM else ():
-        if not is_unknown(word):
-            yield parse_argument(word)
+    if not is_bridge(node) or node.executable != _PROGRAM:
+        return
+    whole = not node.unknowns and "$(" not in node.args
+    for word in _beside_ros(words_of(node.args)):
+        given = parse_argument(word)
+        # A substitution that is not known may have blanks in it: its pieces are no arguments.
+        if whole or not (given.refused or is_unknown(word) or _OF_SUBSTITUTION.intersection(word)):
+            yield given
 
 
 def parse_argument(word: str) -> Argument:
