@@ -220,10 +220,12 @@ _BY_NAME = attrgetter("name")
 
 
 def params_of_nodes(tree: LaunchTree, known: Sequence[Known | None], kept: Kept) -> Sequence[Sequence[Param]]:
-    """The parameters of each node. Those of ROS 1 stand right below its name, of one of which something is known at any
-    depth."""
+    """The parameters of each node, and those of the files that it names. Those of ROS 1 stand right below its name, of
+    one of which something is known at any depth."""
+    files = tree.file_params
     if tree.ros.own_parameters:
-        return [node.params for node in tree.nodes_and_simulated]
+        nodes = tree.nodes_and_simulated
+        return [(*node.params, *files[node.name]) if node.name in files else node.params for node in nodes]
     direct = kept.grouped(_namespace, "named", tree.all_params)
     found: list[Sequence[Param]] = [direct.get(node.name, ()) for node in tree.nodes]
     params = sorted(tree.all_params, key=_BY_NAME) if any(known) else []
@@ -231,7 +233,7 @@ def params_of_nodes(tree: LaunchTree, known: Sequence[Known | None], kept: Kept)
         # The next sign behind a slash.
         name = tree.nodes[at].name
         start, end = (bisect_left(params, f"{name}{sign}", key=_BY_NAME) for sign in "/0")
-        found[at] = kept.get(_all, (name, at), tuple(params[start:end]))
+        found[at] = kept.get(_all, (name, at), (*params[start:end], *files.get(name, ())))
     return found
 
 

@@ -351,6 +351,8 @@ class LaunchTree(Once):
     it."""
     written: frozenset[str] = frozenset()
     """The paths of the files that Python launch files write."""
+    file_params: Mapping[str, tuple[Param, ...]] = field(default_factory=dict)
+    """What files have that parameters or arguments of a node name, by the full name of the node; `known_files.py`."""
 
     @property
     def ros(self) -> Generation:

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from preflight_analysis.dataclass import dataclass
 
-Kind = Literal["topic", "service", "action", "frame", "joint", "plugin", "value"]
+Kind = Literal["topic", "service", "action", "frame", "joint", "plugin", "file", "value"]
 ROLES: Mapping[Kind, tuple[str, ...]] = {
     "topic": ("publisher", "subscriber"),
     "service": ("server", "client"),
@@ -19,9 +19,11 @@ ROLES: Mapping[Kind, tuple[str, ...]] = {
     "frame": ("used", "named"),
     "joint": ("commanded", "read"),
     "plugin": ("type",),
+    "file": ("yaml", "lua"),
 }
 """What each kind of value is for. A frame that is `used` has to be there, one that is `named` is only written into
-messages. A joint is `commanded` or `read` by a controller. A `value` is for nothing by itself; its default counts."""
+messages. A joint is `commanded` or `read` by a controller. What a file has is parameters below its name. A `value`
+is for nothing by itself; its default counts."""
 EntryKind = Literal["executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins"]
 ENTRY_KINDS: tuple[EntryKind, ...] = (
     "executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins",
@@ -52,6 +54,10 @@ class Meaning:
     """What is put behind the value to make the name: `/compressed`, `/${transport}` for that of a parameter."""
     remapped: bool = False
     """Whether a remap of the value changes the beginning of that name."""
+    private: bool = False
+    """Whether a relative name is below that of the node."""
+    folder: str = ""
+    """Of a file: the parameter or argument that has its folder."""
 
 
 @dataclass(frozen=True, slots=True)

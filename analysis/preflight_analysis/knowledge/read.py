@@ -122,12 +122,12 @@ class _Reader:
                 given["default"] = self._plain(value)
             elif name.value in ("when", "qos"):
                 given[name.value] = {k.value: self._plain(v) for k, v in self._pairs(value, name.value)}
-            elif name.value == "append":
-                given["append"] = self._text(value, "append")
-            elif name.value == "remapped":
-                given["remapped"] = self._plain(value) is True
+            elif name.value in ("append", "folder"):
+                given[name.value] = self._text(value, name.value)
+            elif name.value in ("remapped", "private"):
+                given[name.value] = self._plain(value) is True
             else:
-                known = (*ROLES, "type", "default", "when", "qos", "append", "remapped")
+                known = (*ROLES, "type", "default", "when", "qos", "append", "remapped", "private", "folder")
                 self._unknown(name, f"'{key.value}'", known)
         if kind is None and given.keys() == {"default"}:
             kind = "value"

@@ -34,6 +34,8 @@ def schema() -> dict[str, Any]:
             "qos": {"type": "object"},
             "append": _TEXT,
             "remapped": {"type": "boolean", "description": "Whether a remap of the value changes the name."},
+            "private": {"type": "boolean", "description": "Whether a relative name is below that of the node."},
+            "folder": {**_TEXT, "description": "Of a file: the parameter or argument with its folder."},
         },
     )
     meaning["anyOf"] = [*({"required": [kind]} for kind in ROLES), {"required": ["default"], "maxProperties": 1}]

@@ -104,6 +104,8 @@ def _with_named(
 def _base(node: LaunchNode, meant: Meant, generation: int) -> str:
     """The value, or what a remap makes of it where that changes the beginning of the name."""
     value = str(meant.value)
+    if meant.meaning.private and value and not value.startswith(("/", "~")):
+        value = f"~{value}"
     if not (meant.meaning.remapped and meant.append):
         return value
     found = effective_remaps(node, generation).get(names.resolve(value, node.name))

@@ -14,6 +14,7 @@ from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.catalogued import in_catalogue
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.known_files import params_of_files
 from preflight_analysis.evaluation.problems import (
     IncludeCycle,
     MalformedXml,
@@ -103,6 +104,7 @@ def evaluate(
         if (asked_for := names_asked_for(found)) is not None:
             report_undeclared(state, found, args, asked_for)
     note_configs_of_rviz(state, state.nodes)
+    file_params = params_of_files(state, state.nodes, state.params, 1)
     _check_machines(state)
     if not outline:
         _check_language(state)
@@ -122,6 +124,7 @@ def evaluate(
         state.inputs,
         tuple(state.commands),
         tuple(state.not_taken),
+        file_params=file_params,
     )
 
 

@@ -12,6 +12,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files
+from preflight_analysis.evaluation.known_files import params_of_files
 from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
@@ -67,6 +68,7 @@ def evaluate_ros2(
     note_files_of_bridges(state)
     note_files_of_domain_bridges(state)
     note_configs_of_rviz(state, state.nodes)
+    file_params = params_of_files(state, state.nodes, None, 2)
     simulated = simulated_managers(state)
     return LaunchTree(
         os.path.normpath(path),
@@ -88,6 +90,7 @@ def evaluate_ros2(
         tuple(state.nodes_before),
         simulated,
         frozenset(state.made),
+        file_params,
     )
 
 
