@@ -278,6 +278,18 @@ def test_maintenance(neovim: Neovim, trusted_harness: Harness) -> None:
     assert (seen["clients"], seen["old_is_gone"], seen["status"]) == (1, True, "")
 
 
+def test_why_two_nodes_are_not_connected(neovim: Neovim, trusted_harness: Harness) -> None:
+    seen = drive(neovim, trusted_harness, "why")
+
+    assert seen["title"] == "/talker -> /listener: not connected: '/chatter' and '/chater' are different topic names"
+    assert seen["links"][0] == ["", 0, seen["title"]]
+    (broken,) = (link for link in seen["links"] if link[0] == "E")
+    assert broken[1:] == [7, "'/chatter' and '/chater' are different topic names"]
+    assert ["", 0, "quick fix: Replace 'chater' with 'chatter'"] in seen["links"]
+    assert seen["choices"] == ["/talker", "Why is /listener started?"]
+    assert seen["start"] == "/listener is started"
+
+
 def test_a_server_that_dies_is_started_again_once(neovim: Neovim, trusted_harness: Harness) -> None:
     seen = drive(neovim, trusted_harness, "crash")
 

@@ -204,6 +204,7 @@ def test_the_graph_is_shown_leads_to_lines_and_follows(trusted_harness: Harness)
     ]
     assert "std_msgs/String" in seen["hover"]
     assert "TOP001" in seen["hover"]
+    assert any("Quick fix: Replace 'chater' with 'chatter'" in row for row in seen["why"])
     assert [label.split(",")[0] for label in seen["followed"]] == ["node /listener", "node /talker", "topic /chatter"]
     assert "<text" in seen["saved"]
     assert seen["restored"] == "listener"

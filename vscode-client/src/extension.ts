@@ -25,6 +25,7 @@ import { type Place, selectRoot, showReferences } from "./rootCommands";
 import { ServerSession } from "./serverSession";
 import { StatusBar } from "./statusBar";
 import { registerUnserved } from "./unserved";
+import { type Question, why } from "./why";
 
 /** The settings that say which server is started, and with which environment. */
 const OF_THE_START = ["server.command", "server.python", "server.install", "environment.setup"];
@@ -39,7 +40,8 @@ let session: ServerSession | undefined;
 export function activate(context: ExtensionContext): void {
   const log = window.createOutputChannel("ROS Preflight", { log: true });
   const tree = new NodeTreeView(isLaunchFile);
-  const graph = new GraphView(context, isLaunchFile);
+  const explain = (question: Question) => server.withClient((client) => why(client, question));
+  const graph = new GraphView(context, isLaunchFile, explain);
   let statusBar: StatusBar | undefined;
   let watching: string | undefined;
   let before = UNWATCHED;
@@ -97,6 +99,14 @@ export function activate(context: ExtensionContext): void {
         ? nodesOf(window.activeTextEditor, true)
         : tree.shown && { uri: tree.shown };
       return which && server.withClient((client) => trace(client, which));
+    }),
+    command("why", (line?: { readonly item: NodeItem }) => {
+      const editor = window.activeTextEditor;
+      const question =
+        line !== undefined && tree.shown !== undefined
+          ? { uri: tree.shown, node: line.item.name }
+          : editor && nodesOf(editor, false);
+      return question && explain(question);
     }),
     command("watch", () => {
       const uri = tree.shown ?? window.activeTextEditor?.document.uri.toString();

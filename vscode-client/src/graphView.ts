@@ -18,6 +18,7 @@ import { clock, type Difference, type Live } from "./live";
 import { notice } from "./messages";
 import { keptUri, type PageMessage, type Place, pageMessage } from "./pageMessages";
 import { type Graph, ShownPlaces } from "./shownPlaces";
+import type { Question } from "./why";
 
 const VIEW_TYPE = "rosPreflight.graph";
 
@@ -41,6 +42,7 @@ export class GraphView implements Disposable {
   constructor(
     private readonly context: ExtensionContext,
     private readonly isLaunchFile: (document: TextDocument) => boolean,
+    private readonly explain: (question: Question) => unknown,
   ) {
     this.subscriptions = [
       window.onDidChangeActiveTextEditor((editor) => {
@@ -192,6 +194,12 @@ export class GraphView implements Disposable {
         break;
       case "save":
         await save(message.svg);
+        break;
+      case "why":
+        if (this.uri !== undefined) {
+          const { node, channel, others } = message;
+          this.explain({ uri: this.uri, node, others, ...(channel === null ? {} : { channel }) });
+        }
         break;
       case "open":
         if (this.places.has(message)) {

@@ -11,6 +11,8 @@ describe("what the page sends", () => {
     { type: "builtin", shown: true },
     { type: "save", svg },
     { type: "open", ...place },
+    { type: "why", node: "/talker", channel: "/chatter", others: ["/listener"] },
+    { type: "why", node: "/talker", channel: null, others: [] },
   ]) {
     it(message.type, () => {
       assert.deepEqual(pageMessage(message), message);
@@ -58,6 +60,12 @@ describe("what the page does not send", () => {
     { type: "open", ...place, line: 1.5 },
     { type: "open", ...place, line: "3" },
     { type: "open", ...place, column: NaN },
+    { type: "why" },
+    { type: "why", node: "talker", channel: null, others: [] },
+    { type: "why", node: "/talker", channel: 1, others: [] },
+    { type: "why", node: "/talker", channel: null, others: "/a" },
+    { type: "why", node: "/talker", channel: null, others: [1] },
+    { type: "why", node: "/talker", channel: null, others: Array(10_001).fill("/a") },
     { type: "open", ...place, column: Infinity },
     { type: "open", file: place.file, line: 3 },
   ];

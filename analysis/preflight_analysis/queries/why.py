@@ -83,6 +83,19 @@ class Chain:
         """`topic`, `service` or `action`."""
         return _NOUN[self.kind]
 
+    @property
+    def verdict(self) -> str:
+        """Whether they are connected, in a line."""
+        over = f" over the {self.noun} '{self.channel}'" if self.channel is not None else ""
+        pair = f"{self.provider} -> {self.consumer}{over}"
+        if self.broken is not None:
+            return f"{pair}: not connected: {self.broken.text}"
+        if not self.unknown:
+            return f"{pair}: connected"
+        links = "link is" if self.unknown == 1 else "links are"
+        state = "no broken link" if self.channel is not None else "no topic, service or action is known that they share"
+        return f"{pair}: {state}; {self.unknown} {links} unknown"
+
 
 def first_broken(links: Iterable[Link]) -> Link | None:
     """The first link that breaks."""

@@ -34,6 +34,11 @@ class Start:
         """The first link that breaks."""
         return first_broken(self.links)
 
+    @property
+    def verdict(self) -> str:
+        """Whether it is started, in a line."""
+        return f"{self.node} is {'not started' if self.broken else 'started'}"
+
 
 def why_started(analysis: Analysis, name: str, evaluate: Evaluate) -> Start:
     """What starts the node, or which condition leaves it out. Raises `NoSuchNodeError` where no arguments that the

@@ -25,6 +25,12 @@ command(
   { bang = true, desc = 'Run the node at the cursor again; with ! all nodes' }
 )
 command(
+  'RosPreflightWhy',
+  'why',
+  'open',
+  { nargs = '*', desc = 'Explain the connection of the node at the cursor with another one' }
+)
+command(
   'RosPreflightWatch',
   'watch',
   'open',

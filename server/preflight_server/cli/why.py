@@ -86,8 +86,7 @@ def _started(project: Project, name: str, args: argparse.Namespace) -> int:
         data = {"schema": SCHEMA, "start": _start_json(start, analysis)}
         print_json(with_paths(data, args, [workspace_of(analysis.root)]))
     else:
-        verdict = "is not started" if start.broken else "is started"
-        _print([f"{start.node} {verdict}", *_lines(start.links, analysis)])
+        _print([start.verdict, *_lines(start.links, analysis)])
     return FOUND if start.broken else CLEAN
 
 
@@ -105,7 +104,7 @@ def _connected(project: Project, words: Sequence[str], args: argparse.Namespace)
         print_json(with_paths(data, args, [workspace_of(analysis.root)]))
     else:
         blocks = [
-            [_verdict(chain), *_lines(chain.links, analysis), *_live_lines(links, analysis)]
+            [chain.verdict, *_lines(chain.links, analysis), *_live_lines(links, analysis)]
             for chain, links in zip(found, live, strict=True)
         ]
         _print([line for block in blocks for line in (*block, "")][:-1])
@@ -129,18 +128,6 @@ def _live_lines(links: Sequence[Link] | None, analysis: Analysis) -> Iterator[st
     broken = first_broken(links)
     yield f"running system: {'no broken link' if broken is None else broken.text}"
     yield from _lines(links, analysis)
-
-
-def _verdict(chain: Chain) -> str:
-    over = f" over the {chain.noun} '{chain.channel}'" if chain.channel is not None else ""
-    pair = f"{chain.provider} -> {chain.consumer}{over}"
-    if chain.broken is not None:
-        return f"{pair}: not connected: {chain.broken.text}"
-    links = "link is" if chain.unknown == 1 else "links are"
-    if not chain.unknown:
-        return f"{pair}: connected"
-    state = "no broken link" if chain.channel is not None else "no topic, service or action is known that they share"
-    return f"{pair}: {state}; {chain.unknown} {links} unknown"
 
 
 def _lines(links: Sequence[Link], analysis: Analysis) -> Iterator[str]:

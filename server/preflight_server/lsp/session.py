@@ -9,14 +9,16 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from lsprotocol.types import Position
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.detect import detect, workspace_of
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.queries.places import nodes_around
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
@@ -30,7 +32,7 @@ from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
 from preflight_server.lsp.root_choice import RootChoice
 from preflight_server.lsp.runs import Runs
-from preflight_server.lsp.settings import Settings
+from preflight_server.lsp.settings import Settings, as_mapping
 from preflight_server.lsp.text_store import OpenDocument
 
 if TYPE_CHECKING:
@@ -56,6 +58,15 @@ class View:
     index: WorkspaceIndex
     findings: tuple[Finding, ...]
     converter: Converter
+
+    def nodes_at(self, position: Any) -> tuple[str, ...]:
+        """The full names of the nodes that start at a position of LSP, as JSON has it."""
+        where = as_mapping(position)
+        line, character = where.get("line"), where.get("character")
+        if not isinstance(line, int) or not isinstance(character, int):
+            return ()
+        offset = self.converter.positions(self.path).offset(Position(line, character))
+        return tuple(node.name for node in nodes_around(self.analysis.tree, self.path, offset))
 
 
 class Session:

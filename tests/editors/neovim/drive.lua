@@ -380,6 +380,36 @@ function scenarios.maintenance()
   return result
 end
 
+-- Why two nodes are not connected, by their names and from the cursor.
+function scenarios.why()
+  local file = vim.api.nvim_get_current_buf()
+  local result = {}
+  local function links()
+    local list = vim.fn.getqflist({ title = true, items = true })
+    return #list.items > 0 and list or nil
+  end
+  wait_for('the diagnostic', function()
+    return diagnostics_with('chatter')[1]
+  end)
+  vim.cmd('RosPreflightWhy /talker /listener')
+  local list = wait_for('the links', links)
+  result.title = list.title
+  result.links = vim.tbl_map(function(item)
+    return { item.type, item.lnum, item.text }
+  end, list.items)
+  vim.cmd('cclose')
+  vim.fn.setqflist({})
+  vim.api.nvim_set_current_win(vim.fn.bufwinid(file))
+  vim.ui.select = function(items, _, on_choice)
+    result.choices = items
+    on_choice(items[#items])
+  end
+  on_line_with('name="listener"')
+  vim.cmd('RosPreflightWhy')
+  result.start = wait_for('the start', links).title
+  return result
+end
+
 -- The server dies: it is started again once, and what happens then is said.
 function scenarios.crash()
   local told = {}

@@ -41,6 +41,19 @@ export async function walkThroughGraph({ workbench, harness, step, picture, seen
     await item("node /talker").press("Enter");
     await cursor(/Ln 3, Col 3/);
   });
+  await step("why", async () => {
+    await item("topic /chatter").click();
+    await graph().locator("#details button", { hasText: "Explain" }).first().click();
+    const rows = workbench.page.locator(".quick-input-list .monaco-list-row");
+    await rows.filter({ hasText: "Why is /talker started?" }).waitFor();
+    await rows.filter({ hasText: "/listener" }).first().click();
+    await rows.filter({ hasText: "are different topic names" }).last().waitFor();
+    await picture("22-graph-why");
+    seen.why = await rows.allInnerTexts();
+    await rows.filter({ hasText: "are different topic names" }).last().click();
+    await cursor(/Ln 7, Col/);
+    await workbench.openFile("talker_listener.launch");
+  });
   await step("followed", async () => {
     writeFileSync(harness.launchFile, contents(harness.launchFile).replace('to="chater"', 'to="chatter"'));
     await item("topic /chater").waitFor({ state: "detached" });

@@ -113,3 +113,14 @@ export function make(name, attributes, ...children) {
 export function go(place) {
   editor?.postMessage({ type: "open", file: place.file, line: place.line, column: place.column });
 }
+
+/**
+ * Has the editor explain the connection of a node with another one.
+ * @param {string} node
+ * @param {string | null} channel over which
+ * @param {string[]} others the nodes at its other end
+ */
+export function why(node, channel, others) {
+  // The name of one of several channels of a name ends with its domain.
+  editor?.postMessage({ type: "why", node, channel: channel?.replace(/ \(.*\)$/, "") ?? null, others });
+}

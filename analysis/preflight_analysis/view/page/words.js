@@ -13,7 +13,7 @@ import {
   worst,
 } from "./graph.js";
 import { issueShown, liveShown } from "./live.js";
-import { details, editor, go, hint, make, state } from "./page.js";
+import { details, editor, go, hint, make, state, why } from "./page.js";
 
 /** @type {Record<Role, string>} */
 const DOES = {
@@ -148,6 +148,26 @@ const places = (list) =>
   });
 
 /**
+ * In an editor a button that explains why a node is connected, or not, over a channel.
+ * @param {Edge} edge
+ */
+function whyShown(edge) {
+  if (editor === undefined) {
+    return [];
+  }
+  const { nodes, channels, edges, ofChannel } = state.graph;
+  const ends = ofChannel[edge.channel].map((i) => edges[i]);
+  const others = ends
+    .filter((end) => TOWARDS.has(end.role) !== TOWARDS.has(edge.role))
+    .map((end) => nodes[end.node].name);
+  const { name } = nodes[edge.node];
+  const ask = () => why(name, channels[edge.channel].name, [...new Set(others)]);
+  const button = make("button", { type: "button", className: "place", onclick: ask }, "Explain");
+  button.setAttribute("aria-label", `Explain the connection of ${name} over ${channels[edge.channel].name}`);
+  return [make("p", {}, button)];
+}
+
+/**
  * @param {string} title
  * @param {Edge[]} edges
  * @param {"node" | "channel"} other which end of them is named
@@ -159,7 +179,7 @@ function section(title, edges, other, onJump) {
     const { name } = other === "node" ? state.graph.nodes[edge.node] : state.graph.channels[edge.channel];
     const jump = make("button", { type: "button", className: "item", onclick: () => onJump(key) }, name);
     const how = make("p", { className: "dim" }, edgeShown(edge));
-    return make("li", {}, jump, how, ...places(edge.places), ...findingsShown(edge.findings));
+    return make("li", {}, jump, how, ...places(edge.places), ...whyShown(edge), ...findingsShown(edge.findings));
   });
   return rows.length === 0 ? [] : [make("h3", {}, `${title} (${rows.length})`), make("ul", {}, ...rows)];
 }
@@ -206,7 +226,11 @@ export function detail(item, on) {
   const edges = edgesOf(item);
   if (isNode(item)) {
     const node = nodeOf(item);
-    parts.push(make("h2", {}, node.name), ...nodeShown(node), alone, ...findingsShown(node.findings));
+    const ask = () => why(node.name, null, []);
+    const asks = make("button", { type: "button", className: "alone", onclick: ask }, "Explain a connection");
+    const buttons = editor === undefined ? [alone] : [alone, " ", asks];
+    parts.push(make("h2", {}, node.name), ...nodeShown(node), make("p", {}, ...buttons));
+    parts.push(...findingsShown(node.findings));
     parts.push(make("h3", {}, "Launched at"), ...places(node.places));
     for (const [role, title] of SECTIONS) {
       const own = edges.filter((edge) => edge.role === role);

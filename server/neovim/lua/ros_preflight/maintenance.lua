@@ -6,27 +6,9 @@ local M = {}
 
 local STOP_WITHIN_MS = 3000 -- then the server is killed
 
--- The server of the current file or, in one of our buffers, of what it shows; with the row at the cursor.
-local function here()
-  local shown, row = view.current()
-  local bufnr = shown and shown.source or vim.api.nvim_get_current_buf()
-  local server = vim.api.nvim_buf_is_valid(bufnr) and client.clients(bufnr)[1] or nil
-  if not server then
-    client.warn('no server is attached to this file')
-  end
-  return server, bufnr, row
-end
-
--- The cursor's position; that of the first character where it stands in front of the text of its line.
-local function position_in_text(server)
-  local position = vim.lsp.util.make_position_params(0, server.offset_encoding).position
-  position.character = math.max(position.character, #vim.fn.getline('.'):match('^%s*'))
-  return position
-end
-
 -- Runs the node at the cursor anew, in a launch file or one of our buffers; with a bang all nodes of the launch.
 function M.trace(args)
-  local server, bufnr, row = here()
+  local server, bufnr, row = view.here()
   if not server then
     return
   end
@@ -37,7 +19,7 @@ function M.trace(args)
       return client.warn('no node starts on this line')
     end
     params.node = row and row.node
-    params.position = not is_view and position_in_text(server) or nil
+    params.position = not is_view and view.position_in_text(server) or nil
   end
   client.request(server, 'rosPreflight/trace', params, bufnr, function(answer, err)
     local message = err or (answer and answer.message)
@@ -50,7 +32,7 @@ function M.trace(args)
 end
 
 function M.clear_cache()
-  local server, bufnr = here()
+  local server, bufnr = view.here()
   if not server then
     return
   end
@@ -71,7 +53,7 @@ end
 
 -- What launch files and nodes are looked at with, in a scratch buffer.
 function M.doctor(args)
-  local server, bufnr = here()
+  local server, bufnr = view.here()
   if not server then
     return
   end

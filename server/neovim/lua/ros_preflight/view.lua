@@ -211,6 +211,24 @@ function M.current()
   end
 end
 
+-- The server of the current file or, in one of our buffers, of what it shows; with the row at the cursor.
+function M.here()
+  local shown, row = M.current()
+  local bufnr = shown and shown.source or vim.api.nvim_get_current_buf()
+  local server = vim.api.nvim_buf_is_valid(bufnr) and client.clients(bufnr)[1] or nil
+  if not server then
+    client.warn('no server is attached to this file')
+  end
+  return server, bufnr, row
+end
+
+-- The cursor's position; that of the first character where it stands in front of the text of its line.
+function M.position_in_text(server)
+  local position = vim.lsp.util.make_position_params(0, server.offset_encoding).position
+  position.character = math.max(position.character, #vim.fn.getline('.'):match('^%s*'))
+  return position
+end
+
 local function map_keys(view)
   local function map(keys, action)
     vim.keymap.set('n', keys, function()

@@ -13,8 +13,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from lsprotocol import types
-from preflight_analysis.queries.places import nodes_around
 from preflight_analysis.tracing import sandbox
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.commands import CommandCache
@@ -35,14 +33,7 @@ def _named(view: View, given: Mapping[str, Any]) -> frozenset[str] | None:
     """The nodes that a request speaks of, None for all."""
     if isinstance(name := given.get("node"), str):
         return frozenset({name})
-    where = as_mapping(given.get("position"))
-    if not where:
-        return None
-    line, character = where.get("line"), where.get("character")
-    if not isinstance(line, int) or not isinstance(character, int):
-        return frozenset()
-    offset = view.converter.positions(view.path).offset(types.Position(line, character))
-    return frozenset(node.name for node in nodes_around(view.analysis.tree, view.path, offset))
+    return frozenset(view.nodes_at(given["position"])) if given.get("position") is not None else None
 
 
 def register(server: PreflightServer) -> None:
