@@ -114,6 +114,35 @@ def test_a_launch_file_that_refuses_for_what_the_machine_lacks(tmp_path: Path, a
 
 
 @pytest.mark.parametrize(
+    ("data", "severity"), [("files_of_the_web()", "info"), ("[('share/robot', ['package.xml'])]", "error")]
+)
+def test_a_launch_file_that_refuses_for_what_its_build_makes(tmp_path: Path, data: str, severity: str) -> None:
+    build = "<export><build_type>ament_python</build_type></export>"
+    (tmp_path / "package.xml").write_text(f"<package><name>robot</name>{build}</package>")
+    (tmp_path / "setup.py").write_text(f"from setuptools import setup\nsetup(name='robot', data_files={data})\n")
+    analysis = _launched(tmp_path, _error(tmp_path, "RuntimeError", "build first", absent=f"{tmp_path}/web/dist"))
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.severity == severity
+    assert finding.message.endswith("/web/dist'") == (severity == "info")
+
+
+@pytest.mark.parametrize(("asked", "lacks"), [("os.environ.get('ROBOT')", True), ("os.environ.get('HOME')", False)])
+def test_a_launch_file_that_joins_a_variable_that_is_not_set(tmp_path: Path, asked: str, lacks: bool) -> None:
+    error = _error(tmp_path, "TypeError", "expected str, bytes or os.PathLike object, not NoneType")
+    analysis = _launched(tmp_path, error, text=f"import os\nNAME = {asked}\n{TEXT}")
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.lack == (Lack("variable", "ROBOT") if lacks else None)
+
+
+def test_a_launch_file_that_refuses_without_a_submodule(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    (tmp_path / ".gitmodules").write_text('[submodule "maps"]\n\tpath = maps\n')
+    analysis = _launched(tmp_path, _error(tmp_path, "RuntimeError", "no maps", absent=f"{tmp_path}/maps/hall.yaml"))
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.lack == Lack("submodule", "maps", "git submodule update --init maps")
+
+
+@pytest.mark.parametrize(
     ("helper", "said", "severity"),
     [
         ("def made(n):\n    raise ValueError(\n'')\n", "map_file is required for localization", "info"),

@@ -121,6 +121,19 @@ def test_a_package_that_has_all_that_is_asked_of_the_one_that_is_not_there(
     assert (meant in findings[0].message) == (severity == "warning")
 
 
+def test_a_package_with_a_launch_file_that_hands_over_to_the_one_that_is_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "package.xml").write_text(manifest("robot", "catkin"))
+    asks = (
+        '<launch><include file="$(find vision)/launch/track.launch"/><node pkg="stranger" type="t" name="n"/></launch>'
+    )
+    for name in ("track", "main"):
+        (tmp_path / "launch" / f"{name}.launch").write_text(asks)
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    findings = workspace.static(str(tmp_path / "launch" / "main.launch"), {}).findings
+    assert not any("did you mean" in each.message for each in findings)
+
+
 @pytest.mark.parametrize(("program", "severity"), [("base.py", "warning"), ("pid_control", "hint")])
 def test_a_package_that_has_the_files_and_not_the_programs(tmp_path: Path, program: str, severity: str) -> None:
     for name in ("robot", "beside"):

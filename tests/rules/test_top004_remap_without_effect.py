@@ -235,6 +235,23 @@ def test_a_name_that_is_given_to_itself_in_place_of_the_node_s_own() -> None:
     assert "did you mean 'imu', which it subscribes to and which is unconnected?" in finding.message
 
 
+@pytest.mark.silent
+def test_a_name_that_is_given_to_itself_by_default_alone() -> None:
+    findings = findings_of("""
+        <launch>
+          <arg name="imu" default="imu/data"/>
+          <node pkg="p" type="t" name="ekf"/>
+          <node pkg="p" type="t" name="navsat">
+            <remap from="imu/data" to="$(arg imu)"/>
+          </node>
+        </launch>
+        //- interfaces
+        {"/ekf": {"subscribers": {"imu/data": "sensor_msgs/Imu"}},
+         "/navsat": {"subscribers": {"imu": "sensor_msgs/Imu", "odom": "nav_msgs/Odometry"}}}
+    """)
+    assert "TOP004" not in [finding.rule for finding in findings]
+
+
 def test_a_private_name_that_was_meant_by_the_plain_one() -> None:
     check("""
         <launch>

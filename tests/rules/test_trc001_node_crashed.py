@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.executables import ExecutableIndex
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Package, Packages
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.installed import lack_of_build, lack_of_made, lack_said
 from preflight_analysis.tracing.interface import telling_line
@@ -427,6 +427,74 @@ def test_a_file_that_git_ignores_is_made_on_each_machine(tmp_path: Path, ignored
         </launch>
         //- interfaces
         {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["Error opening file: {tmp_path}/drive.dat"]}}}}
+    """)
+
+
+@pytest.mark.parametrize(("file", "severity"), [("com.yaml", "hint"), ("../com.yaml", "warning")])
+def test_a_file_of_a_submodule_that_is_not_checked_out(tmp_path: Path, file: str, severity: str) -> None:
+    (tmp_path / ".gitmodules").write_text('[submodule "messages"]\n\tpath = messages\n')
+    path = (tmp_path / "messages" / file).resolve()
+    (finding,) = check(f"""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TRC001] Error opening file
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["Error opening file: {path}"]}}}}
+    """)
+    lack = Lack("submodule", "messages", "git submodule update --init messages")
+    assert finding.lack == (lack if severity == "hint" else None)
+
+
+@pytest.mark.parametrize(("said", "lacks"), [("submodule aioice is empty", True), ("no device", False)])
+def test_a_node_that_names_a_submodule_of_its_package(tmp_path: Path, said: str, lacks: bool) -> None:
+    (tmp_path / ".gitmodules").write_text('[submodule "x"]\n\tpath = p/libraries/aioice\n')
+    context = analyse(
+        read_fixture(f"""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
+    """)
+    )
+    package = Package("p", f"{tmp_path}/p", f"{tmp_path}/p/package.xml")
+    environment = replace(context.environment, packages=Packages({"p": package}))
+    (finding,) = [each for each in run_rules(replace(context, environment=environment)) if each.rule == "TRC001"]
+    assert (finding.lack is not None) is lacks
+
+
+@pytest.mark.parametrize(
+    ("path", "severity"), [("/tmp/made_robot.sdf", "info"), ("robot.sdf", "warning"), ("/tmp", "warning")]
+)
+def test_a_temporary_file_that_the_launch_file_may_write(path: str, severity: str) -> None:
+    check(f"""
+        <launch>
+          <node pkg="p" type="t" name="n" args="-file {path}"/>
+          {"^" * (len(path) + 47)} {severity}[TRC001] %s does not exist
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["Error: file %s does not exist"]}}}}
+    """)
+
+
+@pytest.mark.parametrize(("name", "severity"), [("map_place", "hint"), ("map_origin", "warning")])
+def test_a_parameter_that_is_empty_as_a_variable_is_not_set(name: str, severity: str) -> None:
+    check(f"""
+        //- /a.launch.py
+        import os
+        from launch import LaunchDescription
+        from launch.actions import IncludeLaunchDescription
+        PLACE = os.environ.get('MAP_PLACE', '')
+        def generate_launch_description():
+            return LaunchDescription([IncludeLaunchDescription('/n.launch.xml')])
+        //- /n.launch.xml
+        <launch>
+          <node pkg="p" exec="e" name="n">
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TRC001] exit code 1
+            <param name="{name}" value="''"/>
+          </node>
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1}}}}
     """)
 
 

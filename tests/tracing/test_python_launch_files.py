@@ -252,6 +252,29 @@ class Twice(Action):
 """
 
 
+def test_a_function_that_waits_for_a_device_goes_on(harness: PythonHarness) -> None:
+    path = harness.write(
+        "launch/a.launch.py",
+        """\
+        import os, time
+        from launch import LaunchDescription
+        from launch.actions import LogInfo, OpaqueFunction
+
+        def wait(context):
+            deadline = time.time() + 60
+            while not os.path.exists('/dev/robot') and time.time() < deadline:
+                time.sleep(0.5)
+            return [LogInfo(msg='waited' if time.time() >= deadline else 'there')]
+
+        def generate_launch_description():
+            return LaunchDescription([OpaqueFunction(function=wait)])
+        """,
+    )
+    analysis = harness.launch(path)
+    assert [each for each in analysis.findings if each.rule == "LCH018"] == []
+    assert analysis.tree.complete
+
+
 def test_substitutions_and_actions_of_the_users_own(harness: PythonHarness) -> None:
     params = harness.write("config/p.yaml", "/**:\n  ros__parameters:\n    rate: 5\n    frame: x\n")
     path = _described(

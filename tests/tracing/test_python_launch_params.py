@@ -151,3 +151,14 @@ def test_values_are_those_of_launch_ros(tmp_path: Path) -> None:
         values = {param.name: param.value for param in node.params}
         found[case] = values.get("of.it", REFUSED)
     assert {case: repr(value) for case, value in found.items()} == {case: repr(value) for case, value in CASES.items()}
+
+
+@pytest.mark.parametrize(("default", "severity"), [("''", "hint"), ("'10.0.0.1'", "error")])
+def test_a_list_that_is_empty_as_a_variable_is_not_set(tmp_path: Path, default: str, severity: str) -> None:
+    harness = PythonHarness(tmp_path)
+    node = "        node('n', lambda: []),\n"
+    path = harness.write(
+        "launch/a.launch.py", f"import os\nip = os.getenv('ROBOT_IP', {default})\n{TEXT}{node}    ])\n"
+    )
+    (finding,) = (each for each in harness.launch(path).findings if each.rule == "LCH008")
+    assert (finding.severity, finding.lack is not None) == (severity, severity == "hint")

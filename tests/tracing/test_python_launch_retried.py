@@ -188,7 +188,7 @@ def test_a_try_that_does_not_end_is_given_up(harness: PythonHarness, otherwise: 
     tree = _tree(
         harness,
         f"""
-import time
+import threading
 import no_such_module
 
 def generate_launch_description():
@@ -196,7 +196,7 @@ def generate_launch_description():
         raise ValueError('it is')
     if no_such_module.answer() == 'yes':
         {otherwise}
-    time.sleep(100)
+    threading.Event().wait(100)
 """,
     )
     if names is None:
@@ -210,9 +210,9 @@ def test_a_try_has_the_time_that_the_first_run_took(harness: PythonHarness) -> N
     tree = _tree(
         harness,
         """
-import time
+import threading
 import no_such_module
-time.sleep(2.5)
+threading.Event().wait(2.5)
 
 def generate_launch_description():
     if no_such_module.is_ready():

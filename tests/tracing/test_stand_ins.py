@@ -563,6 +563,9 @@ def test_python_packages_that_cmake_installs_are_imported(tmp_path: Path) -> Non
     [
         ("raise RuntimeError('pip3 install far_vision')", "the Python module far_vision"),
         ("raise RuntimeError('no such map')", None),
+        ("raise RuntimeError('No vision engine available')", "the Python module far_vision"),
+        ("rospy.logerr('far_Vision not available')\nraise RuntimeError('stop')", "the Python module far_vision"),
+        ("rospy.logerr('map not available')\nraise RuntimeError('stop')", None),
     ],
 )
 def test_a_crash_without_a_module_that_the_program_provides_for(tmp_path: Path, end: str, lacks: str | None) -> None:

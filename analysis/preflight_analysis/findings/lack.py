@@ -9,15 +9,16 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 
-LackKind = Literal["package", "build", "module", "program", "variable", "file"]
-"""`package`: neither installed nor in the workspace; `build`: in the workspace and not built; `module`: of Python;
-`variable`: of the environment; `file`: outside of the workspace and of all packages."""
+LackKind = Literal["package", "build", "submodule", "module", "program", "variable", "file"]
+"""`package`: neither installed nor in the workspace; `build`: in the workspace and not built; `submodule`: of git, not
+checked out; `module`: of Python; `variable`: of the environment; `file`: outside of the workspace and all packages."""
 
-LACK_KINDS: tuple[LackKind, ...] = ("package", "build", "module", "program", "variable", "file")
+LACK_KINDS: tuple[LackKind, ...] = ("package", "build", "submodule", "module", "program", "variable", "file")
 """In the order in which they are shown: what a package brings along comes after it."""
 _WORDS: Mapping[LackKind, tuple[str, str]] = {
     "package": ("package", "packages"),
     "build": ("package that is not built", "packages that are not built"),
+    "submodule": ("git submodule that is not checked out", "git submodules that are not checked out"),
     "module": ("Python module", "Python modules"),
     "program": ("program", "programs"),
     "variable": ("environment variable", "environment variables"),

@@ -36,10 +36,18 @@ def has_what_is_asked_of(context: Context, file: str, name: str) -> tuple[Packag
     having = [
         package
         for package in context.environment.own_packages
-        if all(context.disk.exists(os.path.join(package.share, path)) for path in paths)
+        if all(_has(context, package, path, name) for path in paths)
         and all(_has_program(context, package.name, program) for program in programs)
     ]
     return (having[0], paths[0]) if len(having) == 1 else None
+
+
+def _has(context: Context, package: Package, path: str, name: str) -> bool:
+    """Whether a path is there in a package, other than a launch file that hands over to that of package `name`."""
+    full = os.path.join(package.share, path)
+    text = context.disk.text(full) if context.disk.is_file(full) else None
+    hands_over = isinstance(text, Document) and path in asked_below(text.text, name, {})
+    return context.disk.exists(full) and not hands_over
 
 
 def lacks_what_is_asked_of(context: Context, file: str, name: str, other: Package) -> bool:

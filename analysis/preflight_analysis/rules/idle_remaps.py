@@ -11,7 +11,6 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_transform
@@ -68,7 +67,7 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
         return ()
     own_ends = kept.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
     of_nodes = kept.grouped(_node, "", chain.from_iterable(own_ends))
-    found = (_with_meaning(kept, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
+    found = (_with_meaning(context, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
     return tuple(each for each in found if (each.sure and not each.to_itself) or each.meant is not None)
 
 
@@ -117,11 +116,13 @@ def _node(connection: Connection) -> int:
     return id(connection.node)
 
 
-def _with_meaning(kept: Kept, graph: Graph, idle: IdleRemap, own: tuple[Connection, ...]) -> IdleRemap:
+def _with_meaning(context: Context, graph: Graph, idle: IdleRemap, own: tuple[Connection, ...]) -> IdleRemap:
     target = names.resolve(idle.remap.target, idle.nodes[0].name)
     channels = tuple(_channel_of(graph, each) for each in own)
     targets = tuple(_channels(graph, each).get(target) for each in own)
-    return kept.get(_meaning, id(idle), idle, own, channels, targets)
+    # What an argument says is only by default the same name.
+    on_purpose = idle.to_itself and "(" not in context.text(idle.remap.target_location)
+    return context.kept.get(_meaning, id(idle), idle, own, channels, targets, on_purpose)
 
 
 def _channels(graph: Graph, connection: Connection) -> Mapping[str, Channel]:
@@ -141,11 +142,13 @@ def _meaning(
     own: tuple[Connection, ...],
     channels: tuple[Channel, ...],
     targets: tuple[Channel | None, ...],
+    on_purpose: bool,
 ) -> IdleRemap:
     """With the end that the remap was meant for, and whom it would then meet.
 
     Either its name is like the remap's and nothing else reaches it, or it is the node's only one without another end
-    that fits what stands under the target. Of a remap from a name to itself it may join others of its kind there.
+    that fits what stands under the target. Of a remap from a name to itself, `on_purpose`, it may join others of its
+    kind there.
     `own` are the ends of the node, `channels` what they are in and `targets` what is under the target's name.
     """
     full = names.resolve(idle.remap.source, idle.nodes[0].name)
@@ -155,7 +158,7 @@ def _meaning(
     found = [(each, target) for each, target in lone if is_slip(full, each)]
     if len(found) != 1 and idle.sure:
         found = [(each, target) for each, target in lone if _partner(target, each) is not None]
-    if not found and idle.to_itself:
+    if not found and on_purpose:
         found = [(each, target) for each, target in lone if _has_peer(target, each)]
     meant, target = found[0] if len(found) == 1 else (None, None)
     partner = _partner(target, meant) if meant is not None else None

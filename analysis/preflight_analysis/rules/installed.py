@@ -10,7 +10,8 @@ import re
 from collections.abc import Iterable
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
-from preflight_analysis.environment.installed_paths import located, made_by_build, package_around
+from preflight_analysis.environment.git_submodules import Submodule, left_submodule, left_submodules_below
+from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
@@ -39,6 +40,7 @@ _NO_PROGRAM = re.compile(
 """How `env`, shells and roslib say it of a program."""
 _NO_VARIABLE = re.compile(r"environment variable '(\w+)' is not set")
 """How roslaunch says it, which a node may start."""
+_WORD = re.compile(r"[\w-]+")
 _BETWEEN = re.compile(r"[/_.-]")
 _TEMPLATES = (".xacro", ".in", ".em", ".erb", ".jinja", ".jinja2", ".template")
 """What the name of a file has more of which a build makes the one without it."""
@@ -162,8 +164,10 @@ def lack_of_build(context: Context, package: str) -> Lack:
 
 
 def lack_of_made(context: Context, path: str) -> Lack | None:
-    """A file that is there once its package is built: the build makes it, or installs it from another folder; None for
-    any other."""
+    """A file that is there once its package is built: the build makes it, or installs it from another folder; or once
+    the submodule is checked out that it is in. None for any other."""
+    if (submodule := left_submodule(context.disk, path)) is not None:
+        return lack_of_submodule(submodule)
     if (left := _left_package(context, path)) is not None:
         return lack_of_build(context, left.name)
     package = made_by_build(context.disk, context.environment, path)
@@ -171,6 +175,20 @@ def lack_of_made(context: Context, path: str) -> Lack | None:
     if package is None and (moved or is_made_of_template(context, path)):
         package = package_around(context.environment, path)
     return lack_of_build(context, package.name) if package is not None else None
+
+
+def lack_of_submodule(submodule: Submodule) -> Lack:
+    """A submodule that is not checked out."""
+    return Lack("submodule", submodule.path, f"git submodule update --init {submodule.path}")
+
+
+def lack_of_submodule_said(context: Context, package: str, said: str) -> Lack | None:
+    """The submodule in a package's folder whose name a program says before it ends."""
+    known = context.environment.packages.get(package)
+    below = left_submodules_below(context.disk, known.share) if known is not None else ()
+    words = set(_WORD.findall(said)) if below else set[str]()
+    named = (each for each in below if os.path.basename(each.path) in words)
+    return next(map(lack_of_submodule, named), None)
 
 
 def _left_package(context: Context, path: str) -> Package | None:
@@ -181,6 +199,12 @@ def _left_package(context: Context, path: str) -> Package | None:
         return None
     inside = f"{os.path.normpath(path)}/".startswith(f"{package.share.rstrip('/')}/")
     return package if not inside else None
+
+
+def may_be_made(context: Context, path: str) -> bool:
+    """Whether the build files of the package around a path do more than is understood (ROS 2)."""
+    package = package_around(context.environment, path)
+    return package is not None and package.is_ament and installs_more(context.disk, package)
 
 
 def is_made_of_template(context: Context, path: str) -> bool:

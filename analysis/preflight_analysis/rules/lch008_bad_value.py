@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.rules.arguments import empty_arguments
+from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename
@@ -30,7 +31,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         fixes = rename(context, problem.location, bad.value, near) if near else ()
         empty = empty_arguments(context, problem.location) if not bad.value else ()
         message += f"; set argument {quoted(empty)}" if empty else did_you_mean(near)
-        yield problem_finding(rule, problem, message, severity="info" if empty else None, fixes=fixes)
+        lack = lack_of_asked(context, problem.location.file) if not bad.value else None
+        message += f"; environment variable '{lack.name}' is not set" if lack is not None else ""
+        severity: Severity | None = "info" if empty else None
+        yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
 
 
 def _meant(bad: BadValue) -> str | None:
@@ -49,7 +53,7 @@ RULE = Rule(
     severity="error",
     what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is neither true "
     "nor false, or an unknown choice. A value that is empty because an argument is empty makes the finding "
-    "information.",
+    "information. One that is empty because an environment variable is not set counts as missing on this machine.",
     why="The launcher stops and starts nothing. The value is checked after its substitutions are resolved.",
     example='<node pkg="camera" type="driver" name="camera" output="scren"/>',
     instead='<node pkg="camera" type="driver" name="camera" output="screen"/>',

@@ -1,5 +1,6 @@
 """LCH032: a Python launch file raises an exception."""
 
+import os
 import re
 from collections.abc import Iterator
 
@@ -11,10 +12,11 @@ from preflight_analysis.environment.reach import within
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.elsewhere import absent_top
 from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
-from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module
+from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -60,6 +62,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                         severity, message = "info", f"{message}; this machine has no '{top}'"
                 elif absent and not _is_of_workspace(context, absent):
                     severity, message = "info", f"{message}; this machine has no '{absent}'"
+                elif absent and (lack := lack_of_made(context, absent)) is not None:
+                    pass
+                elif absent and _is_of_build(context, absent, problem.location.file):
+                    severity = "info"
+                    message += f"; the build of the package may create '{shown(absent, context)}'"
+                elif "NoneType" in said and (lack := lack_of_asked(context, problem.location.file)) is not None:
+                    message += f"; environment variable '{lack.name}' is not set"
                 elif (name := _empty_argument(context, frames, said)) is not None:
                     severity, message = "info", f"{message}; argument '{name}' is empty"
                 elif _refuses_the_machine(context, frames):
@@ -75,6 +84,11 @@ def _is_of_workspace(context: Context, path: str) -> bool:
     """Whether a path is that of something which a package or the workspace has, and not the machine or the robot."""
     folders = context.environment.workspace_folders
     return any(within(path, folder) for folder in folders) or package_around(context.environment, path) is not None
+
+
+def _is_of_build(context: Context, path: str, file: str) -> bool:
+    """Whether the build may install what a launch file looked for, elsewhere than in its own folder."""
+    return os.path.dirname(path) != os.path.dirname(file) and may_be_made(context, path)
 
 
 def _empty_argument(context: Context, frames: tuple[Location, ...], said: str) -> str | None:
@@ -144,7 +158,8 @@ RULE = Rule(
     "`generate_launch_description`, in an `OpaqueFunction`, or in an action with invalid arguments. Such files run "
     "in the sandbox if the workspace is trusted. Nothing that they describe is started. The finding is "
     "information if the file itself raises because a program, or a file outside of the workspace, is missing, or "
-    "because an argument is empty that its message names. So is one that asks for the machine (a container, a device).",
+    "because an argument is empty that its message names. So is one that asks for the machine (a container, a device), "
+    "and one that raises because a file is missing which the build of its package may create.",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',

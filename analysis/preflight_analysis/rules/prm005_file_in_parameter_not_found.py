@@ -11,7 +11,7 @@ from itertools import chain, compress
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
-from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
+from preflight_analysis.environment.installed_paths import located, made_by_build
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
@@ -22,7 +22,7 @@ from preflight_analysis.rules.elsewhere import depends_on_working_folder
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_PARAM
 from preflight_analysis.rules.given_in_vain import others_in_vain
-from preflight_analysis.rules.installed import is_made_of_template
+from preflight_analysis.rules.installed import is_made_of_template, may_be_made
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -103,7 +103,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             elif near is None and (others := others_in_vain(context, location, path)):
                 severity = "info"
                 hint = f"; {others} other packages set missing files for it too, so a node may create it"
-            elif near is None and _may_be_made(path, context):
+            elif near is None and may_be_made(context, path):
                 severity, hint = "hint", "; the build of the package may create it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
             yield rule.finding(message, location, severity=severity, confidence="likely", related=related, fixes=fixes)
@@ -219,12 +219,6 @@ def _missing(text: str, context: Context) -> Iterator[str]:
 def _is_fetched(path: str) -> bool:
     folders = os.path.dirname(path).split("/")
     return os.path.splitext(path)[1].lower() in _FETCHED or not _FETCHED_FOLDERS.isdisjoint(folders)
-
-
-def _may_be_made(path: str, context: Context) -> bool:
-    """Whether the build files of the package around do more than is understood (ROS 2)."""
-    package = package_around(context.environment, path)
-    return package is not None and package.is_ament and installs_more(context.disk, package)
 
 
 def _is_built(below: str, share: str, context: Context) -> bool:

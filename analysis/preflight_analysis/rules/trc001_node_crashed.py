@@ -8,13 +8,20 @@ from itertools import compress
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode
+from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.elsewhere import absent_top_said, lacks_recording, paths_said
 from preflight_analysis.rules.further_reading import RUNS, SECURITY
-from preflight_analysis.rules.installed import lack_of_made, lack_of_own_file, lack_of_python, lack_said
+from preflight_analysis.rules.installed import (
+    lack_of_made,
+    lack_of_own_file,
+    lack_of_python,
+    lack_of_submodule_said,
+    lack_said,
+)
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -68,6 +75,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
             or _TEMPORARY.search(told) is not None
+            or _gets_temporary_file(context, node, told)
             or _is_of_two_modules(context, telling_line(outcome.stderr_tail))
             or _OF_CALLED.search(telling_line(outcome.stderr_tail)) is not None
             or any(e.speculative for e in interface.endpoints)
@@ -101,7 +109,17 @@ def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:
         if (own := lack_of_own_file(context, path)) is not None:
             return own
     said = lack_said(context, (outcome.reason or "", telling))
-    return said if said is not None else lack_of_python(context, telling, outcome.stderr_tail)
+    said = said or lack_of_python(context, telling, outcome.stderr_tail)
+    said = said or next(filter(None, (_lack_of_value(context, param) for param in node.params)), None)
+    return said or lack_of_submodule_said(context, node.package or "", f"{outcome.reason or ''}\n{telling}")
+
+
+def _lack_of_value(context: Context, param: Param) -> Lack | None:
+    """The environment variable that a parameter has its value of, which is empty as that is not set."""
+    if param.value != "":
+        return None
+    files = dict.fromkeys(place.file for place in param.origin)
+    return next(filter(None, (lack_of_asked(context, file, names.leaf(param.name)) for file in files)), None)
 
 
 def _is_of_another_program(outcome: Outcome) -> bool:
@@ -129,6 +147,13 @@ def _empty_argument(context: Context, node: LaunchNode, told: str) -> str | None
     found = re.fullmatch(pattern, node.args, re.DOTALL)
     given = zip(parts[1::2], found.groups(), strict=True) if found is not None else ()
     return next((f"argument '{name}'" for name, value in given if not value.strip()), None)
+
+
+def _gets_temporary_file(context: Context, node: LaunchNode, told: str) -> bool:
+    """Whether the node ends for a file, and gets one in the folder for temporary ones that is not there: the launch
+    file or another program writes it before."""
+    given = (word for word in _paths_of(node) if _TEMPORARY.fullmatch(word) is not None)
+    return _WANTS.search(told) is not None and any(not context.disk.exists(word) for word in given)
 
 
 def _is_of_two_modules(context: Context, telling: str) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator, Set
 from dataclasses import replace
 
 from preflight_analysis.environment.model import Environment
@@ -26,9 +27,11 @@ _CONFIG = "dynamic_reconfigure"
 _KEY = re.compile(r"KeyError: '([A-Za-z_]\w*)'")
 _INSTALL = re.compile(
     r"(?i)\bpip3? install\b|\bnot (?:be )?(?:installed|available|found|imported)\b|\b(?:un|in)available\b"
-    r"|\bis missing\b|\brequire[sd]?\b|'NoneType' object|\bname '\w+' is not defined"
+    r"|\bno (?:\w+ ){1,4}available\b|\bis missing\b|\brequire[sd]?\b|'NoneType' object|\bname '\w+' is not defined"
 )
 """How a program that goes on without a module says later that it cannot."""
+
+_WORD = re.compile(r"\w+")
 
 _OLD = re.compile(
     r"\b(Syntax|Indentation|Tab)Error\b|there is no '[^']*python2[^']*'|from partially initialized module '(\w+)'"
@@ -59,13 +62,20 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     modules = sorted(found.stand_ins) if ours else []
     if not modules and _CONFIG in found.stand_ins and _lacks_key(outcome, found):
         modules = [_CONFIG]
-    if not modules and _INSTALL.search(f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"):
+    if not modules and any(map(_INSTALL.search, _said_of_modules(outcome, found.lacked))):
         modules = sorted(found.lacked)
     if not failed or not modules:
         return outcome
     more = f" and {len(modules) - _MOST_NAMED} more" if len(modules) > _MOST_NAMED else ""
     plural = "s" if len(modules) > 1 else ""
     return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")
+
+
+def _said_of_modules(outcome: Outcome, lacked: Set[str]) -> Iterator[str]:
+    """What may tell that a node ended for want of a module: why it ended, and what it says of the modules before."""
+    yield from (outcome.reason or "", telling_line(outcome.stderr_tail))
+    modules = {each.lower() for each in lacked}
+    yield from (line for line in outcome.stderr_tail if not modules.isdisjoint(_WORD.findall(line.lower())))
 
 
 def _lacks_key(outcome: Outcome, found: Gathered) -> bool:

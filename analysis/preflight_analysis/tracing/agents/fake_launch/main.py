@@ -21,7 +21,7 @@ from typing import Any, Callable, Optional
 
 from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from ..process import own_seconds
-from . import installed, programs, reads, rewrites, rewritten, unknown_files, written
+from . import installed, programs, reads, rewrites, rewritten, unknown_files, waiting, written
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .library import InvalidPythonLaunchFileError
 from .modules import install
@@ -169,6 +169,7 @@ def _run(job: dict[str, Any]) -> dict[str, Any]:
     reads.install()
     unknown_files.install()
     rewritten.install()
+    waiting.install()
     environment = dict(os.environ)
     with reads.noted():
         actions = _described(job)
