@@ -1,5 +1,6 @@
 """FRM001: a frame that a node asks for and nothing publishes."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -93,6 +94,61 @@ def test_what_the_source_may_ask_for(driver: dict[str, object]) -> None:
 )
 def test_what_a_node_broadcasts_by_its_source(driver: dict[str, object]) -> None:
     check(fixture(f"{robot(('base_link', 'camera_link'))}\n{_UNKNOWN}", {"/driver": driver}))
+
+
+_LIDAR = '<node pkg="rplidar_ros" type="rplidarNode" name="lidar"><param name="frame_id" value="{}"/></node>'
+_LIDAR_COLUMN = _LIDAR.index("{}")
+_LIDAR_PACKAGES = "".join(
+    f"\n//- /{name}/package.xml\n<package><name>{name}</name></package>" for name in ("rplidar_ros", "tf2_ros")
+)
+
+
+def _with_lidar(frame: str, said: str = "", child: str = "laser_link", more: str = "") -> str:
+    expected = f"{below(_LIDAR_COLUMN, len(frame), said)}\n" if said else ""
+    link = f'<node pkg="tf2_ros" type="static_transform_publisher" name="s" args="0 0 0 0 0 0 base_link {child}"/>'
+    lines = f"{link}\n{more}{_LIDAR.format(frame)}\n{expected}"
+    seen = {"/s": {}, "/lidar": {"params": {"~frame_id": "laser_frame"}}} | ({"/driver": {"publishers": {"/tf": "tf2_msgs/TFMessage"}}} if more else {})
+    return f"<launch>\n{lines}</launch>{_LIDAR_PACKAGES}\n//- interfaces\n{json.dumps(seen)}"
+
+
+def test_the_frame_of_a_sensor() -> None:
+    said = (
+        "warning[FRM001] 'laser_lnk' has no publisher: /lidar stamps its messages with it (parameter 'frame_id'); did"
+    )
+    (found,) = check(_with_lidar("laser_lnk", said))
+    assert 'value="laser_link"' in apply(_with_lidar("laser_lnk"), found.fixes[0].edits)["/main.launch"]
+
+
+def test_the_frame_of_a_sensor_that_may_be_another_ones() -> None:
+    driver = '<node pkg="p" type="driver" name="driver"/>\n'
+    check(_with_lidar("laser_lnk", "info[FRM001] did you mean 'laser_link'?", more=driver))
+
+
+def test_a_sensor_whose_frame_has_another_ending() -> None:
+    said = "info[FRM001] 'laser_frame' has no publisher: /lidar stamps its messages with it (parameter 'frame_id'); did"
+    (found,) = check(_with_lidar("laser_frame", said))
+    assert not found.fixes
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(("frame", "child"), [("laser", "laser"), ("rear", "laser_link"), ("map", "mat")])
+def test_sensors_of_which_nothing_is_wrong(frame: str, child: str) -> None:
+    check(_with_lidar(frame, child=child))
+
+
+def test_the_frame_of_a_simulated_sensor() -> None:
+    sensor = "<gazebo><sensor name='lidar' type='gpu_lidar'><gz_frame_id>{}</gz_frame_id></sensor></gazebo>"
+    spawn = '<node pkg="ros_gz_sim" exec="create" name="create"/>'
+    node = robot(("base_link", "laser_link")).replace("&lt;/robot>", sensor.replace("<", "&lt;") + "&lt;/robot>")
+    assert sensor.replace("<", "&lt;") in node
+    package = "\n//- /ros_gz_sim/package.xml\n<package><name>ros_gz_sim</name></package>"
+    first, _, last = node.format("laser_lnk").partition("\n")
+    said = "info[FRM001] 'laser_lnk' has no publisher: a simulated sensor stamps its messages with it (<gz_frame_id> of"
+    column = last.index("robot_description")
+    expected = below(column, len("robot_description"), said)
+    check(fixture(f"{first}\n{last}\n{expected}\n{spawn}", {}, package))
+    check(fixture(f"{node.format('laser_link')}\n{spawn}", {}, package))
+    check(fixture(node.format("laser_lnk"), {}, package))  # no simulator reads it
 
 
 @pytest.mark.silent

@@ -20,8 +20,8 @@ from preflight_analysis.frames.edges import (
     prefix_of,
     space_of,
 )
-from preflight_analysis.frames.model import Edge, Frames
-from preflight_analysis.frames.uses import fixed_frame, mentions_of_node, uses_of_node
+from preflight_analysis.frames.model import Edge, Frames, Use
+from preflight_analysis.frames.uses import fixed_frame, mentions_of_node, uses_of_node, uses_of_sensors
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.robot.of_launch import Robot, robots_of
@@ -43,10 +43,11 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
+    simulated = _of_sensors(tree) if _simulates(nodes) else ()
     shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
     return Frames(
         (*_of_robots(tree), *chain.from_iterable(edges)),
-        (*chain.from_iterable(uses), *shown),
+        (*chain.from_iterable(uses), *simulated, *shown),
         tuple(chain.from_iterable(mentions)),
         tuple(_gaps(tree, nodes, interfaces, known, unnamed, edges)),
     )
@@ -69,6 +70,18 @@ def _of_robots(tree: LaunchTree) -> Iterator[Edge]:
     for robot in robots_of(tree):
         if id(robot) not in published and not published:
             yield from edges_of_robot(robot, None, "", "")
+
+
+def _of_sensors(tree: LaunchTree) -> Iterator[Use]:
+    for node in tree.nodes:
+        robot = _robot_of(tree, node) if is_state_publisher(node) else None
+        if robot is not None:
+            yield from uses_of_sensors(robot, node, space_of(node, tree.generation))
+
+
+def _simulates(nodes: Sequence[LaunchNode]) -> bool:
+    """Whether the launch starts a simulator, or puts a robot into one."""
+    return any(node.package in _SIMULATORS or (node.package, node.executable) in SPAWN for node in nodes)
 
 
 def _robot_of(tree: LaunchTree, publisher: LaunchNode) -> Robot | None:
@@ -113,8 +126,7 @@ def _gaps(
         yield f"the frames that {_some(unclear)} broadcasts are not known"
     if unseen:
         yield f"{len(unseen)} of {len(nodes)} nodes are not analysed: {_some(unseen)}"
-    simulates = any(node.package in _SIMULATORS or (node.package, node.executable) in SPAWN for node in nodes)
-    if simulates:
+    if _simulates(nodes):
         yield "a simulator may broadcast more"
 
 

@@ -69,6 +69,18 @@ class Use:
     sure: bool = True
     call: str = ""
     """What of the node's source gets the frame, as of `FrameUse`; empty where it is known otherwise."""
+    of_sensor: bool = False
+    """Whether a sensor's messages have it."""
+    robot: Robot | None = None
+    """The one whose description has it, of a simulated sensor; the node is then one that gets the description."""
+
+    @property
+    def does(self) -> str:
+        """What the node does with the frame, for the user."""
+        if not self.of_sensor:
+            return f"{self.node.name} uses it ({self.what})"
+        who = self.node.name if self.robot is None else "a simulated sensor"
+        return f"{who} stamps its messages with it ({self.what})"
 
     @property
     def location(self) -> Location:

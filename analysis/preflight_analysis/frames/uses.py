@@ -15,12 +15,17 @@ from preflight_analysis.frames.edges import plain, space_of
 from preflight_analysis.frames.model import Mention, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.tracing.interface import FrameUse, Interface
 
 _LEGAL = re.compile(r"/*[A-Za-z_][\w/.-]*\Z")
 _NAMES_A_FRAME = re.compile(r"(?:^|[._/])(?:\w*_)?frame(?:_?id|_?name)?$|[a-z]Frame(?:Id|ID|Name)?$")
 """The last part of the name of a parameter that has a frame for its value, whatever node has it."""
 _ASKED = re.compile(r"transform (\S+) <- (\S+?)(?: again and again)?, and was given")
+_OF_SENSOR = ("frame_id", "laser_frame_id")
+"""The parameters by which drivers have the frame of their messages."""
+OF_LOCALIZATION = frozenset(("map", "odom", "world", "earth", "utm"))
+"""Frames of REP 105, which localization publishes: it is mostly started by itself."""
 _FIXED_FRAME = re.compile(r"^ +Fixed Frame: *[\"']?([^\"'\s#]+)", re.MULTILINE)
 
 
@@ -50,7 +55,28 @@ def _of_source(use: FrameUse, node: LaunchNode, given: Sequence[Param], space: s
     what = f"{use.call} in {os.path.basename(use.source_file)}:{use.source_line}"
     params = (param for name, param in own_params(node, given) if param.value == use.frame)
     param = next(params, None)
-    return Use(plain(use.frame), use.frame, node, what, param, space, use.looked_up, not use.conditional, use.call)
+    return Use(
+        plain(use.frame),
+        use.frame,
+        node,
+        what,
+        param,
+        space,
+        use.looked_up,
+        not use.conditional,
+        use.call,
+        of_sensor=use.call.startswith("sensor_msgs/"),
+    )
+
+
+def uses_of_sensors(robot: Robot, node: LaunchNode, space: str) -> Iterator[Use]:
+    """The frames that the simulated sensors of a description have; the node is the one that publishes its frames."""
+    for each in robot.description.sensor_frames:
+        if is_frame(each.frame):
+            what = f"<{each.tag}> of '{each.sensor}'"
+            yield Use(
+                plain(each.frame), each.frame, node, what, robot.param, space, False, False, of_sensor=True, robot=robot
+            )
 
 
 def _of_knowledge(
@@ -61,7 +87,9 @@ def _of_knowledge(
         if meaning.kind != "frame" or meaning.role not in ("used", "named") or not is_frame(value):
             continue
         what = f"parameter '{each.parameter}'" + ("" if each.param is not None else " by default")
-        yield Use(plain(value), value, node, what, each.param, space, meaning.role == "used", known.is_used)
+        used = meaning.role == "used"
+        of_sensor = not used and each.parameter in _OF_SENSOR and plain(value) not in OF_LOCALIZATION
+        yield Use(plain(value), value, node, what, each.param, space, used, known.is_used, of_sensor=of_sensor)
 
 
 def mentions_of_node(

@@ -63,6 +63,15 @@ class GazeboPlugin:
 
 
 @dataclass(frozen=True, slots=True)
+class SensorFrame:
+    """The frame that the messages of a simulated sensor have: the text of the element `tag`, in the sensor `sensor`."""
+
+    sensor: str
+    tag: str
+    frame: str
+
+
+@dataclass(frozen=True, slots=True)
 class Malformed:
     """Why a text is no XML: the parser's words, and the line of the text, counted from 1."""
 
@@ -85,6 +94,7 @@ class Description:
     systems: tuple[ControlSystem, ...] = ()
     transmissions: tuple[Transmission, ...] = ()
     plugins: tuple[GazeboPlugin, ...] = ()
+    sensor_frames: tuple[SensorFrame, ...] = ()
     malformed: Malformed | None = None
     lacks: tuple[str, ...] = ()
     """The packages that it includes and that are not installed here: links, joints and all else may be missing."""

@@ -17,6 +17,7 @@ from preflight_analysis.robot.model import (
     GazeboPlugin,
     Joint,
     Malformed,
+    SensorFrame,
     Transmission,
 )
 
@@ -24,6 +25,8 @@ _KEPT = 32
 _XACRO = re.compile(r"\{http[^{}]*xacro/?\}")
 """The namespaces that xacro has had, as lxml writes them before a tag (`xacro.XACRO_NS` of ROS 1 and ROS 2)."""
 _EMPTY = Description("")
+_FRAME_TAGS = ("gz_frame_id", "ignition_frame_id", "frameName", "frame_name")
+"""What has the frame of a simulated sensor: in the sensor (Gazebo), or in its plugin (Gazebo Classic)."""
 
 
 @lru_cache(maxsize=_KEPT)
@@ -67,6 +70,7 @@ def parse_description(text: str) -> Description:
         tuple(map(_system, _children(root, "ros2_control"))),
         tuple(map(_transmission, _children(root, "transmission"))),
         tuple(_plugin(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
+        tuple(frame for each, _ in gazebo for sensor in each.iter("sensor") for frame in _sensor_frames(sensor)),
         lacks=lacks,
     )
 
@@ -156,3 +160,11 @@ def _plugin(element: etree._Element, reference: str) -> GazeboPlugin:
         if each is not element and not len(each) and "${" not in (each.text or ""):
             params.setdefault(_tag(each), (each.text or "").strip())
     return GazeboPlugin(_get(element, "name"), _get(element, "filename"), params, reference)
+
+
+def _sensor_frames(element: etree._Element) -> Iterator[SensorFrame]:
+    for tag in _FRAME_TAGS:
+        for found in element.iter(tag):
+            frame = (found.text or "").strip()
+            if frame and "${" not in frame:
+                yield SensorFrame(_get(element, "name"), tag, frame)

@@ -119,6 +119,16 @@ def places_of(
     )
 
 
+def text_place(robot: Described, disk: Disk, environment: Environment, value: str) -> Location | None:
+    """Where the text of an element is just `value`; None where no place has it literally, or several do."""
+    found = [
+        file.document.location(Span(*match.span(1)))
+        for file in files_of(robot, disk, environment)
+        for match in re.finditer(rf">\s*({re.escape(value)})\s*</", file.document.text)
+    ]
+    return found[0] if len(found) == 1 else None
+
+
 def _may_be(written: str, value: str) -> bool:
     """Whether a value with expressions may come to `value`, in time linear in the length: each literal piece is taken
     where it comes first."""

@@ -7,7 +7,7 @@ from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.frames.build import build_frames
 from preflight_analysis.frames.model import Edge, Frames, Mention, Use
-from preflight_analysis.robot.sources import place_of
+from preflight_analysis.robot.sources import place_of, text_place
 from preflight_analysis.rules.rule import Context
 
 
@@ -29,7 +29,9 @@ def place_of_edge(context: Context, edge: Edge) -> Location:
 
 
 def place_of_use(context: Context, use: Use) -> Location:
-    """Where a frame is named: the value of the parameter, else the node."""
+    """Where a frame is named: the element in the robot description, the value of the parameter, else the node."""
+    if use.robot is not None:
+        return text_place(use.robot, context.disk, context.environment, use.written) or use.location
     return _place_of(context, use.param, use.written) if use.param is not None else use.node.location
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.frames.model import Frames
+from preflight_analysis.frames.uses import OF_LOCALIZATION
 from preflight_analysis.rules.frames import frames_of, place_of_use
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.missing_frames import MissingFrame, missing_frames
@@ -13,15 +14,12 @@ from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 
-_OF_OTHER_LAUNCHES = frozenset(("map", "odom", "world", "earth", "utm"))
-"""Frames of REP 105, which localization publishes: it is mostly started by itself."""
-
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     frames = frames_of(context)
     mentioned = {mention.frame for mention in frames.mentions}
     for missing in missing_frames(context):
-        use, near = missing.use, missing.near
+        use, near = missing.use, missing.near or missing.alike
         judged = _judged(frames, missing, use.frame in mentioned)
         if missing.elsewhere is not None or judged is None:
             continue
@@ -29,12 +27,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         place = place_of_use(context, use)
         gaps = f"; {frames.gaps[0]}" if frames.gaps and near is None else ""
         yield rule.finding(
-            f"frame '{use.written}' has no publisher: {use.node.name} uses it ({use.what}){did_you_mean(near)}{gaps}",
+            f"frame '{use.written}' has no publisher: {use.does}{did_you_mean(near)}{gaps}",
             place,
             severity=severity,
             confidence=confidence,
             related=include_chain(use.node.origin) if use.param is None else (),
-            fixes=rename(context, place, use.written, near) if near is not None and use.param is not None else (),
+            fixes=rename(context, place, use.written, missing.near) if missing.near and use.param is not None else (),
         )
 
 
@@ -45,17 +43,18 @@ def _judged(frames: Frames, missing: MissingFrame, is_mentioned: bool) -> tuple[
         # What a robot includes and that is not here may have the frame itself.
         in_part = any(edge.robot is not None and edge.robot.description.lacks for edge in frames.edges)
         # What the text of a node tells is believed where all others are known.
-        in_doubt = not use.sure or (use.call and not frames.complete)
+        in_doubt = not use.sure or ((use.call or use.of_sensor) and not frames.complete)
         if is_mentioned or in_doubt or in_part:
             return "info", "possible"
         return "warning", "likely" if frames.complete else "possible"
+    if missing.alike is not None:
+        return "info", "possible"
     if is_mentioned or not any(edge.how == "urdf" and edge.sure for edge in frames.edges):
         return None  # what has no robot in it is started beside another launch
     if frames.complete:
         return "info", "likely" if use.sure and not use.call else "possible"
-    return (
-        ("hint", "possible") if use.param is not None and not use.call and use.frame not in _OF_OTHER_LAUNCHES else None
-    )
+    in_launch = use.param is not None and not use.call and not use.of_sensor
+    return ("hint", "possible") if in_launch and use.frame not in OF_LOCALIZATION else None
 
 
 RULE = Rule(

@@ -13,8 +13,8 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for use, edge, _ in missing_frames(context):
-        if edge is None:
+    for use, edge, _, _ in missing_frames(context):
+        if edge is None or use.of_sensor:
             continue
         if edge.space != use.space:
             message = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -11,14 +12,18 @@ from preflight_analysis.rules.frames import frames_of
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.rule import Context
 
+_LAST_WORDS = re.compile(r"(?:_?(?:link|frame|optical|sensor|id))+\Z")
+
 
 class MissingFrame(NamedTuple):
     """A frame that is asked for where nothing publishes it. `elsewhere` has it with or without a prefix, or in another
-    namespace of `/tf`; `near` is a frame of which it is a slip."""
+    namespace of `/tf`; `near` is a frame of which it is a slip; `alike`, of a sensor, the only one with the same
+    name but for its last words (`laser_frame`, `laser_link`)."""
 
     use: Use
     elsewhere: Edge | None
     near: str | None
+    alike: str | None = None
 
 
 def missing_frames(context: Context) -> tuple[MissingFrame, ...]:
@@ -33,11 +38,12 @@ def _missing(context: Context) -> tuple[MissingFrame, ...]:
     prefixes = _prefixes(context)
     found: dict[tuple[str, int, str], MissingFrame] = {}
     for use in frames.uses:
-        if not use.looked_up or use.frame in frames.names(use.space):
+        if not (use.looked_up or use.of_sensor) or use.frame in frames.names(use.space):
             continue
         elsewhere = next(_elsewhere(frames, use, prefixes), None)
         near = _near(frames, use) if elsewhere is None else None
-        found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near))
+        alike = _alike(frames, use) if use.of_sensor and elsewhere is None and near is None else None
+        found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near, alike))
     return tuple(found.values())
 
 
@@ -62,3 +68,9 @@ def _near(frames: Frames, use: Use) -> str | None:
     names = frames.names(use.space)
     near = nearest(use.frame, names)
     return near if near is not None and is_slip(use.frame, near) else None
+
+
+def _alike(frames: Frames, use: Use) -> str | None:
+    stem = _LAST_WORDS.sub("", use.frame.lower())
+    found = [each for each in frames.names(use.space) if stem and _LAST_WORDS.sub("", each.lower()) == stem]
+    return found[0] if len(found) == 1 else None
