@@ -107,7 +107,9 @@ def _with_lidar(frame: str, said: str = "", child: str = "laser_link", more: str
     expected = f"{below(_LIDAR_COLUMN, len(frame), said)}\n" if said else ""
     link = f'<node pkg="tf2_ros" type="static_transform_publisher" name="s" args="0 0 0 0 0 0 base_link {child}"/>'
     lines = f"{link}\n{more}{_LIDAR.format(frame)}\n{expected}"
-    seen = {"/s": {}, "/lidar": {"params": {"~frame_id": "laser_frame"}}} | ({"/driver": {"publishers": {"/tf": "tf2_msgs/TFMessage"}}} if more else {})
+    seen = {"/s": {}, "/lidar": {"params": {"~frame_id": "laser_frame"}}} | (
+        {"/driver": {"publishers": {"/tf": "tf2_msgs/TFMessage"}}} if more else {}
+    )
     return f"<launch>\n{lines}</launch>{_LIDAR_PACKAGES}\n//- interfaces\n{json.dumps(seen)}"
 
 

@@ -35,6 +35,28 @@ def launch(*spawners: str, params: str, interface: str = "velocity", manager: st
     return f"{lines}\n{_PACKAGES}{textwrap.dedent(params).strip()}\n"
 
 
-def spawner(args: str, name: str = "s") -> str:
+def simulated(
+    *spawners: str, params: str, namespace: str = "", name: str = "", interface: str = "velocity", more: str = ""
+) -> str:
+    """The same robot in Gazebo, whose plugin has the manager in `namespace`, called `name`."""
+    spaced = f"<ros><namespace>{namespace}</namespace></ros>" if namespace else ""
+    named = f"<controller_manager_name>{name}</controller_manager_name>" if name else ""
+    plugin = (
+        "<gazebo><plugin filename='gz_ros2_control-system' name='gz_ros2_control::GazeboSimROS2ControlPlugin'>"
+        f"<parameters>/p/controllers.yaml</parameters>{spaced}{named}</plugin></gazebo></robot>"
+    )
+    urdf = _URDF.format(_JOINT.format("left", interface), _JOINT.format("right", interface))
+    tags = (
+        '<node pkg="robot_state_publisher" exec="robot_state_publisher" name="rsp"><param name="robot_description" '
+        f'value="{urdf.replace("</robot>", plugin).replace("<", "&lt;")}"/></node>',
+        '<node pkg="ros_gz_sim" exec="create" name="create" args="-topic robot_description"/>',
+        *spawners,
+    )
+    lines = "\n".join(("//- /robot.launch.xml", "<launch>", *tags, "</launch>"))
+    package = "//- /ros_gz_sim/package.xml\n<package><name>ros_gz_sim</name></package>"
+    return f"{lines}\n{package}\n{_PACKAGES}{textwrap.dedent(params).strip()}\n{more}"
+
+
+def spawner(args: str, name: str = "s", program: str = "spawner") -> str:
     """The tag of a spawner."""
-    return f'<node pkg="controller_manager" exec="spawner" name="{name}" args="{args}"/>'
+    return f'<node pkg="controller_manager" exec="{program}" name="{name}" args="{args}"/>'

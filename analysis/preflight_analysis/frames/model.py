@@ -73,6 +73,8 @@ class Use:
     """Whether a sensor's messages have it."""
     robot: Robot | None = None
     """The one whose description has it, of a simulated sensor; the node is then one that gets the description."""
+    tag: str = ""
+    """Likewise the element in the description."""
 
     @property
     def does(self) -> str:

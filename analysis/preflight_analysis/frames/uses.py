@@ -22,6 +22,14 @@ _LEGAL = re.compile(r"/*[A-Za-z_][\w/.-]*\Z")
 _NAMES_A_FRAME = re.compile(r"(?:^|[._/])(?:\w*_)?frame(?:_?id|_?name)?$|[a-z]Frame(?:Id|ID|Name)?$")
 """The last part of the name of a parameter that has a frame for its value, whatever node has it."""
 _ASKED = re.compile(r"transform (\S+) <- (\S+?)(?: again and again)?, and was given")
+_SENSORS = frozenset(
+    f"sensor_msgs/{name}"
+    for name in (
+        *("CameraInfo", "CompressedImage", "Image", "Imu", "LaserScan", "MagneticField", "MultiEchoLaserScan"),
+        *("NavSatFix", "PointCloud", "PointCloud2", "Range"),
+    )
+)
+"""Messages of sensors whose place counts."""
 _OF_SENSOR = ("frame_id", "laser_frame_id")
 """The parameters by which drivers have the frame of their messages."""
 OF_LOCALIZATION = frozenset(("map", "odom", "world", "earth", "utm"))
@@ -65,7 +73,7 @@ def _of_source(use: FrameUse, node: LaunchNode, given: Sequence[Param], space: s
         use.looked_up,
         not use.conditional,
         use.call,
-        of_sensor=use.call.startswith("sensor_msgs/"),
+        of_sensor=use.call in _SENSORS,
     )
 
 
@@ -75,7 +83,17 @@ def uses_of_sensors(robot: Robot, node: LaunchNode, space: str) -> Iterator[Use]
         if is_frame(each.frame):
             what = f"<{each.tag}> of '{each.sensor}'"
             yield Use(
-                plain(each.frame), each.frame, node, what, robot.param, space, False, False, of_sensor=True, robot=robot
+                plain(each.frame),
+                each.frame,
+                node,
+                what,
+                robot.param,
+                space,
+                False,
+                False,
+                of_sensor=True,
+                robot=robot,
+                tag=each.tag,
             )
 
 

@@ -119,12 +119,14 @@ def places_of(
     )
 
 
-def text_place(robot: Described, disk: Disk, environment: Environment, value: str) -> Location | None:
-    """Where the text of an element is just `value`; None where no place has it literally, or several do."""
+def text_place(robot: Described, disk: Disk, environment: Environment, tag: str, value: str) -> Location | None:
+    """Where the text of an element is written that is `value` in the description; None where no place may have made it,
+    or several."""
     found = [
         file.document.location(Span(*match.span(1)))
         for file in files_of(robot, disk, environment)
-        for match in re.finditer(rf">\s*({re.escape(value)})\s*</", file.document.text)
+        for match in re.finditer(rf"<{re.escape(tag)}>\s*([^<>\s]+)\s*</", file.document.text)
+        if _may_be(match[1], value)
     ]
     return found[0] if len(found) == 1 else None
 

@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import Known, Meant, Settings, items_of, meant_by, own_params
 from preflight_analysis.evaluation.ros2.params import of_name
+from preflight_analysis.evaluation.ros2.simulated import manager_name, plugins_in
 from preflight_analysis.evaluation.ros2.spawners import (
     MANAGER,
     PACKAGE,
@@ -85,10 +86,13 @@ def robot_of(context: Context, controller: Controller) -> Description | None:
 
 
 def robot_of_manager(context: Context, manager: str, given_to: str) -> Description | None:
-    """The description that a manager gets, whose node has the name `given_to` in the launch file; else the one that is
-    published in its namespace. None where that is not one, or one of the launch is not known."""
+    """The description that a manager gets, whose node has the name `given_to` in the launch file, or which has the
+    manager in a simulator; else the one that is published in its namespace. None where that is not one, or one of the
+    launch is not known."""
     robots = [robot for robot in robots_of(context.tree) if robot.description.is_whole]
     found = [robot for robot in robots if any(node.name == given_to for node in robot.nodes)]
+    if not found:
+        found = [robot for robot in robots if manager in map(manager_name, plugins_in(robot.text))]
     if not found and not unread_of(context.tree):
         space = names.parent(manager)
         found = [robot for robot in robots if any(node.namespace == space for node in robot.nodes)]

@@ -31,7 +31,7 @@ def place_of_edge(context: Context, edge: Edge) -> Location:
 def place_of_use(context: Context, use: Use) -> Location:
     """Where a frame is named: the element in the robot description, the value of the parameter, else the node."""
     if use.robot is not None:
-        return text_place(use.robot, context.disk, context.environment, use.written) or use.location
+        return text_place(use.robot, context.disk, context.environment, use.tag, use.written) or use.location
     return _place_of(context, use.param, use.written) if use.param is not None else use.node.location
 
 

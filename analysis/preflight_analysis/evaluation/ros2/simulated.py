@@ -55,7 +55,7 @@ def simulated_managers(state: State) -> tuple[LaunchNode, ...]:
     found: dict[str, LaunchNode] = {}
     for node, text in published or described:
         for plugin in plugins_in(text):
-            name = names.join(plugin.namespace, plugin.name)
+            name = manager_name(plugin)
             if name not in there and name not in found:
                 found[name] = _manager(state, plugin, _spawn_of(node, spawns))
     return tuple(found.values())
@@ -85,6 +85,11 @@ def plugins_in(text: str) -> tuple[_Plugin, ...]:
     found = _elements(without_comments(text), "plugin")
     named = (_plugin(content) for head, content in found if _PLUGIN.search(head))
     return tuple(each for each in named if not any("${" in file for file in each.files))
+
+
+def manager_name(plugin: _Plugin) -> str:
+    """The full name of the manager that a plugin has."""
+    return names.join(plugin.namespace, plugin.name)
 
 
 def _plugin(content: str) -> _Plugin:
@@ -120,7 +125,7 @@ def _elements(text: str, tag: str) -> Iterator[tuple[str, str]]:
 
 
 def _manager(state: State, plugin: _Plugin, spawn: LaunchNode) -> LaunchNode:
-    full = names.join(plugin.namespace, plugin.name)
+    full = manager_name(plugin)
     to, unknowns = Sources(full), []
     for each in plugin.files:
         path = without_dots(state.files, state.located(each)) or each
