@@ -30,7 +30,7 @@ _SENSORS = frozenset(
     )
 )
 """Messages of sensors whose place counts."""
-_OF_SENSOR = ("frame_id", "laser_frame_id")
+_OF_SENSOR = ("frame_id", "camera_frame_id", "imu_frame", "laser_frame_id", "lidar_frame", "sensor_frame")
 """The parameters by which drivers have the frame of their messages."""
 OF_LOCALIZATION = frozenset(("map", "odom", "world", "earth", "utm"))
 """Frames of REP 105, which localization publishes: it is mostly started by itself."""

@@ -126,7 +126,7 @@ def text_place(robot: Described, disk: Disk, environment: Environment, tag: str,
         file.document.location(Span(*match.span(1)))
         for file in files_of(robot, disk, environment)
         for match in re.finditer(rf"<{re.escape(tag)}>\s*([^<>\s]+)\s*</", file.document.text)
-        if _may_be(match[1], value)
+        if match[1] == value or ("$" in match[1] and _may_be(match[1], value))
     ]
     return found[0] if len(found) == 1 else None
 

@@ -64,7 +64,10 @@ RULE = Rule(
     what="Checks for a frame that a node looks up and that nothing in the launch publishes: no robot description, no "
     "static transform, no node. A frame that is nearly the name of a published one is a warning. Otherwise it is "
     "information if all nodes are known, and a hint if not; there is no finding in a launch without a robot "
-    "description, which another launch file provides.",
+    "description, which another launch file provides. The frame that a sensor writes into its messages counts, too: "
+    "of a driver, of a simulated sensor, or in the source of a node. It is a warning if it is nearly the name of a "
+    "published one and all nodes are known, and information otherwise. `laser_frame` beside `laser_link` is "
+    "information.",
     why="The node waits for the transform, drops its data, or repeats `Could not transform ... frame does not exist`.",
     example="amcl:\n  ros__parameters:\n    base_frame_id: base_lnk",
     instead="amcl:\n  ros__parameters:\n    base_frame_id: base_link",
