@@ -118,6 +118,10 @@ class Frames(Once):
         """The transforms of a space by their child."""
         return self.once(_parents).get(space, {})
 
+    def trees(self, space: str) -> Mapping[str, str]:
+        """The frames of a space, each with a frame that stands for its tree: all that are joined have the same."""
+        return self.once(_trees).get(space, {})
+
     @property
     def spaces(self) -> tuple[str, ...]:
         """Those in which something is broadcast, the plain one first."""
@@ -157,3 +161,17 @@ def _parents(frames: Frames) -> Mapping[str, Mapping[str, tuple[Edge, ...]]]:
     for edge in frames.edges:
         found.setdefault(edge.space, {}).setdefault(edge.child, []).append(edge)
     return {space: {child: tuple(edges) for child, edges in of.items()} for space, of in found.items()}
+
+
+def _trees(frames: Frames) -> Mapping[str, Mapping[str, str]]:
+    found: dict[str, dict[str, list[str]]] = {}
+    for edge in frames.edges:
+        trees = found.setdefault(edge.space, {})
+        one, other = (trees.setdefault(end, [end]) for end in (edge.parent, edge.child))
+        if one is other:
+            continue
+        small, large = sorted((one, other), key=len)
+        large += small
+        for frame in small:
+            trees[frame] = large
+    return {space: {frame: tree[0] for frame, tree in of.items()} for space, of in found.items()}
