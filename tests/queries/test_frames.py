@@ -42,7 +42,7 @@ def test_hover_of_a_frame(tmp_path: Path) -> None:
 
 
 def test_hover_of_a_root(tmp_path: Path) -> None:
-    assert told(at(tmp_path, 0)).startswith("frame `map`\n\nRoot of its tree\n\n- `map` → `odom` by /s")
+    assert told(at(tmp_path, 0)).startswith("frame `map`\n\nRoot of its tree\n\nChildren: `odom`\n\n- `map` → `odom`")
 
 
 def test_hover_of_one_that_nothing_publishes(tmp_path: Path) -> None:
@@ -76,3 +76,46 @@ def test_a_parameter_file(tmp_path: Path) -> None:
     found = hover(workspace.context.analyses, path, workspace.offset, 0, workspace.context)
     assert found is not None
     assert found.markdown.startswith("frame `base`\n\nPath to the root: `base` → `odom`")
+
+
+def test_a_link_of_the_robot(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <param name="robot_description" textfile="{folder}/p/urdf/robot.urdf"/>
+          <node pkg="robot_state_publisher" type="robot_state_publisher" name="rsp"/>
+          <node pkg="p" type="t" name="driver"><param name="lidar_frame" value="$0laser"/></node>
+        </launch>
+        //- p/package.xml
+        <package><name>p</name></package>
+        //- p/urdf/robot.urdf
+        <robot name="r">
+        <link name="base"/>
+        <link name="laser"/>
+        <joint name="j" type="fixed"><parent link="base"/><child link="laser"/></joint>
+        </robot>
+        """
+    workspace = create_workspace(tmp_path, text)
+    found = [workspace.shown(each.location) for each in definition(workspace.context, workspace.offset, ())]
+    assert found == ["p/urdf/robot.urdf:3 laser", "p/urdf/robot.urdf:4 j"]
+    assert "Path to the root: `laser` → `base`" in told(workspace)
+
+
+def test_a_line_of_the_source(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="p" type="t.py" name="n"/>
+          <node pkg="p" type="u" name="driver"><param name="lidar_frame" value="$0laser"/></node>
+        </launch>
+        //- p/package.xml
+        <package><name>p</name></package>
+        //- p/scripts/t.py
+        #!/usr/bin/env python3
+        import rospy, tf
+        rospy.init_node('t')
+        tf.TransformBroadcaster().sendTransform((0, 0, 0), (0, 0, 0, 1), rospy.Time.now(), 'laser', 'base')
+        //- interfaces
+        {"/n": {"frames": [["base", "laser", false, true, false, "{folder}/p/scripts/t.py", 4]]}}
+        """
+    workspace = create_workspace(tmp_path, text)
+    (target,) = definition(workspace.context, workspace.offset, ())
+    assert workspace.shown(target.location).startswith("p/scripts/t.py:4 tf.")

@@ -98,6 +98,8 @@ def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
         False,
         f"{os.path.basename(frame.source_file)}:{frame.source_line}",
         conditional=frame.conditional,
+        source_file=frame.source_file,
+        source_line=frame.source_line,
     )
 
 

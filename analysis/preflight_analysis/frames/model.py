@@ -37,6 +37,9 @@ class Edge:
     robot: Robot | None = None
     conditional: bool = False
     """In the source, only a condition that is not known leads there."""
+    source_file: str = ""
+    """Where in the node's source it is broadcast, line counted from 1."""
+    source_line: int = 0
 
     @property
     def doubt(self) -> str:

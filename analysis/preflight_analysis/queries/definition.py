@@ -36,7 +36,7 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     name that it replaces to the node's own; from a finding to its related places."""
     analysis, file = context.analyses[0], context.path
     if (frame := frame_at(context.analyses, file, offset)) is not None:
-        return _targets(published_at(frame), context.location(file, frame.span))
+        return _targets(published_at(context, frame), context.location(file, frame.span))
     if is_param_file(analysis, file):
         return tuple(Target(place, context.location(file, span)) for place, span in from_param_file(context, offset))
     if targets := _targets_of_param(context, offset):

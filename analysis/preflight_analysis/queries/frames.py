@@ -12,10 +12,13 @@ from preflight_analysis.frames.edges import plain
 from preflight_analysis.frames.model import Edge, Frames
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.places import place
+from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.robot.sources import place_of
 from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_mention, place_of_use
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN = 8
+_BELOW = 12
 _PATH = 12
 """Frames of a path that are listed."""
 
@@ -69,9 +72,23 @@ def _in_arguments(analysis: Analysis, edge: Edge) -> Iterator[tuple[str, Locatio
             yield frame, document.location(Span(*found.span()))
 
 
-def published_at(symbol: FrameSymbol) -> tuple[Location, ...]:
-    """Where the frame is published: the joint of a robot description, a node, a parameter."""
-    return tuple(dict.fromkeys(place_of_edge(symbol.analysis.context, edge) for edge in _edges(symbol)))
+def published_at(context: QueryContext, symbol: FrameSymbol) -> tuple[Location, ...]:
+    """Where the frame is published: the link of a robot description and its joint, a line of a node's source, a node, a
+    parameter."""
+    return tuple(dict.fromkeys(place for edge in _edges(symbol) for place in _places(context, symbol, edge)))
+
+
+def _places(context: QueryContext, symbol: FrameSymbol, edge: Edge) -> Iterator[Location]:
+    rules = symbol.analysis.context
+    if edge.source_file:
+        yield context.line(edge.source_file, edge.source_line)
+        return
+    if edge.how == "urdf" and edge.robot is not None:
+        # What `frame_prefix` puts before it is no part of the link's name.
+        link = next((each for each in edge.robot.description.links if symbol.frame.endswith(each)), "")
+        found = place_of(edge.robot, rules.disk, rules.environment, "link", "name", link) if link else None
+        yield from (found,) if found is not None else ()
+    yield place_of_edge(rules, edge)
 
 
 def named_at(symbol: FrameSymbol) -> tuple[Location, ...]:
@@ -116,6 +133,12 @@ def _publishers(symbol: FrameSymbol, frames: Frames) -> Iterator[str]:
         yield f"Path to the root: {' → '.join(map(code, steps[:_PATH]))}{more}"
     else:
         yield "Root of its tree"
+    below = [
+        child for child, to in frames.parents(symbol.space).items() if any(each.parent == symbol.frame for each in to)
+    ]
+    if below:
+        more = f", … and {len(below) - _BELOW} more" if len(below) > _BELOW else ""
+        yield from ("", f"Children: {', '.join(map(code, below[:_BELOW]))}{more}")
     yield ""
     for edge in edges[:_SHOWN]:
         where = place(symbol.analysis, place_of_edge(symbol.analysis.context, edge))

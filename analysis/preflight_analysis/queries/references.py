@@ -32,7 +32,7 @@ def references(context: QueryContext, offset: int) -> tuple[Reference, ...]:
     `offset`, a frame within one launch: those of the file itself first, then by path."""
     found: dict[Location, bool] = {}
     if (frame := frame_at(context.analyses, context.path, offset)) is not None:
-        found = {**dict.fromkeys(named_at(frame), False), **dict.fromkeys(published_at(frame), True)}
+        found = {**dict.fromkeys(named_at(frame), False), **dict.fromkeys(published_at(context, frame), True)}
     elif (symbol := symbol_at(context, offset)) is not None:
         for reference in _FINDERS[symbol.kind](context, symbol):
             found[reference.location] = found.get(reference.location, False) or reference.declares
