@@ -174,14 +174,18 @@ def analyse(
     context = replace(_evaluated(fixture, sources, given, frozenset()), why_not_run=why_not_run)
     if branches:
         ask = partial(_what_if, fixture, sources)
-        found = branches_of(context.tree, context.launch_files, given, ask)
+        ask_params = partial(_params_if, fixture, sources)
+        found = branches_of(context.tree, context.launch_files, given, ask, ask_params)
         documents = {**found.documents, **context.documents}
         context = replace(context, documents=documents, of_branches=tuple(each for each, _ in found.findings))
     tree = context.tree
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:
         return context
-    interfaces = [*interfaces_of(tree, fixture.interfaces or {}), *(NOT_RUN for _ in tree.simulated)]
+    said = fixture.interfaces or {}
+    if branches:
+        said = {name: said[name] for name in said if any(node.name == name for node in tree.nodes)}
+    interfaces = [*interfaces_of(tree, said), *(NOT_RUN for _ in tree.simulated)]
     graph = build_graph(tree, interfaces, external, documents=context.documents)
     return replace(context, graph=graph)
 
@@ -189,6 +193,17 @@ def analyse(
 def _what_if(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> WhatIf:
     context = _evaluated(fixture, sources, args, assumed)
     return WhatIf(context.tree, context.documents, context.launch_files, tuple(found_in_branch(context)))
+
+
+def _params_if(
+    fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]
+) -> list[Finding]:
+    context = _evaluated(fixture, sources, args, assumed)
+    nodes = {node.name for node in context.tree.nodes}
+    said = {name: each for name, each in (fixture.interfaces or {}).items() if name in nodes}
+    interfaces = [*interfaces_of(context.tree, said), *(NOT_RUN for _ in context.tree.simulated)]
+    graph = build_graph(context.tree, interfaces, documents=context.documents)
+    return found_in_branch(replace(context, graph=graph))
 
 
 def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> Context:

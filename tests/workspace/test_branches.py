@@ -422,3 +422,69 @@ def _workspace(generation: int) -> Workspace:
 
 def _found(workspace: Workspace, path: Path) -> tuple[tuple[Finding, str], ...]:
     return workspace.branches(workspace.static(str(path))).findings
+
+
+def test_a_parameter_that_the_node_of_a_branch_does_not_read() -> None:
+    """What no similar name stands for is a hint where the launch sets it, and nothing where it may."""
+    (finding,) = check(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <node pkg="p" type="t" name="base"><param name="rate" value="5"/></node>
+          <group if="$(arg sim)">
+            <node pkg="p" type="t" name="camera">
+              <param name="widht" value="640"/>
+                           ^^^^^ warning[PRM001] '/camera/widht' is not read by /camera; did you mean '/camera/width'
+              <param name="other" value="640"/>
+              <param name="height" value="480"/>
+            </node>
+          </group>
+        </launch>
+        //- interfaces
+        {"/base": {"params": {"~rate": 10}}, "/camera": {"params": {"~width": 1, "~height": 1}}}
+        """,
+        branches=True,
+    )
+    assert finding.condition == "sim:=true"
+
+
+def test_a_parameter_that_the_launch_itself_sets_is_not_of_the_branch() -> None:
+    """More is known of it, from runs."""
+    found = findings_of(
+        """
+        <launch>
+          <arg name="sim" default="false"/>
+          <param name="/camera/widht" value="640"/>
+          <node pkg="p" type="t" name="camera" if="$(arg sim)"><param name="height" value="480"/></node>
+        </launch>
+        //- interfaces
+        {"/camera": {"params": {"~width": 1, "~height": 1}}}
+        """,
+        branches=True,
+    )
+    assert [each.condition for each in found if each.rule == "PRM001"] == []
+
+
+def test_a_parameter_that_the_node_of_a_branch_does_not_declare(tmp_path: Path) -> None:
+    """By the source of a node, in a workspace: nothing was run."""
+    (tmp_path / "package.xml").write_text(
+        "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
+    )
+    (tmp_path / "CMakeLists.txt").write_text("install(PROGRAMS t.py DESTINATION lib/${PROJECT_NAME})\n")
+    (tmp_path / "t.py").write_text(
+        "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n"
+        "class Camera(Node):\n"
+        "    def __init__(self):\n        super().__init__('camera')\n        self.declare_parameter('width', 640)\n"
+        "def main():\n    rclpy.init()\n    rclpy.spin(Camera())\n"
+        "if __name__ == '__main__':\n    main()\n"
+    )
+    launch = tmp_path / "a.launch.xml"
+    launch.write_text(
+        '<launch><arg name="sim" default="false"/><node pkg="p" exec="t.py" name="camera" if="$(var sim)">'
+        '<param name="widht" value="320"/><param name="other" value="1"/></node></launch>'
+    )
+    workspace = Workspace(detect_environment(tmp_path, {}, [str(tmp_path)], []), Sources())
+    branches = workspace.branches(workspace.evaluated(str(launch)))
+    said = [(each.rule, each.severity, each.condition) for each, _ in branches.findings if each.rule == "PRM013"]
+    assert said == [("PRM013", "warning", "sim:=true")] * 2
+    assert "did you mean 'width'?" in branches.findings[0][0].message

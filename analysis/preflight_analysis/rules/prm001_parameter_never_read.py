@@ -308,5 +308,6 @@ RULE = Rule(
     generations=(1,),
     check=_check,
     needs_graph=True,
+    in_branches=True,
     every_root=True,
 )

@@ -176,5 +176,6 @@ RULE = Rule(
     generations=(2,),
     check=_check,
     needs_graph=True,
+    in_branches=True,
     every_root=True,
 )

@@ -90,15 +90,16 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
 
 def found_in_branch(context: Context, pause: Callable[[], object] = lambda: None) -> list[Finding]:
     """What the rules that speak of branches say of a launch with other arguments, suppressed or not, each with the
-    includes that lead there. `pause` is called before each rule: it may raise to stop here."""
-    found, _ = _found(context, _of_branches(pause))
+    includes that lead there: of one with a graph those that need it, of any other one the rest. `pause` is called
+    before each rule: it may raise to stop here."""
+    found, _ = _found(context, _of_branches(context.graph is not None, pause))
     chains = _first_chains(context)
     return [_with_chain(each, chains.get(each.location.file, ())) for each in found]
 
 
-def _of_branches(pause: Callable[[], object]) -> Iterator[Rule]:
+def _of_branches(needs_graph: bool, pause: Callable[[], object]) -> Iterator[Rule]:
     for rule in all_rules():
-        if rule.in_branches:
+        if rule.in_branches and rule.needs_graph == needs_graph:
             pause()
             yield rule
 

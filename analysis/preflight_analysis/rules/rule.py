@@ -141,7 +141,8 @@ class Rule(RuleDescription):
     `problems` are the kinds of problems that the rule reports; each kind has one rule.
     `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
     `in_branches`: it speaks of what conditions leave out, too: of single tags and values, and never of what is there
-    because something else is not.
+    because something else is not. One that needs the graph gets that of nodes which were not run for it, and what it
+    says counts where it is grave and of a parameter that only the branch sets.
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.

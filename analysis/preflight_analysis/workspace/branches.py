@@ -13,6 +13,8 @@ from collections import deque
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import field, replace
+from functools import cached_property
+from itertools import chain
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
@@ -47,6 +49,7 @@ _OF_VALUES = "ARG009"
 """A rule that speaks of a value: Python may have made it of the same as a condition that names no argument."""
 _ARGUMENT = re.compile(r"\$\((?:arg|var|eval)\b")
 _ONE_ARGUMENT = re.compile(r"\s*\$\((?:arg|var)\s[^()]*\)\s*")
+_GRAVE = ("error", "warning")
 _LONGEST = 60
 """Characters of a condition in a message."""
 
@@ -93,16 +96,27 @@ BRANCHES = Input(_none_yet, durable=False)
 """What was found last in the tags that a root leaves out."""
 Ask = Callable[[Assignment, frozenset[Location]], WhatIf]
 """Evaluates the launch with these arguments, and with the tags at these places taken whatever their conditions say."""
+AskParams = Callable[[Assignment, frozenset[Location]], Iterable[Finding]]
+"""What rules say of the parameters of that launch, by what is known of its nodes without a run."""
 
 
-def branches_of(tree: LaunchTree, launch_files: Mapping[str, LaunchFile], args: Assignment, ask: Ask) -> Branches:
+def branches_of(
+    tree: LaunchTree, launch_files: Mapping[str, LaunchFile], args: Assignment, ask: Ask, ask_params: AskParams
+) -> Branches:
     """What is found where a launch is evaluated with other arguments than `args`, with which `tree` is made."""
-    return _Search(tree, launch_files, args, ask).branches()
+    return _Search(tree, launch_files, args, ask, ask_params).branches()
 
 
 class _Search:
-    def __init__(self, tree: LaunchTree, launch_files: Mapping[str, LaunchFile], args: Assignment, ask: Ask) -> None:
-        self._tree, self._given, self._ask = tree, args, ask
+    def __init__(
+        self,
+        tree: LaunchTree,
+        launch_files: Mapping[str, LaunchFile],
+        args: Assignment,
+        ask: Ask,
+        ask_params: AskParams,
+    ) -> None:
+        self._tree, self._given, self._ask, self._ask_params = tree, args, ask, ask_params
         self._launch_files = dict(launch_files)
         self._what_ifs: dict[_Key, WhatIf] = {}
         self._evaluations = 0
@@ -135,7 +149,11 @@ class _Search:
                     self._untried.add(tag)
                     break
                 if takes(what_if.tree, left_out):
-                    found = (each for each in what_if.found if not _is_given(each, what_if.documents))
+                    found = (
+                        each
+                        for each in (*what_if.found, *self._of_params(what_if.tree, wanted, frozenset()))
+                        if not _is_given(each, what_if.documents)
+                    )
                     others = {name for name, text in wanted.items() if self._given.get(name) != text}
                     found = (_unsure_of_others(each, left_out, others, what_if) for each in found)
                     self._note(found, _shown(wanted, self._given), what_if.documents)
@@ -164,6 +182,19 @@ class _Search:
         self._asked.update((each.line, None) for each in found.tree.commands if each.launch_file)
         return found
 
+    def _of_params(self, tree: LaunchTree, args: Assignment, assumed: frozenset[Location]) -> Iterator[Finding]:
+        """What is grave of parameters that the launch itself does not set: whoever else reads one of these may be left
+        out, too, and of those that it sets more is known by runs."""
+        if _places_of_params(tree) <= self._places:
+            return
+        for found in self._ask_params(args, assumed):
+            if found.severity in _GRAVE and found.location not in self._places:
+                yield found
+
+    @cached_property
+    def _places(self) -> frozenset[Location]:
+        return _places_of_params(self._tree)
+
     def _has_room(self) -> bool:
         self._evaluations += 1
         return self._evaluations <= MAX_WHAT_IFS
@@ -181,8 +212,9 @@ class _Search:
                 return
             taken |= todo
             what_if = self._evaluated(args, frozenset(taken))
+            all_found = (*what_if.found, *self._of_params(what_if.tree, args, frozenset(taken)))
             for each in todo.values():
-                found = (found for found in what_if.found if _stands_in(found, each))
+                found = (found for found in all_found if _stands_in(found, each))
                 doubted = (
                     _doubted(found)
                     for found in found
@@ -204,6 +236,12 @@ class _Search:
                 self._findings[key] = _under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
+
+
+def _places_of_params(tree: LaunchTree) -> frozenset[Location]:
+    """Where the parameters of a launch and of its nodes are set."""
+    of_nodes = chain.from_iterable(node.params for node in tree.nodes)
+    return frozenset(param.place for param in chain(tree.all_params, of_nodes))
 
 
 def _compatible(left_out: Iterable[NotTaken], taken: Iterable[NotTaken] = ()) -> tuple[list[NotTaken], list[NotTaken]]:

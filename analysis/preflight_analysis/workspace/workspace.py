@@ -327,9 +327,14 @@ class Workspace:
         def ask(args: Assignment, assumed: frozenset[Location]) -> WhatIf:
             if stops():
                 raise Cancelled
-            return _what_if(db, self, path, tuple(sorted(args.items())), assumed)
+            return _what_if(db, self, path, tuple(sorted(args.items())), assumed)[0]
 
-        found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask)
+        def ask_params(args: Assignment, assumed: frozenset[Location]) -> tuple[Finding, ...]:
+            if stops():
+                raise Cancelled
+            return _params_if(db, self, path, tuple(sorted(args.items())), assumed)
+
+        found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask, ask_params)
         return found.with_others(findings_of_loose_files(analysis.context), self.sources)
 
     def with_interfaces(
@@ -481,7 +486,7 @@ def _what_if(
     path: str,
     args: tuple[tuple[str, str], ...],
     assumed: frozenset[Location],
-) -> WhatIf:
+) -> tuple[WhatIf, Context]:
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
     given, variables = arguments_and_variables(dict(args))
@@ -497,7 +502,25 @@ def _what_if(
     # Whoever waits to write does not wait for all rules: reading anything raises then.
     pause = partial(_executables, db, workspace, environment)
     found = tuple(each for each in found_in_branch(context, pause) if each.lack is None)
-    return WhatIf(tree, documents, launch_files, found)
+    return WhatIf(tree, documents, launch_files, found), context
+
+
+@query(limit=MAX_WHAT_IFS_KEPT)
+def _params_if(
+    db: Database,
+    workspace: Workspace,
+    path: str,
+    args: tuple[tuple[str, str], ...],
+    assumed: frozenset[Location],
+) -> tuple[Finding, ...]:
+    """What the rules of parameters say of a launch with other arguments, of whose nodes none was run for that."""
+    _, context = _what_if(db, workspace, path, args, assumed)
+    documents, launch_files, environment = context.documents, context.launch_files, context.environment
+    analysis = Analysis(path, args, context.tree, documents, launch_files, environment, context, ())
+    interfaces = [not_run(node, context.executables) for node in context.tree.nodes]
+    known = workspace.with_interfaces(analysis, interfaces, None).context
+    pause = partial(_executables, db, workspace, environment)
+    return tuple(each for each in found_in_branch(known, pause) if each.lack is None)
 
 
 @query(limit=MAX_ANALYSES)
