@@ -167,6 +167,13 @@ def test_a_launch_file_that_refuses_the_machine(tmp_path: Path, path: str, sever
     assert finding.message.endswith("the file asks for the machine that it runs on") == (severity == "info")
 
 
+def test_a_launch_file_that_asks_for_its_repository(tmp_path: Path) -> None:
+    helper = "def made(n): check_output(['git', 'rev-parse', '--show-toplevel'])\nraise RuntimeError('no')\n"
+    analysis = _launched(tmp_path, _error(tmp_path, "RuntimeError", "no"), helper=helper)
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.severity == "info"
+
+
 def test_a_file_of_somebodys_home_that_a_package_has(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
     (tmp_path / "maps").mkdir()

@@ -143,3 +143,18 @@ def test_a_path_out_of_the_share_folder_of_a_package_that_is_not_built(tmp_path:
         environment = detect_environment(str(tmp_path), {"ROS_VERSION": "2"}, root=str(tmp_path / "nowhere"))
         findings = Workspace(environment, Sources()).static(str(file)).findings
         assert [f.severity for f in findings if f.rule == "PRM002"] == [severity]
+
+
+@pytest.mark.parametrize(("home", "severity"), [("/home/no_such_user", "info"), ("/usr", "warning")])
+def test_a_file_in_the_home_folder_of_another_user(tmp_path: Path, home: str, severity: str) -> None:
+    folder = tmp_path / "src" / "robot"
+    (folder / "config").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>robot</name></package>")
+    (folder / "config" / "a.yaml").touch()
+    launch = folder / "a.launch.xml"
+    path = f"{home}/src/robot/config/a.yaml"
+    launch.write_text(f'<launch><node pkg="robot" exec="a" name="a"><param from="{path}"/></node></launch>')
+    workspace = Workspace(detect_environment(str(tmp_path), {"ROS_VERSION": "2"}), Sources(), str(tmp_path))
+    (finding,) = (each for each in workspace.static(str(launch)).findings if each.rule == "PRM002")
+    assert finding.severity == severity
+    assert "did you mean 'robot/config/a.yaml'?" in finding.message

@@ -283,3 +283,18 @@ def test_one_that_git_ignores_beside_another_elsewhere() -> None:
         //- /p/example/stamped_groundtruth.txt
         1
     """)
+
+
+def test_one_that_git_ignores_beside_what_describes_it() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="model_path" value="/p/models/best_of_all.rknn"/>
+                                            ^^^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] git ignores it
+          </node>
+        </launch>
+        //- /p/.gitignore
+        *.rknn
+        //- /p/models/best_of_all.json
+        {}
+    """)

@@ -112,3 +112,22 @@ def test_parameters_of_the_declared_type() -> None:
         //- interfaces
         {"/pump": {"params": {"~speed": 1.0, "~names": ["x"], "~any": 1.0}, "described": {"~any": {"dynamic": true}}}}
     """)
+
+
+@pytest.mark.parametrize(
+    ("value", "severity"), [("__MAX_SPEED__", "info"), ("'@MAX_SPEED@'", "info"), ("__init__", "error")]
+)
+def test_a_mark_that_a_program_replaces(value: str, severity: str) -> None:
+    check(f"""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump"><param from="/p/a.yaml"/></node>
+        </launch>
+        //- /p/a.yaml
+        pump:
+          ros__parameters:
+            max_speed: {value}
+            ^^^^^^^^^ {severity}[PRM014] type mismatch of parameter 'max_speed': got a string
+        //- interfaces
+        {{"/pump": {{"params": {{"~max_speed": 10.0}}}}}}
+    """)

@@ -195,6 +195,7 @@ def test_a_remap_of_an_actions_name_has_an_effect() -> None:
         ("cmd_vel", "", {}, "info"),
         ("/base/cmd_vel", "", {}, "warning"),
         ("/robot/cmd_vel", "", {}, "info"),
+        ("/image_rect/compressed", "", {}, "hint"),
         ("/base/cmd_vel", "/in1", {}, None),
         ("/base/cmd_vel", "", {"params": {"/": {"access": "list"}}}, None),
     ],

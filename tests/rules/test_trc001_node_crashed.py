@@ -668,3 +668,29 @@ def test_a_crash_for_a_file_that_another_program_writes() -> None:
         //- interfaces
         {"/n": {"status": "crashed", "exit_code": 1, "stderr": ["ValueError: Input world file is invalid, /tmp/a"]}}
     """)
+
+
+@pytest.mark.parametrize(("said", "severity"), [("x: '__X_RATE__' is no double", "info"), ("x is 1", "warning")])
+def test_a_value_that_a_program_writes_before(said: str, severity: str) -> None:
+    check(f"""
+        <launch>
+          <node pkg="p" type="t" name="n"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ {severity}[TRC001] exit code 1
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
+    """)
+
+
+@pytest.mark.parametrize(("said", "severity"), [("bag is required", "info"), ("map is required", "warning")])
+def test_a_parameter_whose_argument_nobody_gives(said: str, severity: str) -> None:
+    found = findings_of(f"""
+        //- /a.launch.xml
+        <launch>
+          <arg name="file"/>
+          <node pkg="p" exec="e" name="n"><param name="bag" value="$(var file)"/></node>
+        </launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "TRC001"] == [severity]

@@ -90,3 +90,11 @@ def test_an_actuator_without_interfaces() -> None:
     actuator = '<ros2_control name="hw"><joint name="actuator_1"><param name="id">1</param></joint></ros2_control>'
     found = findings_of(of_urdf(f"{_URDF.format('shoulder_joint', 'shoulder_joint')}{actuator}"))
     assert [(each.rule, each.severity) for each in found] == [("URD007", "info")]
+
+
+def test_a_description_for_the_controller_manager_alone() -> None:
+    hardware = (
+        '<link name="base"/><ros2_control name="hw"><joint name="lift"><command_interface name="position"/></joint>'
+    )
+    found = findings_of(of_urdf(f"{hardware}</ros2_control>"))
+    assert [(each.rule, each.severity) for each in found] == [("URD007", "info")]

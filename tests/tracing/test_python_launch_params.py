@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from support.check import interface_from_json
 from support.python_launch_harness import PythonHarness
 
 pytestmark = pytest.mark.ros
@@ -162,3 +163,25 @@ def test_a_list_that_is_empty_as_a_variable_is_not_set(tmp_path: Path, default: 
     )
     (finding,) = (each for each in harness.launch(path).findings if each.rule == "LCH008")
     assert (finding.severity, finding.lack is not None) == (severity, severity == "hint")
+
+
+@pytest.mark.parametrize(
+    ("given", "severity"), [("{'speed': 1.0, 'mass': 2.0}", "warning"), ("json.loads(SETTINGS)", "info")]
+)
+def test_parameters_that_a_launch_file_has_read_and_hands_over(tmp_path: Path, given: str, severity: str) -> None:
+    harness = PythonHarness(tmp_path)
+    text = f"""\
+        import json
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+        SETTINGS = '{{"speed": 1.0, "mass": 2.0}}'
+        def generate_launch_description():
+            settings = {given}
+            return LaunchDescription([Node(package='p', executable='n', name='n', parameters=[settings])])
+    """
+    analysis = harness.launch(harness.write("launch/a.launch.py", text))
+    interface = interface_from_json({"params": {"~speed": 0.5}})
+    assert harness.workspace is not None
+    findings = harness.workspace.with_interfaces(analysis, [interface], None).findings
+    (finding,) = (each for each in findings if each.rule == "PRM013")
+    assert (finding.severity, "'mass'" in finding.message) == (severity, True)

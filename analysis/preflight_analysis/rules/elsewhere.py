@@ -34,11 +34,12 @@ def absent_top(disk: Disk, path: str) -> str | None:
 def absent_top_said(disk: Disk, said: str) -> str | None:
     """Likewise of a file that a program did not find, as it said, and of the folder of a user or of a disk that is not
     here (`/home/somebody`)."""
-    tops = [absent_top(disk, path) or _absent_folder_of_others(disk, path) for path in paths_said(said)]
+    tops = [absent_top(disk, path) or absent_folder_of_others(disk, path) for path in paths_said(said)]
     return tops[0] if tops and all(tops) else None
 
 
-def _absent_folder_of_others(disk: Disk, path: str) -> str | None:
+def absent_folder_of_others(disk: Disk, path: str) -> str | None:
+    """The folder of a user, or of a disk, that a path is below and that is not here (`/home/somebody`)."""
     found = _OF_OTHERS.match(path)
     return found[1] if found is not None and not disk.exists(found[1]) else None
 

@@ -16,7 +16,7 @@ from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import ParameterFileNotFound, UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
-from preflight_analysis.rules.elsewhere import absent_top, depends_on_working_folder
+from preflight_analysis.rules.elsewhere import absent_folder_of_others, absent_top, depends_on_working_folder
 from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, shown
@@ -27,6 +27,9 @@ _TO_DO = re.compile(
     r"\b(?:TODO|FIXME|TBD)\b|\b(?:CHANGE|REPLACE)_?ME\b|(?:\b[A-Z]{2,}\b[ _]?){4,}|\bPATH_TO_|\bpath/to/"
 )
 """What people write where somebody else is to write a name: a note, or a sentence in capitals."""
+
+_TEMPLATE = re.compile(r"(?<!\w)(?:__[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)*__|@[A-Z][A-Z0-9_]+@)(?!\w)")
+"""What a program puts a value in the place of: `__MAX_SPEED__`, `@MAX_SPEED@`."""
 
 _HOME = re.compile(r"\bHOME\b|\bexpanduser\b|\.home\(\)")
 _OPTIONAL = re.compile(r"\$\(optenv (\w+) *\)")
@@ -150,14 +153,22 @@ def _empty_arguments(context: Context, path: str, place: Location, near: str | N
 
 
 def _absent_top(context: Context, path: str) -> str | None:
-    """The top folder of a path that is of no package of this machine, where it has none of that name."""
-    return absent_top(context.disk, path) if package_folder(path, context.environment) is None else None
+    """The top folder of a path that is of no package of this machine, or the folder of a user or a disk, where it has
+    none of that name."""
+    if package_folder(path, context.environment) is not None:
+        return None
+    return absent_top(context.disk, path) or absent_folder_of_others(context.disk, path)
 
 
 def says_not_set(text: str) -> bool:
     """Whether a value is there to be replaced, as `$(optenv ROBOT !!NO_ROBOT_SET!!)` is: by a variable, or by an
     argument whose default it is."""
-    return _NOT_SET.search(text) is not None or _TO_DO.search(text) is not None
+    return _NOT_SET.search(text) is not None or _TO_DO.search(text) is not None or is_template(text)
+
+
+def is_template(text: str) -> bool:
+    """Whether a text has a mark in it for which a program writes a value."""
+    return _TEMPLATE.search(text) is not None
 
 
 def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:

@@ -11,7 +11,7 @@ from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename
+from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _TRUTH = {
@@ -25,7 +25,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, BadValue):
         bad = problem.kind
         near = _meant(bad)
-        message = f"invalid value '{bad.value}' of attribute '{bad.attribute}' of <{bad.tag}>: expected {bad.expected}"
+        value = shortened(" ".join(bad.value.split()))
+        message = f"invalid value '{value}' of attribute '{bad.attribute}' of <{bad.tag}>: expected {bad.expected}"
         if bad.expected == "not empty":
             message = f"attribute '{bad.attribute}' of <{bad.tag}> is empty"
         fixes = rename(context, problem.location, bad.value, near) if near else ()

@@ -23,7 +23,7 @@ from preflight_analysis.rules.rule import Context, Rule
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
 _RAISE = re.compile(r"\s*raise\b")
 _OF_MACHINE = re.compile(
-    r"""['"]/(?:\.dockerenv|dev|etc|proc|run|sys)\b|\bos\.environ\b|\bgetenv\(|\bwhich\(|\bplatform\.|\bgethostname\("""
+    r"""['"](?:/(?:\.dockerenv|dev|etc|proc|run|sys)\b|git\b)|\bos\.environ\b|\bgetenv\(|\bwhich\(|\bplatform\.|\bgethostname\("""
 )
 _BEFORE = 4
 """Lines before a `raise` that say what it is raised for."""

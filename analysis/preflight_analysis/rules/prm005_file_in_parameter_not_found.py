@@ -110,9 +110,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _is_beside(near: str, path: str) -> bool:
-    """Whether a file is in the same folder as another, or has its name elsewhere: one of a like name in another folder
-    tells less than that git ignores the path."""
-    return os.path.dirname(near) == os.path.dirname(path) or os.path.basename(near) == os.path.basename(path)
+    """Whether a file of the same kind is in the same folder as another, or has its name elsewhere: one of a like name
+    in another folder, or with another ending, tells less than that git ignores the path."""
+    same_kind = os.path.splitext(near)[1] == os.path.splitext(path)[1]
+    beside = os.path.dirname(near) == os.path.dirname(path)
+    return (beside and same_kind) or os.path.basename(near) == os.path.basename(path)
 
 
 def _in_params(context: Context) -> Iterator[_Named]:

@@ -62,7 +62,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
             in_full = interface.known_in_full
-            spared = near is None and (_is_for_all(context, node, param) or _is_other_choice(param.name, declared))
+            spared = near is None and (
+                _is_for_all(context, node, param)
+                or _is_other_choice(param.name, declared)
+                or _is_handed_over(context, param)
+            )
             severity: Severity = "warning" if near or (in_full and not spared) else "info"
             use = declared.get(near) if near is not None else None
             related = [related_node(node)]
@@ -124,6 +128,13 @@ def _is_for_all(context: Context, node: LaunchNode, param: Param) -> bool:
     return owner is None or owner.name != node.package
 
 
+def _is_handed_over(context: Context, param: Param) -> bool:
+    """Whether a Python launch file does not have the name itself: it hands over what it has read, of which a node may
+    want a part."""
+    leaf = param.name.rpartition(".")[2]
+    return param.place.file.endswith(".py") and leaf not in context.text(param.place)
+
+
 def _is_other_choice(name: str, declared: Collection[str]) -> bool:
     """Whether the node declares the same of another group (`devices.left.port` beside `devices.right.port`): another
     parameter chooses which group counts."""
@@ -163,7 +174,8 @@ RULE = Rule(
     "finding names the nearest declared parameter. Nodes that accept undeclared parameters are checked for a typo "
     "of `use_sim_time` only. Parameters of controllers of ros2_control are not checked. A value that several nodes "
     "share is not reported if one of them, in any launch, declares it. Without a near name the finding is information "
-    "below `/**` in the file of another package, and for another group of parameters that the node declares.",
+    "below `/**` in the file of another package, and for another group of parameters that the node declares. So it is "
+    "for a name that a Python launch file has read from elsewhere.",
     why="The client libraries ignore the value without an error, and the node uses its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',

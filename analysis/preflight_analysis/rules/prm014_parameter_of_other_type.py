@@ -1,11 +1,13 @@
 """PRM014: a parameter of another type than its node declares (ROS 2)."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.files import is_template
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.parameters import OF_ALL_NODES, refusal_finding
 from preflight_analysis.rules.problems import shortened
@@ -45,7 +47,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if message is None or (place, wanted) in reported:
                 continue  # what is written once for several nodes is wrong for each
             reported.add((place, wanted))
-            yield refusal_finding(rule, node, param, use, message)
+            found = refusal_finding(rule, node, param, use, message)
+            # A program writes the value into the file before it is used.
+            yield replace(found, severity="info") if is_template(str(param.value)) else found
 
 
 def _is_as_declared(param: Param, use: ParamUse, wanted: str) -> bool:
@@ -119,7 +123,8 @@ RULE = Rule(
     what="Checks for a parameter whose type differs from the type that its node declares. An integer is not a double, "
     "and an empty list has no type. A text of the launch file may arrive with another type. launch writes it to a "
     "YAML file, with quotes only where Python's YAML needs them. rcl also reads `y`, `n` and `1e3` as values. Each "
-    "node declares `use_sim_time` as a bool.",
+    "node declares `use_sim_time` as a bool. The finding is information for a text such as `__MAX_SPEED__`, for which "
+    "a program may write the value.",
     why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes exit.",
     example='<!-- declare_parameter("rate", 10.0) -->\n<param name="rate" value="5"/>',
     instead='<param name="rate" value="5.0"/>',

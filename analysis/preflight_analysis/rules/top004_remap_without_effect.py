@@ -15,6 +15,7 @@ from preflight_analysis.rules.names_in_sources import writes_name
 from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS
 
 _DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "serves", "client": "calls"}
 
@@ -84,6 +85,8 @@ def _lone_severity(idle: IdleRemap) -> Severity:
     if idle.known_by != BY_CATALOGUE:
         return "hint"
     node, source = idle.nodes[0].name, idle.remap.source
+    if source.endswith(IMAGE_TRANSPORTS):
+        return "hint"  # a library makes it
     above = names.parent(names.resolve(source, node))
     foreign = source.strip("/").count("/") > 0 and not source.startswith("~")
     return "warning" if foreign and not node.startswith(above) else "info"

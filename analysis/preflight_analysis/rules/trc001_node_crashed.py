@@ -14,6 +14,7 @@ from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.elsewhere import absent_top_said, lacks_recording, paths_said
+from preflight_analysis.rules.files import is_template
 from preflight_analysis.rules.further_reading import RUNS, SECURITY
 from preflight_analysis.rules.installed import (
     lack_of_made,
@@ -65,7 +66,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lacking = next(filter(None, map(lost.why, reads)), None)
         lacking = lacking or next((why for read in reads if (why := lost.possible_cause(read, outcome))), None)
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
-        lacking = lacking or lost.named_in(told)
+        lacking = lacking or lost.named_in(told) or _unresolved_param(node, told)
         # Of a parameter that is missing another rule says more, as a warning.
         reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
@@ -84,7 +85,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or is_unknown(node.args)
         )
         absent = absent_top_said(context.disk, told)
-        made = lacks_recording(told) or any(is_ignored(context.disk, path) for path in paths_said(told))
+        made = (
+            is_template(told)
+            or lacks_recording(told)
+            or any(is_ignored(context.disk, path) for path in paths_said(told))
+        )
         empty = _empty_param(node, told) or _empty_argument(context, node, told)
         message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
         message += f"; {empty} is empty" if empty is not None else ""
@@ -133,6 +138,20 @@ def _empty_param(node: LaunchNode, told: str) -> str | None:
     words = set(_WORD.findall(told))
     empty = (param.name for param in node.params if param.value == "" and names.leaf(param.name) in words)
     return next((f"parameter '{name}'" for name in empty), None)
+
+
+def _unresolved_param(node: LaunchNode, told: str) -> str | None:
+    """`'x', which is unresolved` of a parameter in the node's own tag that has no value here, as nobody gave the
+    argument that it is made of, and which the node names before it ends."""
+    words, known = set(_WORD.findall(told)), {names.leaf(param.name) for param in node.params}
+    pending = [*node.action.children]
+    while pending:
+        action = pending.pop()
+        pending += action.children
+        name = action.value("name") if action.kind == "param" else None
+        if name is not None and name.text in words and name.text not in known:
+            return f"'{name.text}', which is unresolved"
+    return None
 
 
 def _empty_argument(context: Context, node: LaunchNode, told: str) -> str | None:

@@ -56,7 +56,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 if more >= _MANY
                 else f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
                 place,
-                severity=_severity(context, tag, refused, has_interfaces=(owner, joint) in with_interfaces),
+                severity=_severity(
+                    context, tag, refused, has_interfaces=bool(joints) and (owner, joint) in with_interfaces
+                ),
                 related=related,
                 fixes=rename(context, place, joint, near) if near is not None else (),
             )
@@ -64,7 +66,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _severity(context: Context, tag: str, refused: bool, *, has_interfaces: bool) -> Severity | None:
     """In ROS 2 only ros2_control reads transmissions, and only those within its own element. A joint without interfaces
-    may be an actuator that the hardware knows."""
+    may be an actuator that the hardware knows, and a description without joints is for the controller manager alone."""
     if tag == "transmission":
         return "info" if context.tree.ros.ament else None
     if refused:
@@ -79,7 +81,7 @@ RULE = Rule(
     what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have. It is "
     "an error with ros2_control of Jazzy and newer, which refuses such a description. A `<transmission>` in ROS 2 is "
     "information, because nothing reads it there. So is a joint without interfaces, which may be an actuator of the "
-    "hardware.",
+    "hardware, and one of a description that has no joints at all.",
     why="The joint is not moved: the simulator skips it, and controllers that claim it report positions of no joint. "
     "ros2_control of Jazzy and newer does not load the hardware at all.",
     example='<ros2_control name="arm" type="system">\n  <joint name="sholder_joint"/>\n</ros2_control>',
