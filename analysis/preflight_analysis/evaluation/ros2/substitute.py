@@ -11,7 +11,7 @@ from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.environment.own_programs import OWN_PROGRAMS
+from preflight_analysis.environment.own_programs import OWN_PROGRAMS, own_prefix, without_own_prefix
 from preflight_analysis.evaluation import expression
 from preflight_analysis.evaluation.problems import (
     CommandFailed,
@@ -54,6 +54,7 @@ class Performer:
 
     def __init__(self, state: State, context: Context, place: Place) -> None:
         self.state, self.context, self.place = state, context, place
+        self._in_command = False
 
     def value(self, value: Value) -> Resolved:
         """The text of a whole value."""
@@ -158,12 +159,23 @@ class Performer:
         return package.share
 
     def _prefix(self, part: Substitution) -> str:
-        share, name = self._share(part), self._word(part, 0)
+        name = self._word(part, 0)
+        if self._calls_own(name):
+            self.state.problem(PackageNotFound(name), self.place.origin(part.span))
+            return own_prefix(name)
+        share = self._share(part)
         end = os.path.join("share", name)
         return share[: -len(end)].rstrip("/") if share.endswith("/" + end) else share
 
+    def _calls_own(self, package: str) -> bool:
+        """Whether a command line may call our own program in the place of that of a package which is not here."""
+        return self._in_command and package in OWN_PROGRAMS and package not in self.state.environment.packages
+
     def _executable_of_package(self, part: Substitution) -> str:
         name, package = self._word(part, 0), self._word(part, 1)
+        if name == package and self._calls_own(package):
+            self.state.problem(PackageNotFound(package), self.place.origin(part.span))
+            return name
         if package not in self.state.environment.packages:
             raise _Failure(PackageNotFound(package))
         found = self.state.executables.find(package, name)
@@ -229,7 +241,13 @@ class Performer:
         return self.context.launch_file
 
     def _command(self, part: Substitution) -> str:
-        line = self._word(part, 0)
+        self._in_command, before = True, self._in_command
+        try:
+            line = without_own_prefix(self._word(part, 0))
+        finally:
+            self._in_command = before
+        if line is None:
+            raise _Failure
         try:
             words = shlex.split(line)
         except ValueError as error:
