@@ -140,6 +140,7 @@ def test_rclcpp(tmp_path: Path) -> None:
 def test_a_parameter_that_turns_it_off(tmp_path: Path) -> None:
     found = _rclcpp(tmp_path, _ODOMETRY, '<param name="publish_tf" value="false"/>')
     assert ("odom", "base_link", False) not in _frames(found)[0]
+    assert ("", "", False) in _frames(found)[0]
 
 
 def test_a_condition_that_is_not_known(tmp_path: Path) -> None:
@@ -237,6 +238,13 @@ def test_rclpy(tmp_path: Path) -> None:
         [("map", "lookup_transform"), ("base", "lookup_transform"), ("imu_link", "sensor_msgs/Imu")],
     )
     assert found.whole
+
+
+def test_what_is_not_come_to(tmp_path: Path) -> None:
+    text = _PYTHON.replace("self.br.sendTransform(t)", "if self.ready: self.br.sendTransform(t)")
+    text = text.replace("self.buffer = Buffer()", "self.buffer = Buffer()\n        self.ready = False")
+    found = _read(tmp_path, {**_RCLPY, "p/t.py": text}, "main.launch.xml", "")
+    assert _frames(found)[0] == [("map", "dock", True), ("", "", False)]
 
 
 def test_rospy(tmp_path: Path) -> None:

@@ -170,6 +170,8 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
     else:
         cpp, named = _cpp(environment, disk), (node.name, node.package, node.executable)
         found = cpp.read(named, args, resolved, params, config)
+    if main is not None and found.frames:
+        program.expect_broadcasts(found)
     said = SourceInterface(found.endpoints, found.params, found.nodes, frames=found.frames, frame_uses=found.frame_uses)
     return replace(said, whole=found.whole, unnamed=found.unnamed) if said != _NOTHING else _NOTHING
 
@@ -243,6 +245,15 @@ class _Program:
         tree = _python_tree(self._disk.db, path)
         self._path = path
         return (path, tree) if tree is not None else None
+
+    def expect_broadcasts(self, collected: Collector) -> None:
+        """Note the transforms that the program broadcasts somewhere."""
+        from preflight_analysis.source.python_frames import broadcasts_in  # noqa: PLC0415 - as those of `_read`
+
+        for path in (self._path, *self._loaded):
+            tree = _python_tree(self._disk.db, path)
+            for line in broadcasts_in(tree) if tree is not None else ():
+                collected.expect_broadcast(path, line, line)
 
     def load(self, name: str, level: int, importer: str) -> tuple[str, ast.Module] | None:
         """The module that an import means, if it is of a package in source form. Implements `python_modules.Load`."""

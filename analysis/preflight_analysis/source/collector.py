@@ -27,6 +27,7 @@ class Collector:
         self._nodes: dict[MadeNode, None] = {}
         self._frames: dict[tuple[str, str, bool], Frame] = {}
         self._frame_uses: dict[tuple[str, str], FrameUse] = {}
+        self._broadcasts: set[tuple[str, int]] = set()
         self._alternatives = False
         self._unknown_nodes = False
         self._missed = False
@@ -125,11 +126,18 @@ class Collector:
         most transforms are broadcast in one."""
         if len(self._frames) >= _MAX_FRAMES:
             return
+        self._broadcasts.add((file, line))
         named = Frame(_frame(parent), _frame(child), static, True, self.branches.inside, file, line)
         key = (named.parent, named.child, static)
         before = self._frames.get(key)
         if before is None or (before.conditional and not named.conditional):
             self._frames[key] = named
+
+    def expect_broadcast(self, file: str, first: int, last: int) -> None:
+        """Lines that broadcast a transform: where none of them was come to, a flag or a parameter keeps it from that,
+        and more frames than are known may follow."""
+        if not any(path == file and first <= line <= last for path, line in self._broadcasts):
+            self._frames.setdefault(("", "", False), Frame("", "", False, True, True, file, first))
 
     def use_frame(self, frame: Any, call: str, looked_up: bool, file: str, line: int) -> None:
         """A frame that is asked for, or stands in a message that is published."""

@@ -11,9 +11,10 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.source.collector import Collector
 from preflight_analysis.source.config_params import Config
 from preflight_analysis.source.cpp_files import CppFiles
+from preflight_analysis.source.cpp_frames import BROADCAST
 from preflight_analysis.source.cpp_interpreter import interpret_class, interpret_main, interpret_plugin
 from preflight_analysis.source.cpp_libraries import may_hide_ends
-from preflight_analysis.source.cpp_program import CppProgram
+from preflight_analysis.source.cpp_program import CppProgram, words_in
 from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.rclcpp_api import CONTROLLERS, PLUGINS
 from preflight_analysis.source.rclcpp_api import LIBRARIES as RCLCPP_LIBRARIES
@@ -58,6 +59,7 @@ class CppAnalysis:
             calls.include(program.includes)
             _judge(program, calls)
             interpret_main(program, (executable, *(arg for arg in args if ":=" not in arg)), calls)
+            _expect_broadcasts(program, calls.collected)
             for loaded in calls.nodelets:
                 calls.loaded = loaded
                 self._nodelet(files, loaded.plugin, calls)
@@ -88,6 +90,7 @@ class CppAnalysis:
                 interpret_class(program, cls.removeprefix("::"), None, calls)
             else:
                 interpret_main(program, (executable, *args), calls)
+            _expect_broadcasts(program, calls.collected)
         calls.finish()
         return calls.collected
 
@@ -130,6 +133,15 @@ class CppAnalysis:
             calls.include(found.program.includes)
             _judge(found.program, calls)
             interpret_class(found.program, found.cls, "onInit", calls)
+            _expect_broadcasts(found.program, calls.collected)
+
+
+def _expect_broadcasts(program: CppProgram, collected: Collector) -> None:
+    """Note the functions of the program that broadcast transforms."""
+    for function in (each for functions in program.functions.values() for each in functions):
+        if collected.frames and function.body is not None and BROADCAST in words_in(function.body):
+            first, last = function.body.start_point.row + 1, function.body.end_point.row + 1
+            collected.expect_broadcast(function.file.path, first, last)
 
 
 def _judge(program: CppProgram, calls: RoscppCalls | RclcppCalls) -> None:

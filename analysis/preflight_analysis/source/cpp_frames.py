@@ -22,7 +22,8 @@ _TRANSFORM = re.compile(r"transform(?:Point|Pose|PointCloud|Quaternion|Vector)?\
 _HAS_TREE = re.compile(r"tf2?(?:_ros)?::(?:Buffer\w*|Transformer|TransformListener)\Z")
 """Classes that transform by the tree of frames."""
 MESSAGE_FILTERS = frozenset(("tf::MessageFilter", "tf2_ros::MessageFilter"))
-WORDS = f"{' '.join(_LOOK_UP)} sendTransform frame_id frame_id_ MessageFilter"
+BROADCAST = "sendTransform"
+WORDS = f"{' '.join(_LOOK_UP)} {BROADCAST} frame_id frame_id_ MessageFilter"
 
 
 def message_of(type_: CppType, args: Sequence[Argument] = ()) -> Message | None:
@@ -42,7 +43,7 @@ def note_frames(collected: Collector, owner: Any, call: Call) -> None:
     kind = owner.type.name.removeprefix("::") if isinstance(owner, Unmade) else ""
     file, line = call.place.file, call.place.line
     given = values(call.args)
-    if call.name == "sendTransform":
+    if call.name == BROADCAST:
         first = given[0] if given else UNKNOWN
         for each in first if isinstance(first, list) and first else [first]:
             parent, child = _ends(each)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.source.collector import Collector
@@ -36,6 +37,7 @@ _LOOK_UP: Mapping[str, tuple[tuple[int, str], ...]] = {
 _OWNER = re.compile(r"tf2?(?:_ros)?\.(?:\w+\.)*(\w+)\(\)\.(\w+)\Z")
 _LISTENS = frozenset(("Buffer", "BufferClient", "Transformer", "TransformerROS", "TransformListener"))
 _HAS_TREE = frozenset(("tf.TransformListener", "tf.TransformerROS", "tf2_ros.Buffer", "tf2_ros.BufferClient"))
+_BROADCAST = ("sendTransform", "sendTransformMessage")
 _STATIC = "StaticTransformBroadcaster"
 
 
@@ -82,7 +84,7 @@ def note_frames(
     owner = _OWNER.match(path)
     if owner is None:
         return
-    if method in ("sendTransform", "sendTransformMessage"):
+    if method in _BROADCAST:
         if path.startswith("tf.") and method == "sendTransform":
             ends = [(given(4, "parent"), given(3, "child"))]
         else:
@@ -102,3 +104,10 @@ def _ends(value: Any) -> tuple[Any, Any]:
     header = value.names.get("header")
     parent = header.names.get("frame_id", UNKNOWN) if isinstance(header, Message) else UNKNOWN
     return known(parent), known(value.names.get("child_frame_id", UNKNOWN))
+
+
+def broadcasts_in(tree: ast.Module) -> Iterator[int]:
+    """The lines of a module that broadcast transforms."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in _BROADCAST:
+            yield node.lineno
