@@ -66,3 +66,17 @@ def test_tf2_in_ros_1() -> None:
 def test_tf_in_ros_1(call: str, looked_up: bool) -> None:
     interfaces = json.dumps(_source(call, looked_up))
     check(f"<launch>\n{_UNKNOWN.format('type')}\n</launch>\n//- interfaces\n{interfaces}")
+
+
+_MOVE_BASE = (
+    '<node pkg="move_base" type="move_base" name="m"><param name="global_costmap/global_frame" value="/map"/></node>'
+)
+
+
+def test_move_base_asks_tf2() -> None:
+    said = (
+        "warning[FRM004] frame '/map' begins with '/', which tf2 refuses: /m uses it (parameter 'global_costmap.global"
+    )
+    expected = below(_MOVE_BASE.index("/map"), 4, said)
+    package = "//- /move_base/package.xml\n<package><name>move_base</name></package>"
+    check(f"<launch>\n{_MOVE_BASE}\n{expected}\n</launch>\n{package}")
