@@ -258,6 +258,26 @@ def generate_launch_description():
     assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
 
 
+def test_what_xacro_writes_of_a_file_that_is_not_known_is_a_text(harness: PythonHarness) -> None:
+    """`xacro.process` gives a text, the other functions a document."""
+    tree = tree_of(
+        harness,
+        """
+import xacro
+
+def generate_launch_description():
+    urdf = os.path.join(get_package_share_directory("gone"), "urdf", "robot.xacro")
+    return LaunchDescription([
+        Node(package="p", executable="x", name="one", parameters=[{"robot_description": xacro.process(urdf)}]),
+        Node(package="p", executable="x", name="two", parameters=[
+            {"robot_description": xacro.process_file(urdf).toxml()}]),
+    ])
+""",
+    )
+    assert {node.name for node in tree.nodes} == {"/one", "/two"}
+    assert not [p for p in tree.problems if isinstance(p.kind, PythonException)]
+
+
 def test_xacro_names_the_file_that_does_not_exist(harness: PythonHarness) -> None:
     tree = tree_of(
         harness,
