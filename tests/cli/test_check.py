@@ -268,3 +268,25 @@ def on_terminal(command: list[str], harness: Harness, environment: dict[str, str
     os.close(ours)
     assert process.wait(60) == 0
     return shown.decode()
+
+
+def test_a_crash_stands_behind_its_cause(tmp_path: Path, preflight: Run) -> None:
+    """The type of a parameter is told at its value, and the crash that it leads to with that."""
+    share = tmp_path / "pump"
+    share.mkdir()
+    manifest = "<package><name>pump</name><export><build_type>ament_cmake</build_type></export></package>"
+    (share / "package.xml").write_text(manifest)
+    (share / "CMakeLists.txt").write_text("install(PROGRAMS pump.py DESTINATION lib/${PROJECT_NAME})\n")
+    (share / "pump.py").write_text(
+        "#!/usr/bin/env python3\nimport rclpy\nrclpy.init()\nnode = rclpy.create_node('pump')\n"
+        "node.declare_parameter('rate', 10.0)\nrclpy.spin(node)\n"
+    )
+    (share / "pump.py").chmod(0o755)
+    launch = share / "a.launch.xml"
+    launch.write_text(
+        '<launch><node pkg="pump" exec="pump.py" name="pump"><param name="rate" value="5"/></node></launch>'
+    )
+    findings = preflight("check", launch, "--format", "json", cwd=tmp_path).json["findings"]
+    (finding,) = [each for each in findings if each["severity"] in ("error", "warning") or each["rule"] == "TRC001"]
+    assert (finding["rule"], finding["severity"]) == ("PRM014", "error")
+    assert any(each["message"].startswith("/pump crashes on start: Trying to set") for each in finding["related"])

@@ -108,5 +108,10 @@ def test_a_crash_stands_behind_its_cause() -> None:
     found = causes_first({"/a.launch": (cause,), "/b.launch": (crash, other)}, "TRC001")
     assert found["/b.launch"] == (other,)
     assert [each.related for each in found["/a.launch"]] == [(Related(crash.message, crash.location),)]
+    elsewhere = {
+        "/a.launch": (replace(cause, roots=("/a.launch",)),),
+        "/b.launch": (replace(crash, roots=("/b.launch",)),),
+    }
+    assert causes_first(elsewhere, "TRC001") is elsewhere, "the node of another launch"
     alone = {"/b.launch": (crash, other)}
     assert causes_first(alone, "TRC001") is alone

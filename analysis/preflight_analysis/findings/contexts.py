@@ -71,24 +71,33 @@ def lacks_once(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def causes_first(findings: Mapping[str, tuple[Finding, ...]], crash: str) -> Mapping[str, tuple[Finding, ...]]:
-    """The findings by file, each crash of which the cause is a finding behind that as a related place. `crash` is the
-    rule that reports crashes."""
+    """The findings by file, each crash of which the cause is a finding of the same root behind that as a related place.
+    `crash` is the rule that reports crashes."""
     marked = [finding for found in findings.values() for finding in found if finding.crash_of]
-    crashes = {finding.crash_of: finding for finding in marked if finding.rule == crash}
-    causes = {finding.crash_of: finding for finding in reversed(marked) if finding.rule != crash}
-    explained = crashes.keys() & causes.keys()
-    if not explained:
+    causes = [finding for finding in marked if finding.rule != crash]
+    behind: dict[int, list[Related]] = {}
+    without: set[int] = set()
+    for ended in marked if causes else ():
+        if ended.rule != crash:
+            continue
+        cause = next((each for each in causes if each.crash_of == ended.crash_of and _share_root(each, ended)), None)
+        if cause is not None:
+            without.add(id(ended))
+            behind.setdefault(id(cause), []).append(Related(ended.message, ended.location))
+    if not without:
         return findings
-    without = {id(crashes[node]) for node in explained}
-    behind = {id(causes[node]): Related(crashes[node].message, crashes[node].location) for node in sorted(explained)}
     folded = dict(findings)
     for path in {finding.location.file for finding in marked}:
         folded[path] = tuple(
-            replace(each, related=(*each.related, behind[id(each)])) if id(each) in behind else each
+            replace(each, related=(*each.related, *behind[id(each)])) if id(each) in behind else each
             for each in findings.get(path, ())
             if id(each) not in without
         )
     return folded
+
+
+def _share_root(one: Finding, other: Finding) -> bool:
+    return one.roots == other.roots or not set(one.roots).isdisjoint(other.roots)
 
 
 def _grouped(findings: Iterable[Finding]) -> dict[str, tuple[Finding, ...]]:

@@ -17,7 +17,9 @@ _OTHER_TYPE = (
         rf"parameter {_NAME} has invalid type: Wrong parameter type, .*? is of type {{{_TYPE}}}, setting it to "
     ),
     re.compile(rf"parameter {_NAME} has invalid type: expected \[{_TYPE}\] got \[(?!not set)"),
+    re.compile(rf"Trying to set parameter {_NAME} to '.*' of type '\w+', expecting type '{_TYPE}'", re.IGNORECASE),
 )
+"""What rclcpp says, of two versions, and rclpy."""
 _BAD_VALUE = re.compile(rf"parameter {_NAME} could not be set: (?P<why>.+)")
 _UNSET = (
     re.compile(rf"Statically typed parameter {_NAME} must be initialized"),
@@ -34,7 +36,7 @@ def refused_param(outcome: Outcome) -> ParamUse | None:
     for pattern in _OTHER_TYPE:
         found = pattern.search(said)
         if found is not None:
-            return ParamUse(f"~{found['name']}", "get", type=found["type"].replace("_", " "), refused=said)
+            return ParamUse(f"~{found['name']}", "get", type=found["type"].lower().replace("_", " "), refused=said)
     found = _BAD_VALUE.search(said)
     if found is not None:
         return ParamUse(f"~{found['name']}", "get", refused=found["why"])

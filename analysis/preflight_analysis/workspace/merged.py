@@ -11,6 +11,9 @@ from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.workspace.index import Root
 
+CRASH = "TRC001"
+"""The rule that reports nodes that crashed."""
+
 
 def counting(files: Mapping[Root, Iterable[str]], asked: Collection[Root]) -> frozenset[Root]:
     """The roots whose findings are shown: those that no other one includes, and those that were asked for. `files` has

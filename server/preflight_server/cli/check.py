@@ -14,14 +14,14 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
-from preflight_analysis.findings.contexts import RootFindings
+from preflight_analysis.findings.contexts import RootFindings, causes_first
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.report import Report, printable, relative, to_json, to_text
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.merged import counting, merged
+from preflight_analysis.workspace.merged import CRASH, counting, merged
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
@@ -198,12 +198,12 @@ def _not_included(found: Sequence[_Launched], asked: Collection[Root]) -> list[_
 
 def _merged(launched: Sequence[_Launched]) -> tuple[Finding, ...]:
     """As an editor shows them."""
-    if len(launched) == 1:
-        return launched[0].findings
     reports = [
         RootFindings(each.root.label, frozenset((*each.files, *each.inputs)), each.findings) for each in launched
     ]
-    found = merged(reports)
+    if len(reports) == 1 and not any(each.crash_of for each in reports[0].findings):
+        return reports[0].findings
+    found = causes_first(merged(reports), CRASH)
     return tuple(finding for file in sorted(found) for finding in found[file])
 
 

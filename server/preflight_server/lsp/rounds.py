@@ -16,7 +16,7 @@ from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.merged import counting, merged
+from preflight_analysis.workspace.merged import CRASH, counting, merged
 from preflight_analysis.workspace.run_results import RunResults
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -26,8 +26,6 @@ from preflight_server.lsp.text_store import TextStore
 
 _log = logging.getLogger(__name__)
 
-CRASH = "TRC001"
-"""The rule that reports nodes that crashed."""
 LARGE = 100
 """From so many nodes on, what can be said of a launch without the graph is shown first."""
 
