@@ -32,6 +32,21 @@ def test_a_joint_that_is_published_again() -> None:
     check(fixture(f"{robot(('base', 'laser'))}\n{node}\n{below(0, len(node.partition('>')[0]) + 1, said)}"))
 
 
+_PLUGIN = (
+    "&lt;gazebo>&lt;plugin filename='libgazebo_ros_diff_drive.so' name='drive'>"
+    "&lt;odometry_frame>odom&lt;/odometry_frame>&lt;robot_base_frame>base_link&lt;/robot_base_frame>&lt;/plugin>&lt;/gazebo>&lt;/robot>"
+)
+_GAZEBO = "\n//- /gazebo_ros/package.xml\n<package><name>gazebo_ros</name></package>"
+
+
+def test_a_plugin_of_the_simulator() -> None:
+    driven = robot(("base_link", "laser")).replace("&lt;/robot>", _PLUGIN)
+    said = "info[FRM002] frame 'base_link' has two publishers: /rsp (drive) and /ekf"
+    spawn = '<node pkg="gazebo_ros" exec="spawn_entity.py" name="spawn"/>'
+    check(fixture(f"{driven}\n{spawn}\n{_EKF}\n{_BASE}\n{below(13, 15, said)}", None, _GAZEBO))
+    check(fixture(f"{driven}\n{_EKF}\n{_BASE}"))  # on the robot it does nothing
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     "nodes",

@@ -43,13 +43,15 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
-    simulated = _of_sensors(tree) if _simulates(nodes) else ()
+    simulates = _simulates(nodes)
+    simulated = _of_sensors(tree) if simulates else ()
     shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
     return Frames(
         (*_of_robots(tree), *chain.from_iterable(edges)),
         (*chain.from_iterable(uses), *simulated, *shown),
         tuple(chain.from_iterable(mentions)),
         tuple(_gaps(tree, nodes, interfaces, known, unnamed, edges)),
+        simulates,
     )
 
 

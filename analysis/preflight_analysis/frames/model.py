@@ -112,6 +112,9 @@ class Frames(Once):
     uses: tuple[Use, ...] = ()
     mentions: tuple[Mention, ...] = ()
     gaps: tuple[str, ...] = ()
+    simulated: bool = False
+    """Whether the launch starts a simulator, or puts a robot into one: otherwise the plugins of a description do
+    nothing."""
 
     def names(self, space: str) -> frozenset[str]:
         """The frames that are broadcast in a space."""

@@ -15,8 +15,9 @@ from preflight_analysis.rules.rule import Context, Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     frames = frames_of(context)
     spaces: list[Mapping[str, Sequence[Edge]]] = [frames.parents(space) for space in frames.spaces]
-    for child, edges in chain.from_iterable(each.items() for each in spaces):
-        if len(edges) == 1:
+    for child, known in chain.from_iterable(each.items() for each in spaces):
+        edges = [edge for edge in known if frames.simulated or edge.how != "gazebo"]
+        if len(edges) < 2:
             continue
         # A joint is where it belongs; what contradicts it is told.
         first, *others = sorted(edges, key=lambda edge: edge.how != "urdf")
