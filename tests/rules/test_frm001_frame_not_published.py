@@ -138,6 +138,38 @@ def test_sensors_of_which_nothing_is_wrong(frame: str, child: str) -> None:
     check(_with_lidar(frame, child=child))
 
 
+_OWN = '<node pkg="p" exec="driver" name="driver"><param name="frame_id" value="{}"/></node>'
+
+
+def test_the_frame_of_a_driver_that_nobody_knows() -> None:
+    nodes = f"{robot(('base_link', 'laser_link'))}\n{_OWN.format('laser_lnk')}"
+    said = (
+        "info[FRM001] 'laser_lnk' has no publisher: /driver has it (parameter 'frame_id'); did you mean 'laser_link'?"
+    )
+    seen = {"/driver": {"params": {"~frame_id": ""}}}
+    expected = below(_OWN.index("{}"), 9, said)
+    (found,) = check(fixture(f"{nodes}\n{expected}", seen))
+    assert 'value="laser_link"' in apply(fixture(nodes, seen), found.fixes[0].edits)["/main.launch.xml"]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        _OWN.format("laser_link"),
+        _OWN.format("sonar"),
+        # It calls its frame so in each place.
+        _OWN.format("laser_lnk")
+        + '<node pkg="p" exec="driver" name="two"><param name="frame_id" value="laser_lnk"/></node>',
+        _OWN.replace("frame_id", "output_frame").format("laser_lnk"),
+    ],
+)
+def test_drivers_that_nobody_knows(nodes: str) -> None:
+    params = {"params": {"~frame_id": "", "~output_frame": ""}}
+    seen = {"/driver": params} | ({"/two": params} if "two" in nodes else {})
+    check(fixture(f"{robot(('base_link', 'laser_link'))}\n{nodes}", seen))
+
+
 def test_the_frame_of_a_simulated_sensor() -> None:
     sensor = "<gazebo><sensor name='lidar' type='gpu_lidar'><gz_frame_id>{}</gz_frame_id></sensor></gazebo>"
     spawn = '<node pkg="ros_gz_sim" exec="create" name="create"/>'

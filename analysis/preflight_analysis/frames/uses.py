@@ -30,7 +30,7 @@ _SENSORS = frozenset(
     )
 )
 """Messages of sensors whose place counts."""
-_OF_SENSOR = ("frame_id", "camera_frame_id", "imu_frame", "laser_frame_id", "lidar_frame", "sensor_frame")
+OF_SENSOR = ("frame_id", "camera_frame_id", "imu_frame", "laser_frame_id", "lidar_frame", "sensor_frame")
 """The parameters by which drivers have the frame of their messages."""
 OF_LOCALIZATION = frozenset(("map", "odom", "world", "earth", "utm"))
 """Frames of REP 105, which localization publishes: it is mostly started by itself."""
@@ -106,7 +106,7 @@ def _of_knowledge(
             continue
         what = f"parameter '{each.parameter}'" + ("" if each.param is not None else " by default")
         used = meaning.role == "used"
-        of_sensor = not used and each.parameter in _OF_SENSOR and plain(value) not in OF_LOCALIZATION
+        of_sensor = not used and each.parameter in OF_SENSOR and plain(value) not in OF_LOCALIZATION
         yield Use(plain(value), value, node, what, each.param, space, used, known.is_used, of_sensor=of_sensor)
 
 

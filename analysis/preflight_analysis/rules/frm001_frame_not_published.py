@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
 from preflight_analysis.frames.model import Frames
 from preflight_analysis.frames.uses import OF_LOCALIZATION
-from preflight_analysis.rules.frames import frames_of, place_of_use
+from preflight_analysis.rules.frames import frames_of, place_of_mention, place_of_use
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.missing_frames import MissingFrame, missing_frames
+from preflight_analysis.rules.missing_frames import MissingFrame, mentioned_slips, missing_frames
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -33,6 +33,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             confidence=confidence,
             related=include_chain(use.node.origin) if use.param is None else (),
             fixes=rename(context, place, use.written, missing.near) if missing.near and use.param is not None else (),
+        )
+    yield from _of_drivers(rule, context)
+
+
+def _of_drivers(rule: Rule, context: Context) -> Iterator[Finding]:
+    for mention, near in mentioned_slips(context):
+        place, written = place_of_mention(context, mention), str(mention.param.value)
+        yield rule.finding(
+            f"frame '{written}' has no publisher: {mention.node.name} has it (parameter '{mention.parameter}')"
+            f"{did_you_mean(near)}",
+            place,
+            severity="info",
+            confidence="possible",
+            fixes=rename(context, place, written, near),
         )
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from preflight_analysis.frames.edges import is_state_publisher, prefix_of
-from preflight_analysis.frames.model import Edge, Frames, Use
+from preflight_analysis.frames.model import Edge, Frames, Mention, Use
+from preflight_analysis.frames.uses import OF_SENSOR
 from preflight_analysis.rules.frames import frames_of
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.rule import Context
@@ -45,6 +47,23 @@ def _missing(context: Context) -> tuple[MissingFrame, ...]:
         alike = _alike(frames, use) if use.of_sensor and elsewhere is None and near is None else None
         found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near, alike))
     return tuple(found.values())
+
+
+def mentioned_slips(context: Context) -> Iterator[tuple[Mention, str]]:
+    """The frames of sensors in the parameters of nodes of which nothing is known, that are a slip of a link or of its
+    like, each with that. Who broadcasts the frame itself may call it so."""
+    frames = frames_of(context)
+    counts = Counter(mention.frame for mention in frames.mentions)
+    for mention in frames.mentions:
+        name = mention.parameter.rpartition(".")[2]
+        names = frames.names(mention.space)
+        # What two nodes name is no slip of the keyboard.
+        if name not in OF_SENSOR or mention.frame in names or counts[mention.frame] > 1:
+            continue
+        links = {edge.child for edge in frames.edges if edge.how == "urdf" and edge.space == mention.space}
+        near = nearest(mention.frame, links)
+        if near is not None and is_slip(mention.frame, near):
+            yield mention, near
 
 
 def _prefixes(context: Context) -> frozenset[str]:
