@@ -45,6 +45,8 @@ def test_a_plugin_of_the_simulator() -> None:
     spawn = '<node pkg="gazebo_ros" exec="spawn_entity.py" name="spawn"/>'
     check(fixture(f"{driven}\n{spawn}\n{_EKF}\n{_BASE}\n{below(13, 15, said)}", None, _GAZEBO))
     check(fixture(f"{driven}\n{_EKF}\n{_BASE}"))  # on the robot it does nothing
+    system = driven.replace("name='drive'", "name='gz::sim::systems::DiffDrive'")
+    check(fixture(f"{system}\n{spawn}\n{_EKF}\n{_BASE}", None, _GAZEBO))
 
 
 @pytest.mark.silent

@@ -11,12 +11,15 @@ from preflight_analysis.rules.frames import frames_of, place_of_edge
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.rule import Context, Rule
 
+_SYSTEM = "::systems::"
+"""In the names of plugins of Gazebo that are no nodes of ROS: what they send comes to it by a bridge alone."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     frames = frames_of(context)
     spaces: list[Mapping[str, Sequence[Edge]]] = [frames.parents(space) for space in frames.spaces]
     for child, known in chain.from_iterable(each.items() for each in spaces):
-        edges = [edge for edge in known if frames.simulated or edge.how != "gazebo"]
+        edges = [edge for edge in known if edge.how != "gazebo" or (frames.simulated and _SYSTEM not in edge.detail)]
         if len(edges) < 2:
             continue
         # A joint is where it belongs; what contradicts it is told.
