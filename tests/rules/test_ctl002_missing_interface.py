@@ -1,7 +1,7 @@
 """CTL002: an interface that a joint does not have."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 from support.controlled_robot import launch, spawner
 
 _BASE = """
@@ -41,3 +41,28 @@ def test_a_state_interface_of_those_that_a_parameter_lists() -> None:
 def test_interfaces_that_are_there() -> None:
     check(launch(spawner("base"), params=_BASE))
     check(launch(spawner("arm"), params=_ARM.replace(", position", "")))
+
+
+_NAMED = """
+    controller_manager:
+      ros__parameters:
+        grip: {{type: own/Gripper}}
+    grip:
+      ros__parameters:
+        max_effort_interface: left_wheel/{}
+        tool_interface: tool/on
+"""
+
+
+def test_an_interface_with_its_joint_in_any_parameter() -> None:
+    (found,) = findings_of(launch(spawner("grip"), params=_NAMED.format("effort")))
+    assert (found.severity, found.message) == (
+        "warning",
+        "joint 'left_wheel' has no interface 'effort', which parameter 'max_effort_interface' of 'grip' (own/Gripper) "
+        "names; it has 'velocity'",
+    )
+
+
+@pytest.mark.silent
+def test_an_interface_with_its_joint_that_is_there() -> None:
+    assert findings_of(launch(spawner("grip"), params=_NAMED.format("velocity"))) == []

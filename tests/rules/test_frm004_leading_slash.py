@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 from support.frame_launch import EKF, EKF_COLUMN, below, fixture, static
 
 
@@ -80,3 +80,46 @@ def test_move_base_asks_tf2() -> None:
     expected = below(_MOVE_BASE.index("/map"), 4, said)
     package = "//- /move_base/package.xml\n<package><name>move_base</name></package>"
     check(f"<launch>\n{_MOVE_BASE}\n{expected}\n</launch>\n{package}")
+
+
+_COSTMAP = """
+        <launch>
+          <node pkg="own" type="explore" name="explore">
+            <rosparam ns="local_costmap">{{global_frame: {}, robot_base_frame: base_link}}</rosparam>
+          </node>
+        </launch>
+        //- /own/package.xml
+        <package><name>own</name></package>
+    """
+
+
+def test_a_costmap_of_another_node_of_ros_1() -> None:
+    (found,) = [f for f in findings_of(_COSTMAP.format("/odom")) if f.rule == "FRM004"]
+    assert found.message == (
+        "frame '/odom' begins with '/', which tf2 refuses: '/explore/local_costmap/global_frame' has it"
+    )
+
+
+@pytest.mark.silent
+def test_a_costmap_of_another_node_of_ros_1_without_a_slash() -> None:
+    assert [f for f in findings_of(_COSTMAP.format("odom")) if f.rule == "FRM004"] == []
+
+
+_LIDAR = """
+        //- /main.launch.xml
+        <launch>
+          <node pkg="own" exec="lidar" name="lidar"><param name="frame_id" value="{}"/></node>
+        </launch>
+        //- /own/package.xml
+        <package><name>own</name></package>
+    """
+
+
+def test_a_parameter_of_a_node_that_is_not_known() -> None:
+    (found,) = [f for f in findings_of(_LIDAR.format("/laser")) if f.rule == "FRM004"]
+    assert found.message == "frame '/laser' begins with '/', which tf2 refuses: /lidar gets it as 'frame_id'"
+
+
+@pytest.mark.silent
+def test_a_parameter_of_a_node_that_is_not_known_without_a_slash() -> None:
+    assert [f for f in findings_of(_LIDAR.format("laser")) if f.rule == "FRM004"] == []

@@ -18,6 +18,11 @@ from preflight_analysis.rules.nearest import is_word_more, likeness, nearest
         ("talker", ["listener"], None),
         ("talker", ["talker"], None),
         ("talker", [], None),
+        ("resolution_fixed", ["fixed_resolution", "resolution"], "fixed_resolution"),
+        ("velocity_controller_left", ["vel_ctrl_left", "vel_controller_left"], "vel_controller_left"),
+        ("velocity_left", ["vel_left", "velo_left"], None),
+        ("left_front", ["front_right"], None),
+        ("wheel", ["wheels_of_robot"], None),
     ],
 )
 def test_nearest(name: str, candidates: list[str], expected: str | None) -> None:

@@ -1,5 +1,7 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
+from pathlib import Path
+
 import pytest
 from preflight_analysis.findings.contexts import RootFindings, by_file
 from support.check import check, findings_of
@@ -120,3 +122,60 @@ def test_a_key_that_fits_a_node_of_another_launch_is_not_wrong() -> None:
     ]
     assert [*by_file(reports, ())] == ["/robot.launch.xml"]
     assert sorted(by_file(reports[1:], ())) == ["/camera.yaml", "/robot.launch.xml"]
+
+
+_SHARED = """
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="teleop_node" name="go2_teleop_node"><param from="/shared.yaml"/></node>
+          <node pkg="p" exec="mux" name="mux"><param from="/shared.yaml"/></node>
+        </launch>
+        //- /shared.yaml
+        mux:
+          ros__parameters: {{rate: 1}}
+        {}:
+          ros__parameters: {{rate: 1}}
+    """
+
+
+def test_a_section_of_a_shared_file_that_is_called_as_the_executable_of_a_node_without_one() -> None:
+    found = findings_of(_SHARED.format("teleop_node"))
+    assert [f.message.partition(";")[0] for f in found] == [
+        "no section of this file applies to /go2_teleop_node",
+        "section '/teleop_node' applies to no node that gets this file (only /go2_teleop_node)",
+    ]
+
+
+@pytest.mark.silent
+def test_a_section_of_a_shared_file_for_a_node_of_another_launch() -> None:
+    assert findings_of(_SHARED.format("costmap")) == []
+
+
+@pytest.mark.parametrize(("files", "said"), [(2, True), (1, False)])
+def test_a_namespace_that_is_a_slip_of_one_in_several_files(tmp_path: Path, files: int, said: bool) -> None:
+    package = tmp_path / "p"
+    package.mkdir()
+    for at in range(files):
+        (package / f"{at}.yaml").write_text("second_robot:\n  nav:\n    ros__parameters: {a: 1}\n")
+    (package / "main.launch.xml").touch()
+    (package / "package.xml").write_text("<package><name>p</name></package>")
+    (package / "ihm.yaml").write_text("seond_robot:\n")
+    found = findings_of(f"""
+        //- {package}/main.launch.xml
+        <launch>
+          <node pkg="p" exec="ihm" name="ihm" namespace="main_robot"><param from="{package}/ihm.yaml"/></node>
+        </launch>
+        //- {package}/package.xml
+        <package><name>p</name></package>
+        //- {package}/ihm.yaml
+        main_robot:
+          ihm:
+            ros__parameters: {{a: 1}}
+        seond_robot:
+          ihm:
+            ros__parameters: {{a: 1}}
+    """)
+    assert [f.message for f in found if f.rule == "PRM011"] == [
+        "section '/seond_robot/ihm' applies to no node; did you mean '/second_robot/ihm'? 2 parameter files nearby "
+        "have that namespace"
+    ] * said

@@ -5,7 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, findings_of
 
 ROS_1 = """
@@ -109,3 +112,37 @@ def test_what_is_commented_out_asks_for_nothing(comment: str, tmp_path: Path) ->
     source = 'nh.getParam("new_mux_idx", idx);'
     assert found(tmp_path, param("new_mux_idxs"), {"p/src/a.cpp": comment.format(source)}) == []
     assert [f.severity for f in found(tmp_path, param("new_mux_idxs"), {"p/src/b.cpp": source})] == ["warning"]
+
+
+def _loose(folder: Path, text: str) -> list[str]:
+    """What is said of a parameter file that no launch file names."""
+    reads = "".join(f'nh.param("{name}", x, 1);\n' for name in ("axis_x", "axis_y", "scale_x", "fixed_resolution"))
+    texts = {
+        "package.xml": "<package><name>p</name></package>",
+        "launch/a.launch": "<launch/>",
+        "src/a.cpp": reads,
+        "config/xd3.yaml": text,
+    }
+    for place, each in texts.items():
+        path = folder / "src/p" / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(each)
+    environment = detect_environment(str(folder), {"ROS_VERSION": "1"}, root=str(folder / "nowhere"))
+    workspace = Workspace(environment, Sources())
+    static = workspace.static(str(folder / "src/p/launch/a.launch"))
+    return [each.message for each, _ in workspace.branches(static).findings if each.rule == "PRM023"]
+
+
+def test_a_file_that_no_launch_file_names(tmp_path: Path) -> None:
+    assert _loose(tmp_path, "axis_x: 1\naxis_y: 2\nscale_x: 3\nresolution_fixed: 4\n") == [
+        "parameter 'resolution_fixed' is in no source of the workspace; did you mean 'fixed_resolution', which a.cpp "
+        "reads?"
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "text", ["axis_x: 1\naxis_y: 2\nscale_x: 3\nfixed_resolution: 4\n", "a: 1\nb: 2\nc: 3\nresolution_fixed: 4\n", "["]
+)
+def test_a_file_of_something_else_or_without_a_slip(tmp_path: Path, text: str) -> None:
+    assert _loose(tmp_path, text) == []

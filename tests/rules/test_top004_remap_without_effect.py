@@ -312,3 +312,25 @@ def test_a_name_below_one_that_the_node_may_have_resolved() -> None:
         {"/view": {"source": "catalogue", "subscribers": {"image": "x/Y"}, "publishers": {"image/point": "x/Z"}}}
     """)
     assert "TOP004" not in [finding.rule for finding in findings]
+
+
+_SWAPPED = """
+        <launch>
+          <node pkg="p" type="t" name="slam">
+            <remap from="{}" to="{}"/>
+          </node>
+        </launch>
+        //- interfaces
+        {{"/slam": {{"source": "source", "subscribers": {{"laser": "sensor_msgs/LaserScan"}}}}}}
+    """
+
+
+def test_from_and_to_the_wrong_way_around() -> None:
+    (finding,) = [f for f in findings_of(_SWAPPED.format("scan", "laser")) if f.rule == "TOP004"]
+    assert finding.severity == "warning"
+    assert finding.message.endswith("'from' and 'to' are swapped: it subscribes to 'laser'")
+
+
+@pytest.mark.silent
+def test_from_and_to_as_they_are_meant() -> None:
+    assert [f for f in findings_of(_SWAPPED.format("laser", "scan")) if f.rule == "TOP004"] == []

@@ -28,6 +28,8 @@ from preflight_analysis.rules.rule import Context
 _TYPE = ".type"
 _NOT_STARTED = frozenset({"--inactive", "--stopped", "--load-only"})
 _UNLOADS = "unspawner"
+_JOINTS = ("joint", "joints", "left_wheel", "right_wheel")
+_EXTRA = "extra_joints"
 
 
 class Claim(NamedTuple):
@@ -37,6 +39,15 @@ class Claim(NamedTuple):
     interfaces: tuple[str, ...]
     commands: bool
     param: Param
+
+
+class NamedJoint(NamedTuple):
+    """A joint that the parameters of a controller of ROS 1 name. `is_extra`: it has no hardware, and its state is
+    published as it is written."""
+
+    joint: str
+    param: Param
+    is_extra: bool = False
 
 
 class Controller(NamedTuple):
@@ -78,6 +89,18 @@ def controllers_of(context: Context) -> tuple[Controller, ...]:
         if (node.package, node.executable) == MANAGER
         for each in _of_manager(context, node, spawned)
     )
+
+
+def joints_of_ros1(tree: LaunchTree, controller: str) -> Iterator[NamedJoint]:
+    """The joints of a controller of ROS 1, by its full name."""
+    for name in _JOINTS:
+        param = tree.params.get(f"{controller}/{name}")
+        if param is not None:
+            yield from (NamedJoint(joint, param) for joint in items_of(param.value))
+    extra = tree.params.get(f"{controller}/{_EXTRA}")
+    for each in extra.value if extra is not None and isinstance(extra.value, list) else ():
+        if extra is not None and isinstance(each, dict) and isinstance(each.get("name"), str):
+            yield NamedJoint(each["name"], extra, is_extra=True)
 
 
 def robot_of(context: Context, controller: Controller) -> Description | None:

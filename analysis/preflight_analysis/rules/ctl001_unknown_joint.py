@@ -7,16 +7,61 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.evaluation.ros1.spawners import loaded_by
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding, Related, Severity
 from preflight_analysis.robot.model import Description
-from preflight_analysis.rules.controllers import Controller, controllers_of, place_of, robot_of
+from preflight_analysis.robot.of_launch import unread_of
+from preflight_analysis.rules.controllers import Controller, controllers_of, joints_of_ros1, place_of, robot_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.robots import robots
 from preflight_analysis.rules.rule import Context, Rule
+
+IN_NO_OTHER_FILE = "joint '{}' is in no other file; did you mean '{}', as in {} files nearby?"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from (_of_ros2 if context.tree.ros.ament else _of_ros1)(rule, context)
+
+
+def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
+    """A hardware interface may have joints that the description lacks, so that one without a near name is less sure."""
+    found = list(robots(context))
+    if len(found) != 1 or unread_of(context.tree):
+        return
+    joints = frozenset(joint.name for joint in found[0].description.joints)
+    for node in context.tree.nodes:
+        for controller in loaded_by(node):
+            type_ = context.tree.params.get(f"{controller}/type")
+            if type_ is not None and isinstance(type_.value, str):
+                yield from _of_controller_of_ros1(rule, context, controller, type_.value, joints, node)
+
+
+def _of_controller_of_ros1(
+    rule: Rule, context: Context, controller: str, type_: str, joints: frozenset[str], spawner: LaunchNode
+) -> Iterator[Finding]:
+    named = list(joints_of_ros1(context.tree, controller))
+    beside = frozenset(each.joint for each in named)
+    for each in named:
+        if each.joint in joints or "$" in each.joint:
+            continue
+        place, near = place_of(context, each.param, each.joint), nearest(each.joint, joints - beside)
+        is_typo = near is not None and is_slip(each.joint, near)
+        of_robot = is_typo or not joints.isdisjoint(beside)
+        severity: Severity = "info" if not of_robot else "error" if is_typo and not each.is_extra else "warning"
+        yield rule.finding(
+            f"joint '{each.joint}' does not exist: '{controller}' ({type_}) uses it{did_you_mean(near)}",
+            place,
+            severity=severity,
+            confidence="likely" if severity == "error" else "possible",
+            related=[Related(f"'{controller}' is spawned here", spawner.location)],
+            fixes=rename(context, place, each.joint, near) if near is not None else (),
+        )
+
+
+def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     for each in context.once(controllers_of):
         robot = robot_of(context, each) if each.spawner is not None else None
         if robot is not None and robot.joints:
@@ -55,14 +100,18 @@ RULE = Rule(
     what="Checks for a joint in the parameters of a controller that the robot description of the launch does not have. "
     "The controller is one of ros2_controllers, and the launch spawns it. A name that contains a slash is an interface "
     "of another controller and is not checked here. If the robot has none of the joints of the controller and none "
-    "of a similar name, it is another variant of the robot, and the finding is information.",
+    "of a similar name, it is another variant of the robot, and the finding is information. In ROS 1 the rule checks "
+    "`joint`, `joints`, `left_wheel`, `right_wheel` and `extra_joints` of controllers that `controller_manager` loads. "
+    "A joint without a similar name is a warning there, as the hardware may have joints of its own. If the robot "
+    "description is unknown, only a name is reported that no other file has, and of which one in several files is a "
+    "typo away, in `joint` and `joints` of YAML files of the package.",
     why="The controller cannot be configured or activated, because no hardware has interfaces of that joint. The robot "
     "does not move.",
     example="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_whel_joint]",
     instead="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_wheel_joint]",
     references=(ROS2_CONTROLLERS,),
     settings=("knowledge",),
-    generations=(2,),
+    generations=(1, 2),
     check=_check,
     every_root=True,
 )

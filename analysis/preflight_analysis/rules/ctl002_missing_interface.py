@@ -7,11 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.controllers import Controller, controllers_of, place_of, robot_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.problems import quoted
 from preflight_analysis.rules.rule import Context, Rule
+
+_FULL_NAMES = ("_interface", "_interfaces")
+"""The ends of the names of parameters that may have interfaces with their joints."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -23,6 +27,27 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         commands = {joint.name: set(joint.commands) for system in systems for joint in system.joints}
         states = {joint.name: set(joint.states) for system in systems for joint in system.joints}
         yield from _of_controller(rule, context, each, commands, states)
+        yield from _by_full_name(rule, context, each, commands, states)
+
+
+def _by_full_name(
+    rule: Rule, context: Context, controller: Controller, commands: dict[str, set[str]], states: dict[str, set[str]]
+) -> Iterator[Finding]:
+    """Interfaces that a parameter has as `joint/interface`, whatever it is for."""
+    for param in controller.params:
+        if not param.name.rpartition(".")[2].endswith(_FULL_NAMES):
+            continue
+        for value in items_of(param.value):
+            joint, _, interface = value.partition("/")
+            known = commands.get(joint, set()) | states.get(joint, set())
+            if joint in commands and interface and interface not in known:
+                yield rule.finding(
+                    f"joint '{joint}' has no interface '{interface}', which parameter '{param.name}' of "
+                    f"'{controller.name}' ({controller.type}) names; it has {quoted(sorted(known))}",
+                    place_of(context, param, value),
+                    severity="warning",
+                    confidence="likely",
+                )
 
 
 def _of_controller(
@@ -49,7 +74,9 @@ RULE = Rule(
     name="missing-interface",
     severity="error",
     what="Checks for a command or state interface that a controller claims and that `<ros2_control>` in the robot "
-    "description does not give to the joint. The controller is one of ros2_controllers, and the launch spawns it.",
+    "description does not give to the joint. The controller is one of ros2_controllers, and the launch spawns it. A "
+    "parameter of any controller whose name ends in `_interface` or `_interfaces` is checked if its value is "
+    "`joint/interface`, which is a warning.",
     why="The controller manager refuses to activate the controller. The robot does not move.",
     example='<joint name="left_wheel_joint">\n  <command_interface name="position"/>\n</joint>',
     instead='<joint name="left_wheel_joint">\n  <command_interface name="velocity"/>\n</joint>',

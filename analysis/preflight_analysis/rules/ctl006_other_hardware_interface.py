@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
-from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import Robot, unread_of
+from preflight_analysis.rules.controllers import joints_of_ros1
 from preflight_analysis.rules.further_reading import ROS_CONTROL_GAZEBO
 from preflight_analysis.rules.robots import robots, written
 from preflight_analysis.rules.rule import Context, Rule
@@ -29,7 +29,6 @@ _ASKED = {
     "diff_drive_controller": "VelocityJointInterface",
 }
 """The interface that the controllers of a package ask for (ros-controls/ros_controllers 678b92a)."""
-_JOINTS = ("joint", "joints", "left_wheel", "right_wheel")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -56,7 +55,7 @@ def _of_controller(
     joints = {joint.name for joint in robot.description.joints}
     wrong = [
         (joint, interfaces.get(joint))
-        for joint in _joints_of(context, controller)
+        for joint in (each.joint for each in joints_of_ros1(context.tree, controller) if not each.is_extra)
         if joint in joints and interfaces.get(joint) != asked
     ]
     if not wrong:
@@ -73,13 +72,6 @@ def _of_controller(
             Related(f"'{controller}' is loaded here", spawner.location),
         ),
     )
-
-
-def _joints_of(context: Context, controller: str) -> Iterator[str]:
-    given: list[Param | None] = [context.tree.params.get(f"{controller}/{name}") for name in _JOINTS]
-    for param in given:
-        if param is not None:
-            yield from items_of(param.value)
 
 
 def _is_default(description: Description) -> bool:

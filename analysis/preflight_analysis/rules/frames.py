@@ -37,7 +37,12 @@ def place_of_use(context: Context, use: Use) -> Location:
 
 def place_of_mention(context: Context, mention: Mention) -> Location:
     """Where a frame is named: the value of the parameter."""
-    return _place_of(context, mention.param, str(mention.param.value))
+    return place_of_param(context, mention.param)
+
+
+def place_of_param(context: Context, param: Param) -> Location:
+    """Where a parameter that is a frame has it written."""
+    return _place_of(context, param, str(param.value))
 
 
 def _place_of(context: Context, param: Param, value: str) -> Location:

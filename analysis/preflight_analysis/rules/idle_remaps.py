@@ -36,6 +36,8 @@ class IdleRemap:
     """An end of another node that stands under the remap's target and that `meant` would fit."""
     sure: bool = True
     """Whether all names of the nodes are known. If not, `meant` has the very name but for a `~` or a namespace."""
+    is_reversed: bool = False
+    """Whether the target is a name that the source of each node makes: `from` and `to` are the wrong way around."""
 
     @property
     def to_itself(self) -> bool:
@@ -52,6 +54,7 @@ class _Reached:
     has_effect: bool
     known_by: str
     sure: bool
+    is_reversed: bool = False
 
 
 def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
@@ -68,7 +71,9 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
     own_ends = kept.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
     of_nodes = kept.grouped(_node, "", chain.from_iterable(own_ends))
     found = (_with_meaning(context, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
-    return tuple(each for each in found if (each.sure and not each.to_itself) or each.meant is not None)
+    return tuple(
+        each for each in found if (each.sure and not (each.to_itself or each.is_reversed)) or each.meant is not None
+    )
 
 
 def meant_endpoints(context: Context) -> frozenset[int]:
@@ -88,7 +93,8 @@ def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
     for remap in node.remaps:
         # One to itself has none whatever the node uses.
         idle = (tells or _is_to_itself(remap, node)) and _has_no_effect(remap, node, known)
-        found.append(_Reached(remap, node, not idle, known_by, sure))
+        swapped = not idle and tells and interface.source == "source" and _is_reversed(remap, node, known)
+        found.append(_Reached(remap, node, not (idle or swapped), known_by, sure, swapped))
     return tuple(found)
 
 
@@ -103,7 +109,12 @@ def _idle(reached: tuple[_Reached, ...]) -> IdleRemap | None:
     ways = {each.known_by for each in reached}
     known_by = _BY_RUN if len(ways) > 1 else reached[0].known_by
     sure = all(each.sure for each in reached)
-    return IdleRemap(reached[0].remap, tuple(each.node for each in reached), known_by, sure=sure)
+    swapped = {each.is_reversed for each in reached}
+    if len(swapped) > 1:
+        return None
+    return IdleRemap(
+        reached[0].remap, tuple(each.node for each in reached), known_by, sure=sure, is_reversed=swapped.pop()
+    )
 
 
 def _own_ends(channel: Channel) -> tuple[Connection, ...]:
@@ -117,7 +128,8 @@ def _node(connection: Connection) -> int:
 
 
 def _with_meaning(context: Context, graph: Graph, idle: IdleRemap, own: tuple[Connection, ...]) -> IdleRemap:
-    target = names.resolve(idle.remap.target, idle.nodes[0].name)
+    leads_to = idle.remap.source if idle.is_reversed else idle.remap.target
+    target = names.resolve(leads_to, idle.nodes[0].name)
     channels = tuple(_channel_of(graph, each) for each in own)
     targets = tuple(_channels(graph, each).get(target) for each in own)
     # What an argument says is only by default the same name.
@@ -154,6 +166,10 @@ def _meaning(
     full = names.resolve(idle.remap.source, idle.nodes[0].name)
     rows = zip(own, channels, targets, strict=True)
     lone = [(each, target) for each, channel, target in rows if not _facing(channel, each)]
+    if idle.is_reversed:
+        wanted = names.resolve(idle.remap.target, idle.nodes[0].name)
+        same = [each for each, _ in lone if each.name == wanted]
+        return replace(idle, meant=same[0] if len(same) == 1 else None)
     is_slip = _is_slip if idle.sure else _is_same_leaf
     found = [(each, target) for each, target in lone if is_slip(full, each)]
     if len(found) != 1 and idle.sure:
@@ -206,6 +222,15 @@ def _used(node: LaunchNode, interface: Interface) -> _Names:
 
 def _is_to_itself(remap: Remap, node: LaunchNode) -> bool:
     return names.resolve(remap.source, node.name) == names.resolve(remap.target, node.name)
+
+
+def _is_reversed(remap: Remap, node: LaunchNode, known: _Names) -> bool:
+    """Whether the node makes the name that the remap leads to, and none that the remap is for."""
+    target = names.resolve(remap.target, node.name)
+    if target not in known.used or _is_to_itself(remap, node):
+        return False
+    rest = known.used - {target}
+    return _has_no_effect(remap, node, _Names(rest, frozenset(names.with_namespaces(rest))))
 
 
 def _has_no_effect(remap: Remap, node: LaunchNode, known: _Names) -> bool:

@@ -1,25 +1,34 @@
-"""Parameter files of ROS 2 that no node of a launch gets, which may be given to some node all the same: a program
-rewrites them, an argument names them, the launch file could not be followed."""
+"""Parameter files that no node of a launch gets, which may be given to some node all the same: a program rewrites them,
+an argument names them, the launch file could not be followed."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import PurePath
+
+import yaml
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.robot.of_launch import robots_of
+from preflight_analysis.rules import ctl001_unknown_joint as ctl001
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
 from preflight_analysis.rules import prm016_parameter_file_refused as prm016
 from preflight_analysis.rules import prm018_listed_not_configured as prm018
 from preflight_analysis.rules import prm022_parameter_of_plugin as prm022
+from preflight_analysis.rules import prm023_parameter_not_in_sources as prm023
+from preflight_analysis.rules.joint_names import meant_around
+from preflight_analysis.rules.params_in_sources import meant_in_one_file
 from preflight_analysis.rules.rule import Context
 
 _SUFFIXES = (".yaml", ".yml")
@@ -35,13 +44,22 @@ _MOST = 200
 """Files of one package that are read."""
 _LONGEST = 200_000
 """Characters of one."""
+_JOINTS = ("joint", "joints")
+_TOGETHER = 4
+"""Parameters that stand together, of which most are those of one source."""
 
 
 def findings_of_loose_files(context: Context) -> Iterator[Finding]:
     """What is wrong with those of the package that the launch file is in. To read them takes time: it is no part of
     what is found at a keystroke."""
-    package = package_around(context.environment, context.root) if context.tree.ros.own_parameters else None
-    if package is None:
+    package = package_around(context.environment, context.root)
+    if package is None or context.environment.is_installed(package):
+        return
+    if not context.tree.ros.own_parameters:
+        around = (package_around(context.environment, path) for path in context.launch_files)
+        own = {each.share for each in around if each is not None and not context.environment.is_installed(each)}
+        for share in sorted(own):
+            yield from _of_ros1(context, share)
         return
     given = {source.path for node in context.tree.nodes_and_simulated for source in node.param_sources}
     folders = _folders(context, package.share)
@@ -66,8 +84,85 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             if _is_in_base(context, files | given, missing):
                 continue
             yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")
+        yield from _unknown_names(context, package.share, document)
         for wrong in prm022.wrong_in(document, context.plugins):
             yield prm022.RULE.finding(wrong.message, document.location(wrong.span), confidence=wrong.confidence)
+
+
+def _of_ros1(context: Context, share: str) -> Iterator[Finding]:
+    loaded = {param.place.file for param in context.tree.all_params}
+    for path in _yaml_files(context.disk.db, share):
+        document = context.disk.text(path)
+        if isinstance(document, Document):
+            yield from () if path in loaded else _unknown_names(context, share, document)
+            yield from _unknown_joints(context, document)
+
+
+def _unknown_joints(context: Context, document: Document) -> Iterator[Finding]:
+    """Of what programs of all kinds call joints, by names alone."""
+    if robots_of(context.tree):
+        return
+    for nodes in document.once(_joint_lists):
+        beside = frozenset(node.value for node in nodes)
+        for node in nodes:
+            meant = meant_around(context, node.value, beside)
+            if meant is not None:
+                yield ctl001.RULE.finding(
+                    ctl001.IN_NO_OTHER_FILE.format(node.value, *meant),
+                    document.location(span_of(node)),
+                    severity="warning",
+                    confidence="possible",
+                )
+
+
+def _joint_lists(document: Document) -> tuple[tuple[yaml.ScalarNode, ...], ...]:
+    found = []
+    for key, value in _pairs(document):
+        items = value.value if isinstance(value, yaml.SequenceNode) else [value]
+        if key.value in _JOINTS:
+            found.append(tuple(item for item in items if isinstance(item, yaml.ScalarNode)))
+    return tuple(found)
+
+
+def _pairs(document: Document) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
+    for pairs in _mappings(document):
+        yield from pairs
+
+
+def _mappings(document: Document) -> Iterator[list[tuple[yaml.ScalarNode, yaml.Node]]]:
+    """The keys and values of each mapping of a YAML file."""
+    try:
+        root = compose_fast(document.text)
+    except CONSTRUCTION_ERRORS:
+        return
+    left, most = [root] if root is not None else [], _MOST
+    while left and most:
+        node, most = left.pop(), most - 1
+        if isinstance(node, yaml.MappingNode):
+            pairs = [(key, value) for key, value in node.value if isinstance(key, yaml.ScalarNode)]
+            yield pairs
+            left += [value for _, value in pairs]
+
+
+def _unknown_names(context: Context, share: str, document: Document) -> Iterator[Finding]:
+    """Of names that stand together those that no source has, where one source asks for most of the others."""
+    for group in document.once(_groups):
+        names = tuple(sorted(group)) if len(group) >= _TOGETHER else ()
+        found = meant_in_one_file(context.disk.db, context.environment, (share,), names) if names else {}
+        for name, asked in found.items():
+            yield prm023.RULE.finding(
+                prm023.MESSAGE.format(name, asked.name, os.path.basename(asked.path)),
+                document.location(group[name]),
+                confidence="possible",
+            )
+
+
+def _groups(document: Document) -> tuple[Mapping[str, Span], ...]:
+    """The keys of each mapping of a YAML file that have plain values, and where they stand."""
+    return tuple(
+        {key.value: span_of(key) for key, value in pairs if isinstance(value, yaml.ScalarNode)}
+        for pairs in _mappings(document)
+    )
 
 
 def _is_in_base(context: Context, files: Iterable[str | None], missing: prm018.Missing) -> bool:
@@ -115,9 +210,22 @@ def _param_files(db: Database, folder: str, base: str) -> tuple[str, ...]:
 
 
 @query
-def _is_one(db: Database, path: str, base: str) -> bool:
+def _yaml_files(db: Database, folder: str) -> tuple[str, ...]:
+    """Those below a package of ROS 1 that may have parameters."""
+    disk = Disk(db)
+    paths = (path for path in sorted(files_in(disk, folder, deep=True)) if _is_in_their_folder(path, folder))
+    texts = ((path, disk.text(path)) for path in paths)
+    return tuple(path for path, text in texts if isinstance(text, Document) and len(text.text) <= _LONGEST)[:_MOST]
+
+
+def _is_in_their_folder(path: str, base: str) -> bool:
     folders = frozenset(PurePath(os.path.relpath(path, base)).parts[:-1])
-    if not path.endswith(_SUFFIXES) or folders.isdisjoint(_FOLDERS) or not folders.isdisjoint(_NOT_OURS):
+    return path.endswith(_SUFFIXES) and not folders.isdisjoint(_FOLDERS) and folders.isdisjoint(_NOT_OURS)
+
+
+@query
+def _is_one(db: Database, path: str, base: str) -> bool:
+    if not _is_in_their_folder(path, base):
         return False
     document = Disk(db).text(path)
     text = document.text if isinstance(document, Document) else ""

@@ -18,6 +18,8 @@ _WORD = re.compile(r"[A-Za-z]+|\d+")
 _MIN_PREFIX = 4
 _LONG = 8
 _NAMES = 8192
+_SEVERAL = 2
+"""Words of a name of which the order or a shortened one says something."""
 
 
 def cutoff(length: int) -> int:
@@ -28,13 +30,16 @@ def cutoff(length: int) -> int:
 
 
 def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = str) -> str | None:
-    """The candidate that `name` is most likely a misspelling of, None if all are too far; ties go by alphabet.
+    """The candidate that `name` is most likely a misspelling of, else the only one of the same words in another order
+    (`resolution_fixed`, `fixed_resolution`) or shortened (`vel_limit`, `velocity_limit`); None if all are too far. Ties
+    go by alphabet.
 
     Case, `-` against `_`, and what `key` removes do not count as edits.
     """
+    candidates = set(candidates)
     wanted = _folded(key(name))
     best: tuple[int, int, str] | None = None
-    for candidate in sorted(set(candidates)):
+    for candidate in sorted(candidates):
         if candidate == name:
             continue
         folded = _folded(key(candidate))
@@ -47,7 +52,28 @@ def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = st
         rank = (distance, int(OSA.distance(name, candidate)), candidate)
         if best is None or rank < best:
             best = rank
-    return best[2] if best else None
+    return best[2] if best else _reworded(name, candidates)
+
+
+def _reworded(name: str, candidates: Iterable[str]) -> str | None:
+    found = [each for each in candidates if is_reworded(name, each)]
+    return found[0] if len(found) == 1 else None
+
+
+def is_reworded(name: str, other: str) -> bool:
+    """Whether names of several words have the same ones in another order, or some of them shortened or written out."""
+    words, others = _words(name), _words(other)
+    if name == other or len(words) != len(others) or len(words) < _SEVERAL:
+        return False
+    return sorted(words) == sorted(others) or _is_shortened(words, others)
+
+
+def _is_shortened(words: tuple[str, ...], others: tuple[str, ...]) -> bool:
+    """Whether each word is the beginning of the other one, none of which is a letter or a number."""
+    pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
+    return all(len(min(a, b, key=len)) > 1 and (a.startswith(b) or b.startswith(a)) for a, b in pairs) and (
+        all(a.isalpha() and b.isalpha() for a, b in pairs)
+    )
 
 
 def nearest_class(name: str, candidates: Iterable[str]) -> str | None:

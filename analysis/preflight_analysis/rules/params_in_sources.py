@@ -16,7 +16,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
-from preflight_analysis.rules.nearest import likeness, numbers_in
+from preflight_analysis.rules.nearest import is_reworded, likeness, numbers_in
 
 _PROGRAMS = (".py", ".cpp", ".cc", ".cxx", ".hpp", ".h")
 _OTHERS = (".cfg", ".l", ".rs", ".js", ".yaml")
@@ -132,7 +132,7 @@ def _alike(asked: Iterable[Asked], above: str, leaf: str) -> Iterator[Asked]:
             continue
         alike = likeness(leaf, each.name)
         typo = alike is not None and alike[0] == "typo" and not _are_opposite(leaf, each.name)
-        if typo or _is_one_word_apart(leaf, each.name):
+        if typo or _is_one_word_apart(leaf, each.name) or is_reworded(leaf, each.name):
             yield each
 
 

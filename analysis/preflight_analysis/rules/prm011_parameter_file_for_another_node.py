@@ -1,5 +1,6 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
@@ -12,11 +13,15 @@ from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, r
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
-from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.nearest import likeness, nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.written_elsewhere import around
 
 _SHOWN = 3
+_KEYS = (re.compile(r"^([A-Za-z]\w*):[ \t]*$", re.MULTILINE),)
+_ENOUGH = 2
+"""Parameter files that have to agree on a namespace."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +54,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # Of a process the file is for whichever of its nodes it names.
         alone = [each for each in nodes if not any(_named(file, name) for name in beside.get(each[0].name, ()))]
         lacking = list(_without_own(file, alone))
-        meant = {each.node.name: _meant(each.node.name, lost, shared=len(nodes) > 1) for each in lacking}
+        meant = {each.node.name: _meant(each.node, lost, shared=len(nodes) > 1) for each in lacking}
         for section in lost:
             ignoring = {each.node.name: each for each in lacking if meant[each.node.name] is section}
             if ignoring:
                 yield _about_key(rule, context, path, section, list(ignoring.values()))
+            elif (meant_key := _of_other_namespace(context, section, known)) is not None:
+                yield _about_namespace(rule, context, path, section, meant_key)
         for each in lacking:
             # One file for several nodes, with nothing for this one: that is usual.
             if not each.reached and (len(nodes) == 1 or meant[each.node.name] is not None):
@@ -98,15 +105,44 @@ def _is_for_all(section: Section) -> bool:
     return names.leaf(section.pattern) in ("*", "**")
 
 
-def _meant(name: str, lost: Sequence[Section], *, shared: bool) -> Section | None:
+def _meant(node: LaunchNode, lost: Sequence[Section], *, shared: bool) -> Section | None:
     """Which of the keys that fit no node is meant for this one: that of its name in another namespace, else one with
-    nearly its name, else the only one of a file of its own."""
-    base = names.leaf(name)
+    nearly its name, else the only one of a file of its own, or the only one and called as its executable."""
+    name, base = node.name, names.leaf(node.name)
     patterns = [section.pattern for section in lost if not _is_for_all(section)]
     same = [pattern for pattern in patterns if names.leaf(pattern) == base]
-    only = patterns[0] if len(patterns) == 1 and not shared else None
+    own = not shared or (names.leaf(patterns[0]) == node.executable if patterns else False)
+    only = patterns[0] if len(patterns) == 1 and own else None
     wanted = nearest(name, same) or next(iter(same), None) or nearest(name, patterns) or only
     return next((section for section in lost if section.pattern == wanted), None)
+
+
+def _of_other_namespace(context: Context, section: Section, known: Iterable[str]) -> tuple[str, int] | None:
+    """The key that was meant, and how many files say so, of a node that the launch has in another namespace: the one of
+    the key is in no other parameter file, and a slip of one that several have."""
+    _, space, *rest = section.pattern.split("/") if section.pattern.startswith("/") else ("", "")
+    below = "/".join(rest)
+    if not section.exact or not below or not any(name.endswith(f"/{below}") for name in known):
+        return None
+    keys = around(context, _KEYS, (".yaml", ".yml"))
+    if keys.get(space, 0) > 1:
+        return None
+    found = [(each, count) for each, count in keys.items() if count >= _ENOUGH and _is_slip_of(space, each)]
+    return (f"/{found[0][0]}/{below}", found[0][1]) if len(found) == 1 else None
+
+
+def _is_slip_of(name: str, other: str) -> bool:
+    return likeness(f"/{name}", f"/{other}") == ("typo", 1)
+
+
+def _about_namespace(rule: Rule, context: Context, path: str, section: Section, meant: tuple[str, int]) -> Finding:
+    return rule.finding(
+        f"section '{section.pattern}' applies to no node; did you mean '{meant[0]}'? {meant[1]} parameter files nearby "
+        "have that namespace",
+        context.location(path, section.spans[-1]),
+        confidence="likely",
+        every_root=True,
+    )
 
 
 def _about_key(rule: Rule, context: Context, path: str, section: Section, ignoring: list[_Given]) -> Finding:
@@ -164,10 +200,11 @@ RULE = Rule(
     id="PRM011",
     name="parameter-file-for-another-node",
     severity="warning",
-    what="Checks for a parameter file in which no section applies to the node that gets it. A section applies if "
-    "its key is the node's full name, or a wildcard that matches it. It also checks for a key that matches no node "
-    "and is close to one that gets the file: its name without the namespace, or a typo. A file that several nodes "
-    "share may have no section for one of them.",
+    what="Checks for a parameter file in which no section applies to the node that gets it. A section applies if its "
+    "key is the node's full name, or a wildcard that matches it. It also checks for a key that matches no node and "
+    "is close to one that gets the file: its name without the namespace, a typo, or the executable. A namespace that "
+    "is a typo of one in several parameter files is reported if the launch has the node in another one. A file that "
+    "several nodes share may have no section for one of them.",
     why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',

@@ -21,6 +21,7 @@ from preflight_analysis.rules.well_known import is_for_tools, is_of_planning
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import split_args
 
+MESSAGE = "parameter '{}' is in no source of the workspace; did you mean '{}', which {} reads?"
 _LEAST = 4
 """Parameters that stand together beside the nodes, of which most are those of one source."""
 
@@ -120,10 +121,8 @@ def _renamed(name: str, asked: Asked) -> str:
 
 
 def _finding(rule: Rule, context: Context, node: LaunchNode | None, param: Param, asked: Asked) -> Finding:
-    where = os.path.basename(asked.path)
     return rule.finding(
-        f"parameter '{_last(param.name)}' is in no source of the workspace; did you mean '{asked.name}', which {where} "
-        "reads?",
+        MESSAGE.format(_last(param.name), asked.name, os.path.basename(asked.path)),
         param.place,
         confidence="possible",
         related=(*((related_node(node),) if node is not None else ()), *include_chain(param.origin)),
@@ -150,10 +149,12 @@ RULE = Rule(
     name="parameter-not-in-sources",
     severity="warning",
     what="Checks for a parameter of a node of the workspace whose name is in no source of the workspace, while the "
-    "node's package reads one of a similar name that is not set. Similar is a typo, or one word more or less. In a "
-    "deeper namespace (`radio/channel`) a plugin of any package may read it. In ROS 1 it also checks parameters beside "
-    "the nodes if one source reads most of them. Names are looked for in the text of the sources. Nodes whose "
-    "parameters are known in full are checked by PRM001 and PRM013.",
+    "node's package reads one of a similar name that is not set. Similar is a typo, one word more or less, or the "
+    "same words in another order or shortened. In a deeper namespace (`radio/channel`) a plugin of any package may "
+    "read it. In ROS 1 it also checks parameters beside the nodes if one source reads most of them. The same applies "
+    "to YAML files of the package in folders such as `config` and `params` that no node of the launch gets. Names "
+    "are looked for in the text of the sources. Nodes whose parameters are known in full are checked by PRM001 and "
+    "PRM013.",
     why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~subscribe_laserScan -->\n<param name="subscribe_scan" value="true"/>',
     instead='<param name="subscribe_laserScan" value="true"/>',

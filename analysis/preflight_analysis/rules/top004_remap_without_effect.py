@@ -60,7 +60,9 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
             related=include_chain(remap.origin),
         )
     evidence = f"did you mean '{_given(meant)}', which it {_DOES[meant.endpoint.role]}"
-    if idle.partner is not None:
+    if idle.is_reversed:
+        evidence = f"'from' and 'to' are swapped: it {_DOES[meant.endpoint.role]} '{_given(meant)}'"
+    elif idle.partner is not None:
         other = idle.partner
         does = _DOES[other.endpoint.role]
         evidence += f"? {other.node.name} {does} '{other.name}' ({other.endpoint.type})"
@@ -74,7 +76,7 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
             *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
             *include_chain(remap.origin),
         ),
-        fixes=_fix(document, remap.source_location, meant),
+        fixes=() if idle.is_reversed else _fix(document, remap.source_location, meant),
         endpoints=endpoints_of(meant, *((idle.partner,) if idle.partner else ())),
     )
 
@@ -110,7 +112,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a remap whose `from` is not a topic, service or parameter of its nodes. All of these nodes "
     "were run up to their event loop, or static analysis describes them completely. The finding is a warning if a "
-    "node has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`. It is "
+    "node has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`, or if the "
+    "source of the node has an unconnected endpoint that is called as the remap's `to` (they are swapped). It is "
     "information if only the catalogue knows the node and no argument decides what it does. It is a warning if "
     "`from` is also in a namespace without any name of the node. A remap from a name to itself is reported if the "
     "node has an unconnected endpoint with the same last part, or of the type that another node uses under the name. "
