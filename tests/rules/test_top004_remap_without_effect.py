@@ -316,21 +316,26 @@ def test_a_name_below_one_that_the_node_may_have_resolved() -> None:
 
 _SWAPPED = """
         <launch>
+          <node pkg="p" type="t" name="laser"/>
           <node pkg="p" type="t" name="slam">
             <remap from="{}" to="{}"/>
           </node>
         </launch>
         //- interfaces
-        {{"/slam": {{"source": "source", "subscribers": {{"laser": "sensor_msgs/LaserScan"}}}}}}
+        {{"/laser": {{"source": "source", "publishers": {{"{}": "sensor_msgs/LaserScan"}}}},
+          "/slam": {{"source": "source", "subscribers": {{"beams": "sensor_msgs/LaserScan"}}}}}}
     """
 
 
 def test_from_and_to_the_wrong_way_around() -> None:
-    (finding,) = [f for f in findings_of(_SWAPPED.format("scan", "laser")) if f.rule == "TOP004"]
+    (finding,) = [f for f in findings_of(_SWAPPED.format("scan", "beams", "scan")) if f.rule == "TOP004"]
     assert finding.severity == "warning"
-    assert finding.message.endswith("'from' and 'to' are swapped: it subscribes to 'laser'")
+    assert finding.message.endswith("'from' and 'to' are swapped: it subscribes to 'beams'")
 
 
 @pytest.mark.silent
-def test_from_and_to_as_they_are_meant() -> None:
-    assert [f for f in findings_of(_SWAPPED.format("laser", "scan")) if f.rule == "TOP004"] == []
+@pytest.mark.parametrize(
+    ("source", "target", "published"), [("beams", "scan", "scan"), ("scan", "beams", "beams"), ("scan", "beams", "x")]
+)
+def test_from_and_to_as_they_are_meant(source: str, target: str, published: str) -> None:
+    assert [f for f in findings_of(_SWAPPED.format(source, target, published)) if f.rule == "TOP004"] == []

@@ -37,7 +37,8 @@ class IdleRemap:
     sure: bool = True
     """Whether all names of the nodes are known. If not, `meant` has the very name but for a `~` or a namespace."""
     is_reversed: bool = False
-    """Whether the target is a name that the source of each node makes: `from` and `to` are the wrong way around."""
+    """Whether the target is a name that the source of each node makes, and another node has the one that the remap is
+    for: `from` and `to` are the wrong way around."""
 
     @property
     def to_itself(self) -> bool:
@@ -161,14 +162,16 @@ def _meaning(
     Either its name is like the remap's and nothing else reaches it, or it is the node's only one without another end
     that fits what stands under the target. Of a remap from a name to itself, `on_purpose`, it may join others of its
     kind there.
-    `own` are the ends of the node, `channels` what they are in and `targets` what is under the target's name.
+    `own` are the ends of the node, `channels` what they are in and `targets` what is under the target's name, of a
+    reversed one under its own.
     """
     full = names.resolve(idle.remap.source, idle.nodes[0].name)
     rows = zip(own, channels, targets, strict=True)
     lone = [(each, target) for each, channel, target in rows if not _facing(channel, each)]
     if idle.is_reversed:
         wanted = names.resolve(idle.remap.target, idle.nodes[0].name)
-        same = [each for each, _ in lone if each.name == wanted]
+        # As it is, the node may get what it is meant to get, unless another one has the other name.
+        same = [each for each, source in lone if each.name == wanted and _partner(source, each) is not None]
         return replace(idle, meant=same[0] if len(same) == 1 else None)
     is_slip = _is_slip if idle.sure else _is_same_leaf
     found = [(each, target) for each, target in lone if is_slip(full, each)]
