@@ -363,3 +363,44 @@ def test_folders_of_headers_are_those_of_the_package_that_are_there(harness: Har
 def test_descriptions_of_plugins(harness: Harness) -> None:
     build = harness.build("pluginlib_export_plugin_description_file(controller_interface plugins/a.xml)")
     assert build.plugin_files == (str(harness.folder / "plugins/a.xml"),)
+
+
+@pytest.mark.parametrize(
+    "taken_apart",
+    [
+        'string(REPLACE ":" ";" parts ${pair})\nlist(GET parts 0 file)\nlist(GET parts 1 name)',
+        'string(REPLACE ":" ";" parts "${pair}")\nlist(GET parts -2 file)\nlist(GET parts -1 name)',
+        'string(REGEX MATCH "^([^:]+):(.+)$" _ "${pair}")\nset(file ${CMAKE_MATCH_1})\nset(name ${CMAKE_MATCH_2})',
+        'string(REGEX REPLACE ":.*" "" file "${pair}")\nstring(REGEX REPLACE ".*:" "" name "${pair}")',
+        'string(REGEX REPLACE "(.*):(.*)" "\\\\1" file ${pair})\nstring(REGEX REPLACE "(.*):" "" name ${pair})',
+    ],
+)
+def test_pairs_that_name_executables_and_their_files(harness: Harness, taken_apart: str) -> None:
+    text = (
+        f'set(PAIRS "src/a.cpp:alpha" "src/b.cpp:beta")\nforeach(pair IN LISTS PAIRS)\n{taken_apart}\n'
+        "add_executable(${name} ${file})\nendforeach()\n"
+    )
+    build = harness.build(text)
+    assert {name: harness.sources(build, name) for name in build.targets} == {
+        "alpha": ["src/a.cpp"],
+        "beta": ["src/b.cpp"],
+    }
+
+
+@pytest.mark.parametrize(("kind", "name"), [("NAME_WE", "talk"), ("NAME", "talk.node.cpp"), ("NAME_WLE", "talk.node")])
+def test_executables_named_after_their_files(harness: Harness, kind: str, name: str) -> None:
+    text = f"get_filename_component(name src/talk.node.cpp {kind})\nadd_executable(${{name}} src/talk.node.cpp)\n"
+    assert [*harness.build(text).targets] == [name]
+
+
+@pytest.mark.parametrize(
+    "pattern", ["(a+)+b", "(a|aa)*b", "a*a*a*a*a*b", "a{2}", "(?=a)", "[", "(", "\\\\w+", "a" * 200, "", ")", "a**"]
+)
+def test_an_expression_that_is_not_followed_names_nothing(harness: Harness, pattern: str) -> None:
+    text = f'string(REGEX REPLACE "{pattern}" "x" name "{"a" * 150}")\nadd_executable(n_${{name}} a.cpp)\n'
+    assert len(harness.build(text).targets) == 1
+
+
+def test_an_executable_whose_name_is_not_known(harness: Harness) -> None:
+    assert not harness.build("add_executable(a a.cpp)\nadd_executable(${NAME_OF_OTHER} b.cpp)\n").all_named
+    assert harness.build("add_executable(a a.cpp)\nadd_library(${NAME_OF_OTHER} b.cpp)\n").all_named

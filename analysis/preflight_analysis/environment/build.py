@@ -75,6 +75,8 @@ class Build:
     """Where the headers of its targets lie."""
     python_packages: Mapping[str, str] = field(default_factory=dict)
     """The folder of each Python package that it installs, by the name that it is imported by."""
+    all_named: bool = True
+    """Whether the name of each executable is known."""
     complete: bool = False
     """Whether all that it installs is known: no command that is not known here may install more."""
 

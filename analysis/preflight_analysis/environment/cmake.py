@@ -18,7 +18,8 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.build import LISTS, MADE, Build, Installed, Program, Target
-from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, commands
+from preflight_analysis.environment.cmake_strings import items_of, texts_made
+from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, Word, commands
 from preflight_analysis.environment.cmake_values import (
     SOURCES,
     expanded,
@@ -82,6 +83,10 @@ def read_build(folder: str, package: str, disk: Disk, generation: int | None = N
     return replace(lists.build(), complete=complete and lists.complete)
 
 
+def _is_empty(words: Sequence[Word], variables: Mapping[str, str]) -> bool:
+    return any(not expanded(word.text, variables) for word in words)
+
+
 class _TooLargeError(Exception):
     """More than is looked at."""
 
@@ -115,6 +120,7 @@ class _Lists:
         self._left = _MAX_COMMANDS
         self.complete = True
         """Whether nothing was met that may install more than is known."""
+        self.all_named = True
 
     def build(self) -> Build:
         return Build(
@@ -130,6 +136,7 @@ class _Lists:
             tuple(self._plugin_files),
             tuple(self._include_folders),
             self._python_packages,
+            all_named=self.all_named,
         )
 
     def folder(self, folder: str, variables: Mapping[str, str], depth: int) -> bool:
@@ -158,6 +165,9 @@ class _Lists:
                 if command.words:
                     self._macros[expanded(command.words[0].text, variables).lower()] = command
             else:
+                if _WRAPPER.sub("", command.name) == "add_executable" and _is_empty(command.words[:1], variables):
+                    self.all_named = False
+                    continue
                 if command.name == "install" and any(map(is_only_known_to_cmake(variables), command.words)):
                     self.complete = False
                 self._command(command.name, words_of(command.words, variables), variables, depth)
@@ -213,6 +223,10 @@ class _Lists:
                 variables[variable] = joined(v for v in values if v != "PARENT_SCOPE")
             case "list", ["APPEND" | "PREPEND", variable, *values]:
                 variables[variable] = joined([variables.get(variable, ""), *values])
+            case "list", ["GET", variable, *rest] if rest:
+                variables.update(items_of(rest, variables.get(variable, "")))
+            case (("string" | "get_filename_component"), _):
+                variables.update(texts_made(name, words) or {})
             case "file", ["GLOB" | "GLOB_RECURSE" as how, variable, *patterns]:
                 variables[variable] = joined(globbed(self._disk, patterns, folder, how == "GLOB_RECURSE"))
             case "catkin_simple", _:

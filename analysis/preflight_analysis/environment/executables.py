@@ -75,9 +75,12 @@ class ExecutableIndex:
         return _names(self._db, self._environment, package)
 
     def names_are_all(self, package: str) -> bool:
-        """Whether `names` are all: a `setup.py` may compute them in ways that are not followed."""
+        """Whether `names` are all: a `setup.py` or `CMakeLists.txt` may compute them in ways that are not followed."""
         found = self._environment.packages.get(package)
-        return found is None or not found.is_ament or python_build(Disk(self._db), found).all_programs
+        if found is None or not found.is_ament:
+            return True
+        named = _build(self._db, self._environment, package).all_named
+        return named and python_build(Disk(self._db), found).all_programs
 
     def components(self, package: str) -> tuple[str, ...]:
         """The classes of the package that a container can load, as the prefixes list them and as its `CMakeLists.txt`
