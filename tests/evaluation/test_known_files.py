@@ -37,6 +37,9 @@ options = {
   odom_frame = "odom",
   provide_odom_frame = true,
   use_odometry = false,
+  use_nav_sat = false,
+  use_landmarks = false,
+  num_multi_echo_laser_scans = 0,
   num_laser_scans = 1,
 }
 options.use_odometry = true
@@ -126,3 +129,25 @@ def test_assignments_of_lua() -> None:
 
 def test_files_that_lua_includes() -> None:
     assert included(_document('include "a.lua"\n-- include "b.lua"\ninclude("c/d.lua")')) == ("a.lua", "c/d.lua")
+
+
+def test_a_file_that_is_not_in_its_folder(tmp_path: Path) -> None:
+    analysis = analysed(tmp_path, CARTOGRAPHER, "a.launch.xml", "humble", **{"config/robt.lua": LUA})
+    (found,) = [each for each in analysis.findings if each.rule == "PRM005"]
+    assert "config/robot.lua' in the arguments of 'cartographer_node' does not exist; did you mean" in found.message
+    there = analysed(tmp_path / "there", CARTOGRAPHER, "a.launch.xml", "humble", **{"config/robot.lua": LUA})
+    assert not [each for each in there.findings if each.rule == "PRM005"]
+
+
+def test_what_the_catalogue_has_under_other_conditions_is_not_made(tmp_path: Path) -> None:
+    launch = CARTOGRAPHER.replace("exec=", "type=")
+    names = topics_of_all(analysed(tmp_path, launch, "a.launch", "noetic", **{"config/robot.lua": LUA}))
+    assert {"scan", "odom"} <= names
+    assert names.isdisjoint({"imu", "fix", "landmark", "echoes"})
+    unknown = topics_of_all(analysed(tmp_path / "unknown", launch, "a.launch", "noetic"))
+    assert {"odom", "imu", "fix"} <= unknown
+
+
+def topics_of_all(analysis: Analysis) -> set[str]:
+    assert analysis.graph is not None
+    return {end.name for end in analysis.graph.interfaces[0].endpoints}

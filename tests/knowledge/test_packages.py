@@ -14,8 +14,8 @@ def param(name: str, value: object) -> str:
 
 
 def known(folder: Path, distro: str, package: str, executable: str, *params: str, args: str = "") -> set[str]:
-    """Topics (`< scan`, `> odom`), transforms (`map -> odom`) and frames that are looked up (`? base_link`) or only named
-    (`! laser`) of a node."""
+    """Topics (`< scan`, `> odom`), transforms (`map -> odom`) and frames that are looked up (`? base_link`) or only
+    named (`! laser`) of a node."""
     kind, name = ("type", "a.launch") if distro == "noetic" else ("exec", "a.launch.xml")
     node = f'<node pkg="{package}" {kind}="{executable}" name="n" args="{args}">{"".join(params)}</node>'
     analysis = analysed(folder, f"<launch>{node}</launch>", name, distro)

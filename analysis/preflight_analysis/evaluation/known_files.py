@@ -85,7 +85,7 @@ _Rows = Iterator[tuple[Document, Sequence[_Row]]]
 
 
 def _yaml(found: Collector, path: str) -> _Rows:
-    document = found.read_text(path)
+    document = found.read_text(found.located(path))
     if not isinstance(document, Unreadable):
         yield document, document.once(_yaml_rows)
 
@@ -122,7 +122,7 @@ def _lua(found: Collector, path: str) -> _Rows:
     folder = os.path.dirname(path)
     waiting, read = [path], list[Document]()
     while waiting and len(read) < _MAX_FILES:
-        document = found.read_text(waiting.pop())
+        document = found.read_text(found.located(waiting.pop()))
         if isinstance(document, Document) and all(document.path != each.path for each in read):
             read.append(document)
             waiting += (os.path.join(folder, name) for name in document.once(included))

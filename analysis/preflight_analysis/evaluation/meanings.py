@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
@@ -189,9 +190,22 @@ class Settings:
             return None
         return _WITHIN.sub(lambda each: str(values[each[1]]), text)
 
+    def path(self, meaning: Meaning, value: Any) -> Any:
+        """What a file is named by, behind its folder where another parameter has that."""
+        folder = self.value(meaning.folder) if meaning.folder else None
+        return os.path.join(folder, value) if isinstance(folder, str) and isinstance(value, str) else value
+
     def holds(self, conditions: Mapping[str, Any], beside: str = "") -> bool:
         """Whether all parameters have the values that are asked of them: `$x` is that of another one, `!` any other."""
         return all(self._is(self.value(name, beside), wanted) for name, wanted in conditions.items())
+
+    def lacks(self, meaning: Meaning) -> bool:
+        """Whether a condition of it is known, and is not so."""
+        for name, wanted in meaning.when.items():
+            value = self.value(name)
+            if value is not None and not self._is(value, wanted):
+                return True
+        return False
 
     def _is(self, value: Any, wanted: Any) -> bool:
         if isinstance(wanted, list):
@@ -276,7 +290,8 @@ def meant_by(
             append = settings.filled(meaning.append) if meaning.append else ""
             if append is None:
                 continue
-            made = each._replace(parameter=f"{prefix}{each.parameter}", type=type_, append=append)
+            value = settings.path(meaning, each.value) if meaning.kind == "file" else each.value
+            made = each._replace(parameter=f"{prefix}{each.parameter}", value=value, type=type_, append=append)
             if meaning.kind in _TYPED and made.has_broken_type():
                 continue
             found.append(made)
@@ -287,6 +302,17 @@ def meant_by(
                     below = [(key[len(name) + 1 :], p) for key, p in params if key.startswith(f"{name}.")]
                     found += meant_by(plugin, below, every, f"{prefix}{name}.")
     return tuple(found)
+
+
+def names_not_made(node: LaunchNode, known: Known, given: Sequence[Param]) -> frozenset[tuple[str, str, str]]:
+    """Kind, role and name of what a node would have under other conditions, all of which are known: `=odom` of
+    cartographer with `use_odometry = false`."""
+    settings = Settings(known, own_params(node, given), arguments_of(node, known.entry))
+    by_name: dict[tuple[str, str, str], list[Meaning]] = {}
+    for meaning in known.entry.meanings:
+        if meaning.pattern.startswith(_FIXED) and meaning.when and not meaning.append:
+            by_name.setdefault((meaning.kind, meaning.role, meaning.pattern[1:]), []).append(meaning)
+    return frozenset(name for name, every in by_name.items() if all(map(settings.lacks, every)))
 
 
 def _of_meaning(meaning: Meaning, settings: Settings) -> Iterator[Meant]:

@@ -17,6 +17,7 @@ from preflight_analysis.evaluation.meanings import (
     Meant,
     known_of_nodes,
     meant_of_node,
+    names_not_made,
     own_params,
     params_of_nodes,
 )
@@ -87,7 +88,12 @@ def _with_named(
                 without.add(by_name[role, each.value])
     for at, named_by in _by_their_names(interface, params):
         found.setdefault(at, named_by)
-    if not (found or confirmed or typed or more):
+    for kind, role_in_kind, name in names_not_made(node, known, given) if known is not None else ():
+        role = _ROLES.get((kind, role_in_kind))
+        at = by_name.get((role, name)) if role is not None else None
+        if at is not None and interface.endpoints[at].catalogued:
+            without.add(at)
+    if not (found or confirmed or typed or more or without):
         return interface
     ends = [replace(end, named_by=found[at]) if at in found else end for at, end in enumerate(interface.endpoints)]
     for at, evidence in confirmed.items():

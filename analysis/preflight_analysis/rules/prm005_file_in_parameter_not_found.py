@@ -23,6 +23,7 @@ from preflight_analysis.rules.files import correct_path, nearest_file, package_f
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_PARAM
 from preflight_analysis.rules.given_in_vain import others_in_vain
 from preflight_analysis.rules.installed import is_made_of_template, may_be_made
+from preflight_analysis.rules.meant import meant_values
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
@@ -78,7 +79,7 @@ class _Named:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     values: Mapping[Location, list[Use]] | None = None
-    for named in chain(_in_params(context), _in_arguments(context)):
+    for named in chain(_in_params(context), _in_arguments(context), _apart_from_folder(context)):
         for path in _missing(named.text, context):
             values = _argument_uses(context.tree) if values is None else values
             given = named.location()
@@ -180,6 +181,16 @@ def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
         if option not in ("-o", "-O") and not _made_when_run(option):
             found.append(value)
     return tuple(found)
+
+
+def _apart_from_folder(context: Context) -> Iterator[_Named]:
+    """Files whose folder is another argument, by what is known of the node."""
+    for node, values in context.once(meant_values):
+        for each in values:
+            is_file = each.meaning.kind == "file" and each.meaning.folder and each.param is None
+            if is_file and isinstance(each.value, str) and not _elsewhere(context.tree, node):
+                place = partial(argument_location, context, node, os.path.basename(each.value))
+                yield _Named(each.value, f"the arguments of '{node.executable}'", place, node.origin)
 
 
 def _elsewhere(tree: LaunchTree, node: LaunchNode) -> bool:
@@ -293,12 +304,12 @@ RULE = Rule(
     name="file-in-parameter-not-found",
     severity="warning",
     what="Checks for a file that does not exist in the value of a parameter, the arguments of a node or a command. "
-    "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. The "
-    "finding names the nearest file. Names of files that are written (`output`, `log`, `record`, ...), patterns and "
-    "files that the package builds are not reported. The name may be that of an argument, too. If no similar file "
-    "exists, some files are information. These are a model or recording, a file that git ignores, a file in "
-    "`$(env PWD)`, and the calibration of a camera. The same applies to a file that several packages name for the "
-    "same argument and lack.",
+    "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. Its folder "
+    "may be another argument (`-configuration_directory` of cartographer). The finding names the nearest file. Names "
+    "of files that are written (`output`, `log`, `record`, ...), patterns and files that the package builds are not "
+    "reported. The name may be that of an argument, too. If no similar file exists, some files are information. These "
+    "are a model or recording, a file that git ignores, a file in `$(env PWD)`, and the calibration of a camera. The "
+    "same applies to a file that several packages name for the same argument and lack.",
     why="The launcher does not check the value. The node exits when it opens the file, or continues without it: a "
     "planner without its limits.",
     example='<param name="limits_file" value="$(find arm)/config/limits.yaml"/>',
