@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.interface import NOT_RUN, Interface
+from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Frame, Interface, Outcome
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -27,7 +28,7 @@ _RCLPY = {
 Frames = tuple[list[tuple[str, str, bool]], list[tuple[str, str]]]
 
 
-def _read(folder: Path, files: dict[str, str], launch: str, inner: str) -> Interface:
+def _read(folder: Path, files: dict[str, str], launch: str, inner: str, run: Interface = NOT_RUN) -> Interface:
     for name, text in files.items():
         path = folder / "src/p" / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -38,7 +39,7 @@ def _read(folder: Path, files: dict[str, str], launch: str, inner: str) -> Inter
     variables = {"ROS_VERSION": "1"} if attribute == "type" else {}
     workspace = Workspace(detect_environment(str(folder), variables, root=str(folder / "nothing")), Sources())
     analysis = workspace.static(str(folder / "src/p" / launch))
-    done = workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), "not run here")
+    done = workspace.with_interfaces(analysis, [run] * len(analysis.tree.nodes), "not run here")
     assert done.graph is not None
     return done.graph.interfaces[-1]
 
@@ -245,6 +246,17 @@ def test_what_is_not_come_to(tmp_path: Path) -> None:
     text = text.replace("self.buffer = Buffer()", "self.buffer = Buffer()\n        self.ready = False")
     found = _read(tmp_path, {**_RCLPY, "p/t.py": text}, "main.launch.xml", "")
     assert _frames(found)[0] == [("map", "dock", True), ("", "", False)]
+
+
+def test_a_run_that_does_not_tell_which_frames(tmp_path: Path) -> None:
+    tf = Endpoint("publisher", "/tf", "tf2_msgs/msg/TFMessage", source_file="/p/t.cpp", source_line=1)
+    run = Interface("trace", Outcome("spinning"), (tf,))
+    files = {**_ROS2, "src/t.cpp": _ODOMETRY}
+    found = _read(tmp_path, files, "main.launch.xml", "", run)
+    assert (found.source, found.endpoints) == ("trace", (tf,))
+    assert ("odom", "base_link", False) in _frames(found)[0]
+    seen = replace(run, frames=(Frame("map", "odom"),))
+    assert _frames(_read(tmp_path, files, "main.launch.xml", "", seen)) == ([("map", "odom", False)], [])
 
 
 def test_rospy(tmp_path: Path) -> None:
