@@ -1,7 +1,7 @@
 """FRM002: a frame that two nodes publish."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 from support.frame_launch import below, fixture, robot, static
 
 _EKF = '<node pkg="robot_localization" exec="ekf_node" name="ekf">'
@@ -78,3 +78,23 @@ def test_one_tag_for_two_robots() -> None:
     """
     (found,) = check(text)
     assert found.confidence == "possible"
+
+
+@pytest.mark.parametrize(
+    ("params", "severity"), [("/p/a.yaml", "warning"), ("$(find-pkg-share missing)/a.yaml", "info")]
+)
+def test_a_node_whose_parameter_file_is_not_known(params: str, severity: str) -> None:
+    """It may tell the node not to broadcast."""
+    found = findings_of(f"""
+        //- /a.launch.xml
+        <launch>
+          <node pkg="slam_toolbox" exec="sync_slam_toolbox_node" name="slam_toolbox"><param from="{params}"/></node>
+          <node pkg="tf2_ros" exec="static_transform_publisher" name="s"
+                args="--frame-id map --child-frame-id odom"/>
+        </launch>
+        //- /p/a.yaml
+        slam_toolbox:
+          ros__parameters:
+            odom_frame: odom
+    """)
+    assert [each.severity for each in found if each.rule == "FRM002"] == [severity]

@@ -165,6 +165,7 @@ def test_a_package_that_has_the_files_and_not_the_programs(tmp_path: Path, progr
         ("get_package_share_directory(\"old\") + '/config/a.yaml'", ["config/a.yaml"]),
         ("share = get_package_share_directory('other')\nx = join(share, 'config', 'a.yaml')", []),
         ("join(get_package_share_directory('old'), 'config')", []),
+        ('[P([FindPackageShare("old"), "launch"]), "/a.launch.py"]', ["launch/a.launch.py"]),
     ],
 )
 def test_what_a_launch_file_asks_for_below_a_package(text: str, paths: list[str]) -> None:

@@ -298,3 +298,18 @@ def test_one_that_git_ignores_beside_what_describes_it() -> None:
         //- /p/models/best_of_all.json
         {}
     """)
+
+
+def test_one_that_git_ignores_and_another_folder_has() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="n">
+            <param name="yaml_filename" value="/p/map/reality/hall.yaml"/>
+                                               ^^^^^^^^^^^^^^^^^^^^^^^^ info[PRM005] git ignores it
+          </node>
+        </launch>
+        //- /p/.gitignore
+        map/reality/*.yaml
+        //- /p/map/simulation/hall.yaml
+        a: 1
+    """)

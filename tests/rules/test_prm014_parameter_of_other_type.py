@@ -131,3 +131,19 @@ def test_a_mark_that_a_program_replaces(value: str, severity: str) -> None:
         //- interfaces
         {{"/pump": {{"params": {{"~max_speed": 10.0}}}}}}
     """)
+
+
+@pytest.mark.silent
+def test_an_empty_list_for_an_empty_list() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump"><param from="/p/a.yaml"/></node>
+        </launch>
+        //- /p/a.yaml
+        pump:
+          ros__parameters:
+            fence: []
+        //- interfaces
+        {"/pump": {"params": {"~fence": {"type": "byte array"}}}}
+    """)

@@ -33,6 +33,7 @@ def lacks(*said: str, status: str = "crashed", wrote: tuple[str, ...] = ()) -> s
         ("qt.qpa.xcb: could not connect to display", "display"),
         ("_tkinter.TclError: no display name and no $DISPLAY environment variable", "display"),
         ("OSError: [Errno 101] Network is unreachable", "network"),
+        ("ConnectionRefusedError: [Errno 111] Connection refused", "network"),
         ("OSError: [Errno 99] Cannot assign requested address", "network"),
         ("socket.gaierror: [Errno -3] Temporary failure in name resolution", "network"),
         ("serial.SerialException: could not open port /dev/ttyUSB0: No such file", "the device /dev/ttyUSB0"),

@@ -39,7 +39,9 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else (None,) * len(nodes)
     known = known_of_nodes(tree, meanings, kept)
     params = params_of_nodes(tree, known, kept)
-    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation, _has_prefix(tree))
+    prefixed, lacking = _has_prefix(tree), kept.each(_lacks_params, nodes)
+    unsure = [prefixed or lacks for lacks in lacking]
+    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params, unsure), generation)
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
@@ -58,6 +60,12 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
 def _has_prefix(tree: LaunchTree) -> bool:
     """Whether ROS 1's `tf_prefix` is set, which each node heeds or not."""
     return not tree.ros.own_parameters and any(name.endswith("/tf_prefix") for name in tree.params)
+
+
+def _lacks_params(node: LaunchNode) -> bool:
+    """Whether a parameter file in the node's own tag is not known (ROS 2)."""
+    files = sum(child.kind == "param" and child.value("from") is not None for child in node.action.children)
+    return files > sum(source.path is not None and not source.pushed for source in node.param_sources)
 
 
 def _of_robots(tree: LaunchTree) -> Iterator[Edge]:

@@ -56,11 +56,11 @@ def edges_of_node(
     interface: Interface | None,
     known: Known | None,
     given: Sequence[Param],
+    unsure: bool,
     generation: int,
-    has_prefix: bool,
 ) -> tuple[Edge, ...]:
     """What a node broadcasts beside the frames of a robot description: by its arguments, its run, its parameters.
-    With a `tf_prefix` that it may heed nothing of that is sure."""
+    With a `tf_prefix` that it may heed, or parameters that are not known, nothing of the last is sure."""
     space = space_of(node, generation)
     found: dict[tuple[str, str], Edge] = {}
 
@@ -78,7 +78,7 @@ def edges_of_node(
             parent, child = plain(frame.parent), plain(frame.child)
             add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
     for edge in _of_knowledge(node, known, given, space):
-        add(replace(edge, sure=False) if has_prefix else edge)
+        add(replace(edge, sure=False) if unsure else edge)
     # What is known of it otherwise is more than its text tells.
     for frame in frames if not found else ():
         add(_of_source(frame, node, space))

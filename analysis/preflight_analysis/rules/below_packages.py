@@ -95,3 +95,5 @@ def asked_below(text: str, name: str, values: Mapping[str, str | None]) -> Itera
                 yield path
         for found in re.finditer(rf"{folder}\s*\+\s*['\"]/({_PATH})['\"]", text):
             yield found[1]
+        for found in re.finditer(rf"{folder}\s*\)?({_WORDS})\s*\]\s*\)\s*,\s*['\"]/([\w./+-]+)['\"]", text):
+            yield "/".join([*_WORD.findall(found[1]), found[2]])

@@ -111,11 +111,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _is_beside(near: str, path: str) -> bool:
-    """Whether a file of the same kind is in the same folder as another, or has its name elsewhere: one of a like name
-    in another folder, or with another ending, tells less than that git ignores the path."""
+    """Whether a file of the same kind is in the same folder as another: one in another folder, or with another ending,
+    tells less than that git ignores the path."""
     same_kind = os.path.splitext(near)[1] == os.path.splitext(path)[1]
-    beside = os.path.dirname(near) == os.path.dirname(path)
-    return (beside and same_kind) or os.path.basename(near) == os.path.basename(path)
+    return same_kind and os.path.dirname(near) == os.path.dirname(path)
 
 
 def _in_params(context: Context) -> Iterator[_Named]:

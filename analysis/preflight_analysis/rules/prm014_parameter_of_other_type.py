@@ -67,9 +67,14 @@ def _declared_type(use: ParamUse, interface: Interface) -> str | None:
 def _wrong(param: Param, passed: Any, wanted: str, node: LaunchNode) -> str | None:
     """What is wrong with the value that arrives at the node; None if it fits, or if nobody can tell."""
     if isinstance(passed, (list, tuple)) and not passed:
+        # An empty list is what the node has anyway.
         return (
-            f"type mismatch of parameter '{param.name}': an empty list has no type, {node.name} declares "
-            f"{_named(wanted)}; rclpy ignores the value, rclcpp exits"
+            None
+            if wanted == "byte array"
+            else (
+                f"type mismatch of parameter '{param.name}': an empty list has no type, {node.name} declares "
+                f"{_named(wanted)}; rclpy ignores the value, rclcpp exits"
+            )
         )
     given = _type(passed)
     if given is None or given == wanted:

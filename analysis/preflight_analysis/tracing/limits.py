@@ -31,7 +31,8 @@ _SIGNS = (
     ),
     (
         r"Network is unreachable|No route to host|Name or service not known|Temporary failure in name resolution"
-        r"|Errno -[23]\b|Max retries exceeded|Could not resolve host|Cannot assign requested address",
+        r"|Errno -[23]\b|Max retries exceeded|Could not resolve host|Cannot assign requested address"
+        r"|Connection ?refused",
         "a network",
     ),
     (r"Namespace \w+ not available", "a library of GObject introspection that is not installed here"),
