@@ -84,8 +84,11 @@ def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
     for use in frames_of(context).uses:
         if not use.written.startswith("/") or (id(use.node), use.written) in told or use.call in _STRIP:
             continue
-        is_set = use.looked_up or not use.call or use.param is not None
-        severity: Severity | None = None if use.sure and is_set else "info"
+        # What the user of a node of ROS 2 sets is a frame in any case, whatever is known of the node.
+        is_sure = (use.param is not None and context.tree.ros.own_parameters) or (
+            use.sure and (use.looked_up or not use.call)
+        )
+        severity: Severity | None = None if is_sure else "info"
         if not context.tree.ros.own_parameters:
             of_package = use.node.package == _REFUSE_ROS1[0] and not use.call
             if not use.looked_up or not (of_package or _REFUSE.match(use.call)):
