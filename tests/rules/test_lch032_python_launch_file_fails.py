@@ -167,6 +167,23 @@ def test_a_launch_file_that_refuses_the_machine(tmp_path: Path, path: str, sever
     assert finding.message.endswith("the file asks for the machine that it runs on") == (severity == "info")
 
 
+@pytest.mark.parametrize(
+    ("helper", "severity"),
+    [
+        ("m = re.match('(.*)/install/.*', get_package_share_directory('p'))\nreturn m.group(1)\n", "info"),
+        ("m = re.match('(.*)/share/.*', get_package_share_directory('p'))\nreturn m.group(1)\n", "error"),
+        ("m = re.match('(.*)/install/.*', __file__)\nreturn m.group(1)\n", "error"),
+    ],
+)
+def test_a_launch_file_that_takes_the_path_of_a_build_apart(tmp_path: Path, helper: str, severity: str) -> None:
+    """Without a build the package lies in its source."""
+    (tmp_path / "package.xml").write_text("<package><name>p</name><build_type>ament_cmake</build_type></package>")
+    said = "'NoneType' object has no attribute 'group'"
+    analysis = _launched(tmp_path, _error(tmp_path, "AttributeError", said), helper=helper)
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.severity == severity
+
+
 def test_a_launch_file_that_asks_for_its_repository(tmp_path: Path) -> None:
     helper = "def made(n): check_output(['git', 'rev-parse', '--show-toplevel'])\nraise RuntimeError('no')\n"
     analysis = _launched(tmp_path, _error(tmp_path, "RuntimeError", "no"), helper=helper)

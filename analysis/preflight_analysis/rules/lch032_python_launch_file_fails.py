@@ -27,6 +27,11 @@ _OF_MACHINE = re.compile(
 )
 _BEFORE = 4
 """Lines before a `raise` that say what it is raised for."""
+_OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
+"""What is raised where a text does not have what was looked for in it."""
+_SHARE = re.compile(r"\b(?:get_package_(?:share_directory|share_path|prefix)|FindPackage(?:Share|Prefix))\b")
+_OF_BUILD = re.compile(r"""['"][^'"\n]{0,200}\b(?:install|devel)\b""")
+"""A text with the name of a folder of what is built."""
 _WORD = re.compile(r"\w+")
 _LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
 """The modules of which all names are known."""
@@ -73,6 +78,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     severity, message = "info", f"{message}; argument '{name}' is empty"
                 elif _refuses_the_machine(context, frames):
                     severity, message = "info", f"{message}; the file asks for the machine that it runs on"
+                elif _takes_installed_path_apart(context, error, frames):
+                    severity, confidence = "info", "possible"
+                    message += "; the file takes the path of an installed package apart, and the workspace is not built"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
@@ -108,6 +116,18 @@ def _refuses_the_machine(context: Context, frames: tuple[Location, ...]) -> bool
         return False
     lines = document.text[: frames[-1].span.start].splitlines()
     return any(_OF_MACHINE.search(line) for line in lines[-_BEFORE:])
+
+
+def _takes_installed_path_apart(context: Context, error: str | None, frames: tuple[Location, ...]) -> bool:
+    """Whether a program fails at a text where it has looked right before for the folder of a build (`/install/`) in the
+    path of a package, which lies elsewhere as long as the workspace is not built."""
+    document = context.disk.text(frames[-1].file) if frames and error in _OF_TEXTS else None
+    owner = package_around(context.environment, frames[-1].file) if frames else None
+    if not isinstance(document, Document) or owner is None or context.environment.is_installed(owner):
+        return False
+    lines = document.text[: frames[-1].span.end].splitlines()
+    asks = _SHARE.search(document.text) is not None
+    return asks and any(_OF_BUILD.search(line) for line in lines[-_BEFORE:])
 
 
 def _near_file(context: Context, error: str, said: str) -> str | None:
@@ -159,7 +179,8 @@ RULE = Rule(
     "in the sandbox if the workspace is trusted. Nothing that they describe is started. The finding is "
     "information if the file itself raises because a program, or a file outside of the workspace, is missing, or "
     "because an argument is empty that its message names. So is one that asks for the machine (a container, a device), "
-    "and one that raises because a file is missing which the build of its package may create.",
+    "and one that raises because a file is missing which the build of its package may create. The same applies to a "
+    "file of a workspace that is not built, if it looks for `/install/` in the path of a package.",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',
