@@ -7,6 +7,7 @@ from textwrap import dedent
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.elsewhere import depends_on_build
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import check, findings_of
@@ -173,3 +174,25 @@ def test_a_file_of_the_home_folder_of_whoever_launches(tmp_path: Path) -> None:
     home = {"HOME": os.path.expanduser("~")}
     analysis = arm.launch(arm.write("launch/robot.launch.py", text), variables=home)
     assert sorted(f.severity for f in analysis.findings if f.rule == "LCH013") == ["error", "info"]
+
+
+@pytest.mark.parametrize(
+    ("path", "severity"),
+    [
+        ("os.path.join(share, '..', '..', '..', '..', 'src', 'p', 'b.launch.py')", "info"),
+        ("share.split('/install/')[0] + '/src/p/b.launch.py'", "info"),
+        ("os.path.join(share, 'launch', 'b.launch.py')", "error"),
+    ],
+)
+def test_a_path_that_depends_on_where_packages_are_installed(tmp_path: Path, path: str, severity: str) -> None:
+    """It is read as it stands: the package lies in its source, as nothing is built."""
+    share = tmp_path / "one" / "two" / "src" / "p"
+    (share / "launch").mkdir(parents=True)
+    manifest = "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
+    (share / "package.xml").write_text(manifest)
+    launch = share / "launch" / "a.launch.py"
+    launch.write_text(f"share = get_package_share_directory('p')\nmade = {path}\n")
+    environment = detect_environment(str(share), {"ROS_VERSION": "2"}, [str(share.parent)], [])
+    context = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).context
+    missing = f"{tmp_path}/src/p/b.launch.py" if "'..'" in path else f"{share}/src/p/b.launch.py"
+    assert depends_on_build(context, missing, str(launch)) == (severity == "info")

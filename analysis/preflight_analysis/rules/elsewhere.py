@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 
 from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.rules.rule import Context
 
 _MISSING = re.compile(
@@ -21,6 +23,11 @@ _SCRIPT = re.compile(r"(?<!\S)/[^\s:]+: (?=(?:line )?\d+: )")
 _RECORDING = re.compile(r"[\w+-]\.(?:bag|db3|mcap)(?:\.active)?\b")
 _NO_RECORDING = "Error reading version line"
 """What rosbag says of a file that is none, as Git LFS leaves it where it has not fetched the recording."""
+_SHARE = re.compile(r"\b(?:get_package_(?:share_directory|share_path|prefix)|FindPackage(?:Share|Prefix))\b")
+_OF_BUILD = re.compile(r"""['"][^'"\n]{0,200}\b(?:install|devel)\b""")
+"""A text with the name of a folder of what is built."""
+_ABOVE = re.compile(r"""['"][^'"\n]{0,200}(?<!\.)\.\.(?!\.)|\bpardir\b|\.parents?\b""")
+"""How a program goes up from a folder."""
 _WORKING_FOLDER = re.compile(r"\bPWD\b|\bgetcwd\(|\bcwd\(\)")
 
 
@@ -58,3 +65,29 @@ def lacks_recording(said: str) -> bool:
 def depends_on_working_folder(context: Context, location: Location) -> bool:
     """Whether what is written at a place asks for the folder in which the launcher is started."""
     return _WORKING_FOLDER.search(context.text(location)) is not None
+
+
+def asks_for_unbuilt_package(context: Context, file: str) -> bool:
+    """Whether a Python launch file asks where a package is, and its own is not installed: such packages lie in their
+    sources then, and not in `install/<name>/share/<name>`."""
+    document = context.disk.text(file) if file.endswith(".py") else None
+    owner = package_around(context.environment, file)
+    if not isinstance(document, Document) or owner is None or context.environment.is_installed(owner):
+        return False
+    return _SHARE.search(document.text) is not None
+
+
+def names_folder_of_build(text: str) -> bool:
+    """Whether a text of the program has the name of a folder of what is built."""
+    return _OF_BUILD.search(text) is not None
+
+
+def depends_on_build(context: Context, path: str, file: str) -> bool:
+    """Whether a Python launch file of a package that is not built makes a path by the place that packages are installed
+    at: it goes up from there and out of the package, or takes that path apart."""
+    if not asks_for_unbuilt_package(context, file):
+        return False
+    document = context.disk.text(file)
+    text = document.text if isinstance(document, Document) else ""
+    is_outside = package_around(context.environment, path) is None and path.split("/")[:2] == file.split("/")[:2]
+    return (is_outside and _ABOVE.search(text) is not None) or names_folder_of_build(text)

@@ -16,7 +16,12 @@ from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import ParameterFileNotFound, UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES
-from preflight_analysis.rules.elsewhere import absent_folder_of_others, absent_top, depends_on_working_folder
+from preflight_analysis.rules.elsewhere import (
+    absent_folder_of_others,
+    absent_top,
+    depends_on_build,
+    depends_on_working_folder,
+)
 from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, shown
@@ -67,6 +72,8 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 near is None and depends_on_working_folder(context, problem.location)
             ):
                 severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
+            elif depends_on_build(context, path, problem.location.file):
+                severity, message = "info", f"{message}; the path depends on where the package is installed"
             elif near is None and (maker := _maker_of(context, path, problem.location)) is not None:
                 severity, message = "info", f"{message}; '{maker}' gets this launch file and may create it"
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)

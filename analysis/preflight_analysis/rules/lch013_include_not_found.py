@@ -57,7 +57,9 @@ RULE = Rule(
     "rest of the launch goes on. For a common package that is not installed, the catalogue knows its launch files. "
     "A typo of those is a warning if the catalogue has the distribution in use, otherwise a hint. A file in a top "
     "folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder where "
-    "the launch is started (`$(env PWD)`), and one that a node creates from the launch file, with its name in front.",
+    "the launch is started (`$(env PWD)`), and one that a node creates from the launch file, with its name in front. "
+    "The same applies to a path that a Python launch file makes by the place of an installed package, if the workspace "
+    "is not built.",
     why="`roslaunch` stops and starts nothing, at any depth of includes. A relative path starts at the folder in "
     "which `roslaunch` runs, not at the folder of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',

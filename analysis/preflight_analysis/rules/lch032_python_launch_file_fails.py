@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.problems import PythonException, PythonImport
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.asked_variables import lack_of_asked
-from preflight_analysis.rules.elsewhere import absent_top
+from preflight_analysis.rules.elsewhere import absent_top, asks_for_unbuilt_package, names_folder_of_build
 from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
@@ -29,9 +29,6 @@ _BEFORE = 4
 """Lines before a `raise` that say what it is raised for."""
 _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
 """What is raised where a text does not have what was looked for in it."""
-_SHARE = re.compile(r"\b(?:get_package_(?:share_directory|share_path|prefix)|FindPackage(?:Share|Prefix))\b")
-_OF_BUILD = re.compile(r"""['"][^'"\n]{0,200}\b(?:install|devel)\b""")
-"""A text with the name of a folder of what is built."""
 _WORD = re.compile(r"\w+")
 _LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
 """The modules of which all names are known."""
@@ -122,12 +119,10 @@ def _takes_installed_path_apart(context: Context, error: str | None, frames: tup
     """Whether a program fails at a text where it has looked right before for the folder of a build (`/install/`) in the
     path of a package, which lies elsewhere as long as the workspace is not built."""
     document = context.disk.text(frames[-1].file) if frames and error in _OF_TEXTS else None
-    owner = package_around(context.environment, frames[-1].file) if frames else None
-    if not isinstance(document, Document) or owner is None or context.environment.is_installed(owner):
+    if not isinstance(document, Document) or not asks_for_unbuilt_package(context, frames[-1].file):
         return False
     lines = document.text[: frames[-1].span.end].splitlines()
-    asks = _SHARE.search(document.text) is not None
-    return asks and any(_OF_BUILD.search(line) for line in lines[-_BEFORE:])
+    return any(names_folder_of_build(line) for line in lines[-_BEFORE:])
 
 
 def _near_file(context: Context, error: str, said: str) -> str | None:
