@@ -45,6 +45,14 @@ def test_a_type_without_its_kind(tmp_path: Path) -> None:
     assert (found.severity, found.fixes[0].edits[0].text) == ("warning", "nav_msgs/msg/Odometry")
 
 
+def test_a_slip_of_a_type(tmp_path: Path) -> None:
+    (found,) = found_in(tmp_path, "/clock@rosgraph_msgs/msg/clock[gz.msgs.Clock")
+    assert (
+        found.message == "the bridge does not know 'rosgraph_msgs/msg/clock'; did you mean 'rosgraph_msgs/msg/Clock'?"
+    )
+    assert (found.severity, found.fixes[0].edits[0].text) == ("warning", "rosgraph_msgs/msg/Clock")
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     "args",

@@ -172,6 +172,7 @@ _NAVIGATION = """<node pkg="nav2_controller" exec="controller_server" name="cont
 @pytest.mark.parametrize(
     ("set_to", "distro", "severities"),
     [
+        ("true", None, []),
         ("true", "jazzy", ["error"]),
         ("true", "kilted", []),
         ("false", "jazzy", []),
@@ -179,7 +180,7 @@ _NAVIGATION = """<node pkg="nav2_controller" exec="controller_server" name="cont
         ("", "kilted", []),
     ],
 )
-def test_velocities_of_navigation(tmp_path: Path, set_to: str, distro: str, severities: list[str]) -> None:
+def test_velocities_of_navigation(tmp_path: Path, set_to: str, distro: str | None, severities: list[str]) -> None:
     """What Kilted does without the parameter is not known: its default is another one."""
     param = f'<param name="enable_stamped_cmd_vel" value="{set_to}"/>' if set_to else ""
     text = f"<launch>{_NAVIGATION.format(param)}</launch>"

@@ -88,7 +88,7 @@ def _filled_in(
         found = next(filter(None, others), None)
     if found is None:
         return interface
-    found = _as_remapped(node, _as_set(node, given, found, newer=is_newer(environment.distro, distro)))
+    found = _as_remapped(node, _as_set(node, given, found, newer=may_be_newer(environment.distro, distro)))
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
@@ -172,17 +172,17 @@ def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued, *, newe
 
 
 def typed_end(end: Endpoint, by: TypedBy, value: object, *, newer: bool) -> Endpoint:
-    """With the type that a parameter gives, which has the value, None where it is not set. `newer`: the distribution is
-    newer than the one of the catalogue, and may have another default."""
+    """With the type that a parameter gives, which has the value, None where it is not set. `newer`: the distribution
+    may be newer than the one of the catalogue, and have another default."""
     unset = None if newer else end.type
     type_ = unset if value is None else dict(by.types).get(str(value).lower(), end.type)
     return replace(end, type=type_, typed_by=by)
 
 
-def is_newer(distro: str | None, known: str) -> bool:
-    """Whether it is newer than the one that the catalogue knows; False where it is not known."""
+def may_be_newer(distro: str | None, known: str) -> bool:
+    """Whether it is newer than the one that the catalogue knows, or is not known."""
     every = (*DISTRIBUTIONS[1], *DISTRIBUTIONS[2])
-    return distro in every and known in every and every.index(distro) > every.index(known)
+    return distro not in every or known not in every or every.index(distro) > every.index(known)
 
 
 def _as_remapped(node: LaunchNode, found: Catalogued) -> Catalogued:

@@ -19,7 +19,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.nodl.catalogued import Catalogued, catalogued, is_newer, typed_end
+from preflight_analysis.nodl.catalogued import Catalogued, catalogued, may_be_newer, typed_end
 from preflight_analysis.nodl.plugins import package_of
 from preflight_analysis.rules.plugin_params import KIND, LISTED
 from preflight_analysis.source.analyse import SourceAnalysis
@@ -100,7 +100,7 @@ class LoadedPlugins:
         found = catalogued(package, "plugins", type_, distro, is_used=self._environment.distro == distro)
         if found is not None:
             more = {f"{_OF_LOADER}{key}": value for key, value in values.items()}
-            newer = is_newer(self._environment.distro, distro)
+            newer = may_be_newer(self._environment.distro, distro)
             yield from _as_loaded(name, found, {**below, **more}, places, newer=newer)
 
 

@@ -5,13 +5,13 @@ https://github.com/gazebosim/ros_gz/blob/ros2/ros_gz_bridge/ros_gz_bridge/mappin
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.knowledge.conversions import gazebo_types
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.gazebo_bridges import type_pairs
-from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import include_chain, quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -24,8 +24,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         convertible = pairs.get(pair.ros.replace("/msg/", "/"), ())
         if name in convertible and "/msg/" in pair.ros:
             continue
-        if name in convertible:
-            meant = pair.ros.replace("/", "/msg/")
+        meant = _meant(pair.ros, pairs)
+        if meant is not None:
             yield rule.finding(
                 f"the bridge does not know '{pair.ros}'; did you mean '{meant}'?",
                 pair.ros_place,
@@ -47,6 +47,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             related=include_chain(pair.node.origin),
             fixes=rename(context, pair.place, pair.gazebo, f"{prefix}.{near}") if known and near is not None else (),
         )
+
+
+def _meant(ros: str, known: Mapping[str, object]) -> str | None:
+    """The type that the bridge knows of which this one is a slip, or that it is without `msg/`."""
+    package, _, name = ros.replace("/msg/", "/").partition("/")
+    if "/msg/" not in ros and f"{package}/{name}" in known:
+        return f"{package}/msg/{name}"
+    near = [each for each in known if each.startswith(f"{package}/") and is_slip(name, each.partition("/")[2])]
+    return near[0].replace("/", "/msg/") if f"{package}/{name}" not in known and len(near) == 1 else None
 
 
 RULE = Rule(
