@@ -490,8 +490,9 @@ def behavior_tree(data: bytes) -> None:
     """What is named in a tree stands where it is said to stand."""
     text = text_of(data)
     found = read_trees(Document("/w/tree.xml", text, "", (), (), LineIndex(text)))
-    for each in (*found.nodes, *found.subtrees):
-        assert 0 <= each.span.start < each.span.end <= len(text)
+    spans = [*(each.span for each in found.includes), *(span for node in found.nodes for _, span in node.attributes)]
+    for span in (*spans, *(each.span for each in (*found.nodes, *found.subtrees))):
+        assert 0 <= span.start < span.end <= len(text)
 
 
 def setup_py(data: bytes) -> None:

@@ -67,18 +67,51 @@ def test_a_tag_that_is_not_closed() -> None:
     )
 
 
+def test_an_included_file_that_is_not_there() -> None:
+    check(
+        navigator("""    <root>
+      <include path="../b.xml"/>
+                     ^^^^^^^^ warning[BTR001] behavior tree cannot be loaded: '/b.xml' does not exist
+      <BehaviorTree ID="Main"><Wait/></BehaviorTree>
+    </root>
+""")
+    )
+
+
+def test_what_an_included_file_has() -> None:
+    check(
+        navigator("""    <root main_tree_to_execute="Main">
+                                ^^^^ warning[BTR001] behavior tree cannot be loaded: there is no tree 'Main', its main tree
+      <include path="trees/b.xml" ros_pkg="robot"/>
+      <BehaviorTree ID="A"><SubTree ID="Recovry"/></BehaviorTree>
+                                        ^^^^^^^ warning[BTR001] subtree 'Recovry' does not exist in this file and those that it includes; did you mean 'Recovery'?
+    </root>
+//- /robot/package.xml
+<package format="3"><name>robot</name><version>1.0.0</version><export><build_type>ament_cmake</build_type></export></package>
+//- /robot/trees/b.xml
+    <root>
+      <BehaviorTree ID="Recovery"><Wait/><Spin/></BehaviorTree>
+       ^^^^^^^^^^^^ warning[BTR001] <BehaviorTree> must have exactly one child, not 2
+    </root>
+""")  # noqa: E501
+    )
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     "tree",
     [
         '<root><BehaviorTree ID="A"><Wait/></BehaviorTree></root>',
         '<root main_tree_to_execute="B"><include path="./b.xml"/><BehaviorTree ID="A"><SubTree ID="C"/></BehaviorTree>'
-        "</root>",
+        '</root>\n//- /trees/b.xml\n<root><BehaviorTree ID="B"><SubTree ID="A"/></BehaviorTree>'
+        '<BehaviorTree ID="C"><Wait/></BehaviorTree></root>',
+        '<root><include path="t.xml" ros_pkg="unknown"/><BehaviorTree ID="A"><SubTree ID="C"/></BehaviorTree></root>',
+        '<root><include path="/elsewhere/t.xml"/><BehaviorTree ID="A"><SubTree ID="C"/></BehaviorTree></root>',
         '<root main_tree_to_execute="A"><BehaviorTree ID="A"><SubTree ID="B"/></BehaviorTree>'
         '<BehaviorTree ID="B"><Wait/></BehaviorTree></root>',
         '<root><BehaviorTree ID="A"><Wait _skipIf="a < 1 && b"/></BehaviorTree></root>',
     ],
-    ids=["one tree", "includes", "a subtree", "what is no XML and taken"],
+    ids=["one tree", "includes", "an unknown package", "another machine", "a subtree", "what is no XML and taken"],
 )
 def test_trees_that_can_be_loaded(tree: str) -> None:
     check(navigator(f"{tree}\n"))

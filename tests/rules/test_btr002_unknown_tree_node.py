@@ -1,8 +1,19 @@
 """BTR002: a behaviour tree node that no loaded library has."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.registry import run_rules
+from support import package_elsewhere
 from support.behavior_trees import navigator
 from support.check import check
+
+_LAUNCH = """<launch><node pkg="nav2_bt_navigator" exec="bt_navigator" name="bt_navigator">
+<param name="default_nav_to_pose_bt_xml" value="$(dirname)/t.xml"/>{}</node></launch>"""
+_SOURCE = """#include <behaviortree_cpp/bt_factory.h>
+BT_REGISTER_NODES(factory) { factory.registerNodeType<OpenDoor>("OpenDoor"); }
+"""
 
 
 def _launch(inner: str, libraries: str = "") -> str:
@@ -38,6 +49,35 @@ def test_a_slip_beside_other_libraries() -> None:
             "my_door_bt_node,nav2_spin_action_bt_node",
         )
     )
+
+
+def _found_in(folder: Path, node: str, libraries: str) -> list[Finding]:
+    files = {"t.xml": f'<root><BehaviorTree ID="A">{node}</BehaviorTree></root>', "src/nodes.cpp": _SOURCE}
+    param = f'<param name="plugin_lib_names" value="{libraries}" value-sep=","/>'
+    analysis = package_elsewhere.analysed(folder, _LAUNCH.format(param), "a.launch.xml", "jazzy", **files)
+    return [each for each in run_rules(analysis.context) if each.rule == "BTR002"]
+
+
+def test_a_slip_of_a_library(tmp_path: Path) -> None:
+    (found,) = _found_in(tmp_path, "<Wait/>", "nav2_wait_action_bt_nod,my_door_bt_node")
+    assert found.message == (
+        "'plugin_lib_names' of /bt_navigator lists the unknown library 'nav2_wait_action_bt_nod'; "
+        "did you mean 'nav2_wait_action_bt_node'?"
+    )
+    assert found.fixes[0].edits[0].text == "nav2_wait_action_bt_node"
+
+
+@pytest.mark.silent
+def test_what_a_source_of_the_workspace_registers(tmp_path: Path) -> None:
+    assert not _found_in(tmp_path, "<OpenDoor/>", "nav2_wait_action_bt_node")
+
+
+@pytest.mark.silent
+def test_what_the_file_describes_for_editors() -> None:
+    tree = (
+        '<root><BehaviorTree ID="A"><Spn/></BehaviorTree><TreeNodesModel><Action ID="Spn"/></TreeNodesModel></root>\n'
+    )
+    check(navigator(tree))
 
 
 @pytest.mark.silent

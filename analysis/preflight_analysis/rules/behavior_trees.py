@@ -1,37 +1,78 @@
 """The behaviour trees that the nodes of a launch load, as rules ask for them.
 
 Which nodes they may have: the constructor of BehaviorTreeEngine loads the libraries of `plugin_lib_names`
-(nav2_behavior_tree/src/behavior_tree_engine.cpp of ros-navigation/navigation2).
+(nav2_behavior_tree/src/behavior_tree_engine.cpp of ros-navigation/navigation2). Which files they include:
+`loadDocImpl` in src/xml_parsing.cpp of BehaviorTree/BehaviorTree.CPP.
 """
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Related
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.trees.read import TreeFile, read_trees
+from preflight_analysis.trees.known_nodes import NAV_LIBRARIES
+from preflight_analysis.trees.read import Included, TreeFile, read_trees
 
 _NAMES_TREE = re.compile(r"(?:\A|[._])bt_xml(?:_filename)?\Z")
 _LIBRARIES = "plugin_lib_names"
+_SUFFIX = ".xml"
+_MOST = 50
+"""Files of one tree, each counted as often as it is included."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A file of a tree: the one that a node loads, or one that it includes."""
+
+    path: str
+    file: TreeFile
 
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """A tree file that a node loads. `libraries` are those that the node lists, None where it has no list or not all of
-    it is known; `knows_all`: those that it loads are known, be it by default."""
+    """A tree that a node loads: its file is the first of `parts`. `is_navigator`: the node is Nav2's, of which it is
+    known how it does that; of others only what is wrong in any case is wrong. `missing` are the included files that are
+    not there, with the path of the file that includes each and its own; `whole`: all others were read. `libraries` are
+    those that the node lists, None where it has no list or not all of it is known; `knows_all`: those that it loads are
+    known, be it by default."""
 
     node: LaunchNode
-    path: str
+    is_navigator: bool
     param: Param
-    file: TreeFile
+    parts: tuple[Part, ...]
+    missing: tuple[tuple[str, Included, str], ...]
+    whole: bool
     libraries: tuple[str, ...] | None
     knows_all: bool
+
+    @property
+    def path(self) -> str:
+        """The path of the file that the node loads."""
+        return self.parts[0].path
+
+    @property
+    def file(self) -> TreeFile:
+        """What the file has that the node loads."""
+        return self.parts[0].file
+
+    @property
+    def trees(self) -> frozenset[str]:
+        """The names of the trees of all files."""
+        return frozenset(tree for part in self.parts for tree in part.file.trees)
+
+    @property
+    def models(self) -> frozenset[str]:
+        """The nodes that the files describe as their author's."""
+        return frozenset(model for part in self.parts for model in part.file.models)
 
     @property
     def related(self) -> tuple[Related, ...]:
@@ -40,30 +81,112 @@ class Loaded:
 
 
 def trees_of(context: Context) -> tuple[Loaded, ...]:
-    """Those of bt_navigator, each file once for each node; ask through `context.once`. What other programs load is
-    not Nav2's to say."""
+    """Those of bt_navigator, and of nodes of the workspace that a parameter gives a tree; each file once for each node.
+    Ask through `context.once`."""
     found: dict[tuple[str, str], Loaded] = {}
+    workspace = context.environment.workspace
     for node in context.tree.nodes:
-        if not _is_navigator(node):
+        package = context.environment.packages.get(node.package)
+        is_navigator = _is_navigator(node)
+        if not is_navigator and (package is None or not package.is_within(workspace)):
             continue
-        for param in _naming(node):
-            path = str(param.value)
+        for param in _naming(node, any_name=not is_navigator):
+            path = here(context, str(param.value))
             document = context.disk.text(path)
-            if (node.name, path) not in found and isinstance(document, Document):
-                file = document.once(read_trees)
-                found[node.name, path] = Loaded(node, path, param, file, *_libraries(node))
+            if (node.name, path) in found or not isinstance(document, Document):
+                continue
+            files = _Files(context)
+            files.read(path, document)
+            if is_navigator or files.parts[0].file.trees:
+                whole = files.whole and len(files.parts) < _MOST
+                parts, missing = tuple(files.parts), tuple(files.missing)
+                found[node.name, path] = Loaded(node, is_navigator, param, parts, missing, whole, *_libraries(node))
     return tuple(found.values())
+
+
+def has_only_nodes_of_nav(context: Context, loaded: Loaded) -> bool:
+    """Whether the node loads no other libraries: its list is known, and Nav2 is not changed in the workspace."""
+    own = context.environment.packages.get("nav2_behavior_tree")
+    workspace = context.environment.workspace
+    if own is not None and workspace is not None and own.share.startswith(workspace.rstrip("/") + "/"):
+        return False
+    return loaded.knows_all and NAV_LIBRARIES.issuperset(loaded.libraries or ())
+
+
+def here(context: Context, path: str) -> str:
+    """The file on this machine that a path leads to: of one that another machine has, that of the package which it
+    names. Itself where there is none."""
+    path = located(context.disk, context.environment, path)
+    if context.disk.exists(path):
+        return path
+    parts = path.split("/")
+    for at in range(len(parts) - 2, 0, -1):
+        package = context.environment.packages.get(parts[at])
+        if package is not None and package.is_within(context.environment.workspace):
+            candidate = os.path.join(package.share, *parts[at + 1 :])
+            if context.disk.exists(candidate):
+                return candidate
+    return path
+
+
+def path_of(context: Context, included: Included, file: str) -> str | None:
+    """The path of an included file; None where its package is not known."""
+    if included.path.startswith("/"):
+        return here(context, included.path)
+    if included.package is None:
+        return os.path.normpath(os.path.join(os.path.dirname(file), included.path))
+    package = context.environment.packages.get(included.package)
+    if package is None:
+        return None
+    return located(context.disk, context.environment, os.path.normpath(os.path.join(package.share, included.path)))
+
+
+class _Files:
+    """Reads a file with all that it includes."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._seen = set[str]()
+        self.parts: list[Part] = []
+        self.missing: list[tuple[str, Included, str]] = []
+        self.whole = True
+
+    def read(self, path: str, document: Document) -> None:
+        pending = [(path, document)]
+        while pending and len(self.parts) < _MOST:
+            path, document = pending.pop()
+            if path in self._seen:
+                continue
+            self._seen.add(path)
+            file = document.once(read_trees)
+            self.parts.append(Part(path, file))
+            for included in file.includes:
+                target = path_of(self._context, included, path)
+                text = self._context.disk.text(target) if target is not None else None
+                if isinstance(text, Document) and target is not None:
+                    pending.append((target, text))
+                elif (
+                    isinstance(text, Unreadable)
+                    and text.kind == "missing"
+                    and target is not None
+                    and not included.path.startswith("/")  # which the robot may have
+                ):
+                    self.missing.append((path, included, target))
+                else:
+                    self.whole = False
+        self.whole = self.whole and not pending
 
 
 def _is_navigator(node: LaunchNode) -> bool:
     return node.package == "nav2_bt_navigator"
 
 
-def _naming(node: LaunchNode) -> Iterator[Param]:
+def _naming(node: LaunchNode, *, any_name: bool) -> Iterator[Param]:
+    """The parameters that name trees; with `any_name` all that name files which may be some."""
     for param in node.params:
         value = param.value
         if (
-            _NAMES_TREE.search(param.name)
+            (_NAMES_TREE.search(param.name) or (any_name and str(value).endswith(_SUFFIX)))
             and isinstance(value, str)
             and value.startswith("/")
             and not is_unknown(value)

@@ -8,11 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.finding import Finding, Severity
-from preflight_analysis.rules.behavior_trees import Loaded, trees_of
+from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.nearest import did_you_mean, is_slip
+from preflight_analysis.rules.nearest import did_you_mean, is_slip, is_slip_of_words
+from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
 from preflight_analysis.trees.known_nodes import (
     BUILT_IN,
     NAV_DISTRIBUTIONS,
@@ -31,31 +34,63 @@ class _Complaint(NamedTuple):
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen = set[tuple[str, int]]()
     for loaded in context.once(trees_of):
-        only_nav = _has_only_nodes_of_nav(context, loaded)
-        for used in loaded.file.nodes if not loaded.file.problems else ():
-            if used.name in BUILT_IN or used.name in loaded.file.trees or (loaded.path, used.span.start) in seen:
-                continue
-            found = _complaint(used.name, loaded, context.environment.distro, only_nav=only_nav)
-            if found is None:
-                continue
-            seen.add((loaded.path, used.span.start))
-            place = context.location(loaded.path, used.span)
-            yield rule.finding(
-                found.message + did_you_mean(found.near),
-                place,
-                severity=found.severity,
-                confidence="likely",
-                related=loaded.related,
-            )
+        if not loaded.is_navigator:
+            continue
+        only_nav = has_only_nodes_of_nav(context, loaded)
+        yield from _of_libraries(rule, context, loaded, seen)
+        for part in loaded.parts:
+            for used in part.file.nodes if not part.file.problems else ():
+                if used.name in BUILT_IN or used.name in loaded.trees or (part.path, used.span.start) in seen:
+                    continue
+                found = _complaint(context, used.name, loaded, only_nav=only_nav)
+                if found is None:
+                    continue
+                seen.add((part.path, used.span.start))
+                yield rule.finding(
+                    found.message + did_you_mean(found.near),
+                    context.location(part.path, used.span),
+                    severity=found.severity,
+                    confidence="likely",
+                    related=loaded.related,
+                )
 
 
-def _complaint(name: str, loaded: Loaded, distro: str | None, *, only_nav: bool) -> _Complaint | None:
+def _of_libraries(rule: Rule, context: Context, loaded: Loaded, seen: set[tuple[str, int]]) -> Iterator[Finding]:
+    """Libraries in the list of which the name is a slip of one of Nav2."""
+    param = next((each for each in loaded.node.params if each.name == "plugin_lib_names"), None)
+    distro = context.environment.distro
+    if param is None:
+        return
+    known = {
+        library
+        for node in NAV_NODES.values()
+        for distribution, library in node.libraries.items()
+        if distro not in NAV_DISTRIBUTIONS or distribution == distro
+    }
+    for listed in loaded.libraries or ():
+        place = value_place(param.place, listed, context.documents.get(param.place.file)) or param.place
+        near = [each for each in known if is_slip_of_words(listed, each)]
+        if listed in NAV_LIBRARIES or len(near) != 1 or (place.file, place.span.start) in seen:
+            continue
+        seen.add((place.file, place.span.start))
+        yield rule.finding(
+            f"'plugin_lib_names' of {loaded.node.name} lists the unknown library '{listed}'" + did_you_mean(near[0]),
+            place,
+            confidence="likely",
+            fixes=rename(context, place, listed, near[0]),
+        )
+
+
+def _complaint(context: Context, name: str, loaded: Loaded, *, only_nav: bool) -> _Complaint | None:
+    distro = context.environment.distro
     severity: Severity = "warning" if only_nav else "info"
     node = NAV_NODES.get(name)
+    if name in loaded.models or own_nodes(context.disk.db, context.environment).has(name):
+        return None
     if node is None:
         near = [each for each in (*NAV_NODES, *BUILT_IN) if is_slip(name, each)]
         meant = near[0] if len(near) == 1 else None
-        if meant is None and (not only_nav or loaded.file.includes):
+        if meant is None and not (only_nav and loaded.whole):
             return None
         # Nav2 gets new nodes; a slip of a known one is none of them.
         return _Complaint(f"unknown behavior tree node '{name}'", severity if meant is not None else "info", meant)
@@ -70,23 +105,15 @@ def _complaint(name: str, loaded: Loaded, distro: str | None, *, only_nav: bool)
     return _Complaint(f"behavior tree node '{name}' needs '{library}' in 'plugin_lib_names'", severity)
 
 
-def _has_only_nodes_of_nav(context: Context, loaded: Loaded) -> bool:
-    """Whether the node loads no other libraries: its list is known, and Nav2 is not changed in the workspace."""
-    own = context.environment.packages.get("nav2_behavior_tree")
-    workspace = context.environment.workspace
-    if own is not None and workspace is not None and own.share.startswith(workspace.rstrip("/") + "/"):
-        return False
-    return loaded.knows_all and NAV_LIBRARIES.issuperset(loaded.libraries or ())
-
-
 RULE = Rule(
     id="BTR002",
     name="unknown-behavior-tree-node",
     severity="warning",
     what="Checks for a node in a behavior tree that no library of bt_navigator has: a typo, a node of another "
-    "distribution, or a node whose library `plugin_lib_names` does not list. Nodes of Nav2 and BehaviorTree.CPP are "
-    "known. The finding is information if `plugin_lib_names` lists other libraries, or if it is not known. An unknown "
-    "node is information too if no known name is similar.",
+    "distribution, or a node whose library `plugin_lib_names` does not list. It also checks for a typo in that list. "
+    "Nodes of Nav2, of BehaviorTree.CPP and of the sources of the workspace are known. The finding is information if "
+    "`plugin_lib_names` lists other libraries, or if it is not known. An unknown node is information too if no known "
+    "name is similar.",
     why="bt_navigator cannot create the tree. It rejects the goal or does not become active.",
     example='<RecoveryNod number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n</RecoveryNod>',
     instead='<RecoveryNode number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n</RecoveryNode>',

@@ -151,6 +151,11 @@ NAV_DISTRIBUTIONS = frozenset(distribution for node in NAV_NODES.values() for di
 BUILT_IN = frozenset((*_VERSION_3.split(), *_VERSION_4.split()))
 
 
+def is_version_3(distribution: str) -> bool:
+    """Whether Nav2 uses version 3 of BehaviorTree.CPP there."""
+    return distribution in _WITH_VERSION_3
+
+
 def loads_by_default(distribution: str, library: str) -> bool:
     """Whether bt_navigator loads the library beside those that `plugin_lib_names` lists: all of nav2_behavior_tree,
     since Jazzy."""

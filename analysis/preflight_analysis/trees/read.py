@@ -15,28 +15,44 @@ from preflight_analysis.documents.xml import parse_xml
 
 _EXPLICIT = frozenset({"Action", "Condition", "Control", "Decorator"})
 _SUBTREES = frozenset({"SubTree", "SubTreePlus"})
+_MODELS = "TreeNodesModel"
 _UNCLOSED = ("expected </", "closes nothing", "is not closed", "</")
 
 
 @dataclass(frozen=True, slots=True)
 class Used:
-    """A node type or a tree that is used in a tree, and where its name stands."""
+    """A node type or a tree that is used in a tree, and where its name stands; of a node also the names of its
+    attributes, which are mostly ports."""
 
     name: str
+    span: Span
+    attributes: tuple[tuple[str, Span], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Included:
+    """A file whose trees an `<include>` adds: `path` is relative to the share folder of `package`, else to the file."""
+
+    path: str
+    package: str | None
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
 class TreeFile:
     """What a behaviour tree file has. `problems` are what the library refuses in the file by itself; `trees` the names
-    of its trees, `main` the one that is asked for. `includes`: it takes trees from other files, too."""
+    of its trees, `main` the one that is asked for, `main_problems` what is wrong with that once the file itself is
+    loaded, and not included by another one. `models` are the nodes that the file describes for editors, as those
+    of its author."""
 
     problems: tuple[SyntaxProblem, ...] = ()
+    main_problems: tuple[SyntaxProblem, ...] = ()
     trees: tuple[str, ...] = ()
     main: Used | None = None
     nodes: tuple[Used, ...] = ()
     subtrees: tuple[Used, ...] = ()
-    includes: bool = False
+    includes: tuple[Included, ...] = ()
+    models: tuple[str, ...] = ()
     format: str = ""
 
 
@@ -59,16 +75,18 @@ def _of_root(root: Element) -> TreeFile:
     trees = tuple(each for each in root.elements if each.tag == "BehaviorTree")
     ids = tuple(id_.name for each in trees if (id_ := _used(each, "ID")) is not None)
     main = _used(root, "main_tree_to_execute")
-    includes = any(each.tag == "include" for each in root.elements)
-    problems: list[SyntaxProblem] = []
+    includes = tuple(filter(None, map(_included, root.elements)))
+    models = tuple(filter(None, (_text(each, "ID") for m in root.elements for each in m.elements if m.tag == _MODELS)))
+    main_problems: list[SyntaxProblem] = []
     if not includes:
         if main is not None and main.name not in ids and len(ids) == len(trees):
-            problems.append(SyntaxProblem(f"the file has no tree '{main.name}', its main tree", main.span))
+            main_problems.append(SyntaxProblem(f"the file has no tree '{main.name}', its main tree", main.span))
         elif main is None and len(trees) > 1:
             text = f"<root> has {len(trees)} trees and no 'main_tree_to_execute'"
-            problems.append(SyntaxProblem(text, root.tag_span))
+            main_problems.append(SyntaxProblem(text, root.tag_span))
         elif not trees:
-            problems.append(SyntaxProblem("<root> has no <BehaviorTree>", root.tag_span))
+            main_problems.append(SyntaxProblem("<root> has no <BehaviorTree>", root.tag_span))
+    problems: list[SyntaxProblem] = []
     nodes: list[Used] = []
     subtrees: list[Used] = []
     for tree in trees:
@@ -82,12 +100,25 @@ def _of_root(root: Element) -> TreeFile:
                 if named is None:
                     problems.append(SyntaxProblem(f"<{each.tag}> needs an attribute 'ID'", each.tag_span))
                 else:
-                    (subtrees if each.tag in _SUBTREES else nodes).append(named)
+                    (subtrees if each.tag in _SUBTREES else nodes).append(_with_attributes(named, each))
             else:
-                nodes.append(Used(each.tag, each.tag_span))
+                nodes.append(_with_attributes(Used(each.tag, each.tag_span), each))
     format_ = _used(root, "BTCPP_format")
     version = format_.name if format_ is not None else ""
-    return TreeFile(tuple(problems), ids, main, tuple(nodes), tuple(subtrees), includes, version)
+    return TreeFile(
+        tuple(problems), tuple(main_problems), ids, main, tuple(nodes), tuple(subtrees), includes, models, version
+    )
+
+
+def _included(element: Element) -> Included | None:
+    path, package = _used(element, "path"), _used(element, "ros_pkg")
+    if element.tag != "include" or path is None:
+        return None
+    return Included(path.name, package.name if package is not None else None, path.span)
+
+
+def _with_attributes(used: Used, element: Element) -> Used:
+    return Used(used.name, used.span, tuple((each.name, each.name_span) for each in element.attributes))
 
 
 def _below(element: Element) -> Iterator[Element]:
@@ -96,6 +127,11 @@ def _below(element: Element) -> Iterator[Element]:
         each = pending.pop()
         yield each
         pending += list(each.elements)[::-1]
+
+
+def _text(element: Element, attribute: str) -> str:
+    found = element.get(attribute)
+    return found.value.text if found is not None else ""
 
 
 def _used(element: Element, attribute: str) -> Used | None:

@@ -1,0 +1,82 @@
+"""BTR003: an attribute in a behaviour tree that is no port of its node (ROS 2).
+
+`createNodeFromXML` in src/xml_parsing.cpp of BehaviorTree/BehaviorTree.CPP: `Possible typo?`
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
+from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
+from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
+from preflight_analysis.trees.known_nodes import BUILT_IN, NAV_DISTRIBUTIONS
+from preflight_analysis.trees.ports import distributions_with, is_port, ports_of
+from preflight_analysis.trees.read import Used
+
+
+class _Ports(NamedTuple):
+    names: frozenset[str]
+    severity: Severity
+    related: tuple[Related, ...] = ()
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    seen = set[tuple[str, int]]()
+    for loaded in context.once(trees_of):
+        only_nav = loaded.is_navigator and has_only_nodes_of_nav(context, loaded)
+        for part in loaded.parts:
+            for used in part.file.nodes if not part.file.problems else ():
+                ports = _ports(context, used, loaded, only_nav=only_nav)
+                for name, span in used.attributes if ports is not None else ():
+                    if ports is None or name in ports.names or not is_port(name) or (part.path, span.start) in seen:
+                        continue
+                    seen.add((part.path, span.start))
+                    near, place = nearest(name, ports.names), context.location(part.path, span)
+                    elsewhere = distributions_with(used.name, name)
+                    yield rule.finding(
+                        f"'{name}' is not a port of '{used.name}'"
+                        + (f" in {context.environment.distro}" if elsewhere else "")
+                        + did_you_mean(near),
+                        place,
+                        severity=ports.severity,
+                        confidence="likely",
+                        related=(*loaded.related, *ports.related),
+                        fixes=rename(context, place, name, near) if near is not None else (),
+                    )
+
+
+def _ports(context: Context, used: Used, loaded: Loaded, *, only_nav: bool) -> _Ports | None:
+    own = own_nodes(context.disk.db, context.environment)
+    node = own.nodes.get(used.name)
+    if node is not None:
+        at = Related(f"'{used.name}' is registered here", Location.of_file(node.path))
+        return _Ports(node.ports, "warning", (at,)) if node.ports is not None else None
+    distro = context.environment.distro
+    ports = ports_of(used.name, distro if distro in NAV_DISTRIBUTIONS else None)
+    if ports is None or own.has(used.name) or not (loaded.is_navigator or used.name in BUILT_IN):
+        return None
+    return _Ports(ports, "warning" if only_nav and distro in NAV_DISTRIBUTIONS else "info")
+
+
+RULE = Rule(
+    id="BTR003",
+    name="unknown-behavior-tree-port",
+    severity="warning",
+    what="Checks for an attribute of a node in a behavior tree that is not one of its ports: a typo, or a port of "
+    "another distribution of Nav2. Ports of the nodes of Nav2 and BehaviorTree.CPP are known, and those of the "
+    "workspace whose `providedPorts` has all of them. The finding is information if the distribution is not known, or "
+    "if `plugin_lib_names` lists libraries beside those of Nav2.",
+    why="bt_navigator cannot create the tree. It rejects the goal or does not become active.",
+    example='<ComputePathToPose gaol="{goal}" path="{path}" planner_id="GridBased"/>',
+    instead='<ComputePathToPose goal="{goal}" path="{path}" planner_id="GridBased"/>',
+    references=(BEHAVIOR_TREES,),
+    generations=(2,),
+    check=_check,
+)
