@@ -26,6 +26,7 @@ def test_a_measurement_from_ros(tmp_path: Path) -> None:
     assert found.message.startswith(
         "bridge direction: '/scan' goes from ROS to Gazebo, but has no publisher in ROS (subscriber: /rviz)"
     )
+    assert (found.severity, found.confidence) == ("warning", "likely")
     assert found.fixes[0].edits[0].text == "/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan"
 
 
@@ -52,6 +53,7 @@ def test_a_command_to_ros(tmp_path: Path) -> None:
     bridge = _BRIDGE.format("--ros-args -p config_file:=$(dirname)/bridge.yaml")
     (found,) = found_in(tmp_path, bridge + _TELEOP, **{"bridge.yaml": row})
     assert "'/cmd_vel' goes from Gazebo to ROS, but has no subscriber in ROS (publisher: /teleop)" in found.message
+    assert found.severity == "info"  # the nodes are not analysed
     assert row[found.location.span.start : found.location.span.end] == "GZ_TO_ROS"
     assert found.fixes[0].edits[0].text == "ROS_TO_GZ"
 

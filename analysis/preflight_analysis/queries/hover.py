@@ -13,6 +13,7 @@ from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.arguments import accepted
+from preflight_analysis.queries.bridges import bridge_hover
 from preflight_analysis.queries.frames import frame_hover
 from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
@@ -91,6 +92,8 @@ def hover(
     """
     if (frame := frame_hover(analyses, file, offset)) is not None:
         return frame
+    if (bridge := bridge_hover(analyses, file, offset)) is not None:
+        return bridge
     if analyses and is_param_file(analyses[0], file):
         return in_param_file(analyses, file, offset)
     symbol = symbol_hover(context, offset) if context is not None else None

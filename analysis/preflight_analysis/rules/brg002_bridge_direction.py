@@ -17,28 +17,31 @@ from preflight_analysis.rules.places import related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 
-_MEASURED = frozenset(
+_SENSED = frozenset(
     [
-        "nav_msgs/Odometry",
         "rosgraph_msgs/Clock",
-        "sensor_msgs/BatteryState",
-        "sensor_msgs/CameraInfo",
         "sensor_msgs/FluidPressure",
-        "sensor_msgs/Image",
         "sensor_msgs/Imu",
-        "sensor_msgs/JointState",
         "sensor_msgs/LaserScan",
         "sensor_msgs/MagneticField",
         "sensor_msgs/NavSatFix",
-        "sensor_msgs/PointCloud2",
-        "tf2_msgs/TFMessage",
         "ros_gz_interfaces/Altimeter",
         "ros_gz_interfaces/Contacts",
-        "ros_gz_interfaces/LogicalCameraImage",
         "marine_acoustic_msgs/Dvl",
     ]
 )
-"""What sensors and the physics of Gazebo publish."""
+"""What sensors of Gazebo publish, and nothing in it subscribes to."""
+_MEASURED = _SENSED | {
+    "nav_msgs/Odometry",
+    "ros_gz_interfaces/LogicalCameraImage",
+    "sensor_msgs/BatteryState",
+    "sensor_msgs/CameraInfo",
+    "sensor_msgs/Image",
+    "sensor_msgs/JointState",
+    "sensor_msgs/PointCloud2",
+    "tf2_msgs/TFMessage",
+}
+"""What Gazebo publishes, too; plugins may subscribe to an image, such as that of a light."""
 _COMMANDED = frozenset(
     [
         "geometry_msgs/Twist",
@@ -74,7 +77,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if type_ in (_COMMANDED if bridge.direction == "ROS_TO_GZ" else _MEASURED):
             # A teleoperation that the user starts, or a robot beside the simulated one.
             continue
-        known = sure and graph.likely_complete
+        known = type_ in _SENSED or (sure and graph.likely_complete)
         written, other = bridge.turned
         ends = consumers or providers
         yield rule.finding(
@@ -117,7 +120,8 @@ RULE = Rule(
     what="Checks for a topic of `ros_gz_bridge` that goes in the wrong direction. The bridge takes a measurement, such "
     "as a scan, from ROS to Gazebo, while nobody publishes it in ROS and a node subscribes to it. Or it takes a "
     "command, such as a velocity, from Gazebo to ROS, while a node publishes it and nobody subscribes to it. The "
-    "finding is information for other types, and if nodes are not analysed.",
+    "finding is information for types that are neither. If nodes are not analysed, it is a warning for data of sensors "
+    "alone.",
     why="No message arrives. The bridge does not report it.",
     example="arguments=['/scan@sensor_msgs/msg/LaserScan]gz.msgs.LaserScan']",
     instead="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan']",

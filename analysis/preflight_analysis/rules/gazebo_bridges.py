@@ -8,7 +8,7 @@ import yaml
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.ros2.bridges import arguments_of, config_file_of, is_bridge
@@ -51,17 +51,23 @@ _ROS_NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ign_topic_name")
 
 @dataclass(frozen=True, slots=True)
 class Bridge:
-    """One bridged topic. `direction` is `GZ_TO_ROS`, `ROS_TO_GZ` or `BIDIRECTIONAL`; `place` is where that is written,
-    `turned` what is written there and what the other direction would be."""
+    """One bridged topic, with its name and type in ROS and in Gazebo. `direction` is `GZ_TO_ROS`, `ROS_TO_GZ` or
+    `BIDIRECTIONAL`; `place` is where that is written, `turned` what is written there and what the other direction would
+    be. `written` is where the bridge is: its argument, or the keys and values of its entry."""
 
     node: LaunchNode
     topic: str
     ros: str
+    gazebo_topic: str
+    gazebo: str
     direction: str
     place: Location
     turned: tuple[str, str]
+    written: tuple[Location, ...]
 
 
+_GAZEBO_NAMES = ("gz_topic_name", "ign_topic_name")
+_GAZEBO_TYPES = ("gz_type_name", "ign_type_name")
 _DIRECTIONS = {"@": "BIDIRECTIONAL", "[": "GZ_TO_ROS", "]": "ROS_TO_GZ"}
 _OTHER = {"[": "]", "]": "[", "GZ_TO_ROS": "ROS_TO_GZ", "ROS_TO_GZ": "GZ_TO_ROS"}
 
@@ -74,12 +80,24 @@ def bridges(context: Context) -> Iterator[Bridge]:
                 sign = given.direction
                 other = given.word.replace(f"{given.ros}{sign}", f"{given.ros}{_OTHER.get(sign, sign)}")
                 place = argument_location(context, node, given.word)
-                yield Bridge(node, given.topic, given.ros, _DIRECTIONS[sign], place, (given.word, other))
+                turned, names = (given.word, other), (given.topic, given.ros, given.topic, given.gazebo)
+                yield Bridge(node, *names, _DIRECTIONS[sign], place, turned, (_within(context, place, given.word),))
     for entry in context.once(entries):
         topic, ros = entry.ros_topic, entry.values.get("ros_type_name")
         direction, place = entry.values.get("direction", ("BIDIRECTIONAL", entry.place))
         if topic is not None and ros is not None:
-            yield Bridge(entry.node, topic[0], ros[0], direction, place, (direction, _OTHER.get(direction, direction)))
+            in_gazebo = next((entry.values[key][0] for key in _GAZEBO_NAMES if key in entry.values), topic[0])
+            gazebo = next((entry.values[key][0] for key in _GAZEBO_TYPES if key in entry.values), "")
+            turned = (direction, _OTHER.get(direction, direction))
+            written = (*entry.keys.values(), *(at for _, at in entry.values.values()))
+            yield Bridge(entry.node, topic[0], ros[0], in_gazebo, gazebo, direction, place, turned, written)
+
+
+def _within(context: Context, place: Location, word: str) -> Location:
+    """Where a word stands in the text of a place; the place where it is not written there as such."""
+    at = context.text(place).find(word)
+    start = place.span.start + at
+    return context.location(place.file, Span(start, start + len(word))) if at >= 0 else place
 
 
 def type_pairs(context: Context) -> Iterator[TypePair]:
