@@ -516,3 +516,36 @@ def test_a_parameter_that_a_plugin_of_another_package_may_read(tmp_path: Path, r
         {{"/n": {{"params": {{"~rho": 1.5}}}}}}
     """
     assert [f.severity for f in findings_of(text) if f.rule == "PRM001"] == [severity]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("plugin", "namespace"),
+    [("gazebo_ros_control", "gazebo_ros_control"), ("own", "own"), ("own", "gazebo_ros_control")],
+)
+def test_parameters_of_a_plugin_of_the_simulator(plugin: str, namespace: str) -> None:
+    """It reads them below its name, be others of like names read by a node."""
+    check(f"""
+        <launch>
+          <param name="robot_description"
+                 value="&lt;robot name='r'&gt;&lt;plugin name='{plugin}' filename='x.so'/&gt;&lt;/robot&gt;"/>
+          <param name="{namespace}/j1/p" value="5.0"/>
+          <param name="{namespace}/j1/i" value="6.0"/>
+          <node pkg="p" type="t" name="ctl"/>
+        </launch>
+        //- interfaces
+        {{"/ctl": {{"params": {{"/gains/j1/p": 1.0, "/gains/j1/i": 1.0, "/robot_description": ""}}}}}}
+    """)
+
+
+def test_parameters_of_no_plugin() -> None:
+    found = findings_of("""
+        <launch>
+          <param name="other/j1/p" value="5.0"/>
+          <param name="other/j1/i" value="6.0"/>
+          <node pkg="p" type="t" name="ctl"/>
+        </launch>
+        //- interfaces
+        {"/ctl": {"params": {"/gains/j1/p": 1.0, "/gains/j1/i": 1.0}}}
+    """)
+    assert [each.severity for each in found if each.rule == "PRM001"] == ["warning"] * 2

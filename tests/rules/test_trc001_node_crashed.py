@@ -370,6 +370,9 @@ def test_what_an_installed_package_lacks_is_not_built_in_the_workspace() -> None
     installed = replace(context, environment=replace(context.environment, system_prefixes=("/usr",)))
     assert lack_of_build(installed, "tf") == Lack("package", "tf", "apt install ros-noetic-tf")
     assert lack_of_build(installed, "p") == Lack("build", "p", "catkin build p")
+    of_rosbuild = Packages({"p": Package("p", "/ws/p", "/ws/p/manifest.xml")})
+    legacy = replace(installed, environment=replace(installed.environment, packages=of_rosbuild))
+    assert lack_of_build(legacy, "p") == Lack("build", "p", "rosmake p")
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package,
 from preflight_analysis.environment.git_submodules import Submodule, left_submodule, left_submodules_below
 from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
 from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.packages import LEGACY_MANIFEST
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
 from preflight_analysis.rules.rule import Context
@@ -160,6 +161,8 @@ def lack_of_build(context: Context, package: str) -> Lack:
     if known is not None and context.environment.is_installed(known):
         return lack_of_package(context, package)
     build = "colcon build --packages-select" if context.tree.ros.ament else "catkin build"
+    if known is not None and os.path.basename(known.manifest) == LEGACY_MANIFEST:
+        build = "rosmake"  # of rosbuild, which catkin does not see
     return Lack("build", package, f"{build} {package}")
 
 

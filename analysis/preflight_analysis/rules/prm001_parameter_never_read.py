@@ -294,7 +294,8 @@ RULE = Rule(
     "event loop. Reading a namespace reads all parameters in it. Of a node that the catalogue or its source "
     "describes in part, only typos are reported. Its source also shows the same name in another namespace. A file "
     "is a warning if its node reads most of it one namespace below. It is information if a source of another "
-    "package reads the name. A parameter of a node that begins with `_` is a "
+    "package reads the name. Parameters below the name of a plugin "
+    "in a robot description are those of the simulator. A parameter of a node that begins with `_` is a "
     "warning, because that form belongs on the command line.",
     why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',

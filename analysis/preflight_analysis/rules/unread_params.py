@@ -20,6 +20,7 @@ from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_for_tools
 from preflight_analysis.tracing.interface import Interface
 
+_PLUGIN = re.compile(r"""<plugin\b[^<>]{0,500}?\bname\s*=\s*["']([^"'<>]+)["']""")
 _CLASS = re.compile(r"\w+(?:/|::)\w+")
 
 
@@ -63,6 +64,8 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     of_holders = kept.each_row(_of_holder, ([params for _, params in private], holders, unset))
     of_nobody: tuple[Unread, ...] = ()
     orphans = found.orphans
+    if orphans and (plugins := kept.get(_plugins_in, "", context.tree.all_params)):
+        orphans = tuple(param for param in orphans if plugins.isdisjoint(param.name.split("/")))
     if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.
         near = kept.each(_unless_far, found.unset_of_nodes, *kept.get(_leaves_and_spaces, "", orphans))
@@ -70,6 +73,13 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
         alone = graph.tree.complete and not found.opaque
         of_nobody = kept.get(_of_nobody, None, orphans, of_known, found.sought, alone)
     return (*chain.from_iterable(of_holders), *of_nobody)
+
+
+def _plugins_in(params: tuple[Param, ...]) -> frozenset[str]:
+    """The names of the plugins in the descriptions of robots: a simulator loads these, and they read parameters below
+    their names."""
+    texts = (param.value for param in params if isinstance(param.value, str) and "<plugin" in param.value)
+    return frozenset(chain.from_iterable(map(_PLUGIN.findall, texts)))
 
 
 def _name(node: LaunchNode) -> str:

@@ -85,5 +85,6 @@ def is_of_planning(parameter: str) -> bool:
 
 
 def is_for_tools(parameter: str) -> bool:
-    """Whether a parameter is read by ROS itself or by tools rather than by the nodes of the launch."""
-    return parameter in _PARAMS or parameter.startswith("/roslaunch/")
+    """Whether a parameter is read by ROS itself, by tools or by ros_control in Gazebo rather than by the nodes of the
+    launch."""
+    return parameter in _PARAMS or parameter.startswith("/roslaunch/") or "/gazebo_ros_control/" in parameter
