@@ -697,3 +697,14 @@ def test_a_parameter_whose_argument_nobody_gives(said: str, severity: str) -> No
         {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": ["{said}"]}}}}
     """)
     assert [each.severity for each in found if each.rule == "TRC001"] == [severity]
+
+
+@pytest.mark.parametrize(("line", "found"), [("<<<<<<< HEAD", True), ("x = (", False)])
+def test_marks_of_a_merge_conflict_are_named(line: str, found: bool) -> None:
+    tail = json.dumps(['  File "/p/n.py", line 2', f"    {line}", "    ^^", "SyntaxError: invalid syntax"])
+    (finding,) = findings_of(f"""
+        <launch><node pkg="p" type="t" name="n"/></launch>
+        //- interfaces
+        {{"/n": {{"status": "crashed", "exit_code": 1, "stderr": {tail}}}}}
+    """)
+    assert finding.message.endswith("SyntaxError: invalid syntax; its source has marks of a merge conflict") is found

@@ -44,6 +44,8 @@ _KILLED = re.compile(
     r"(?: +\(core dumped\))? +([^\s]+)"
 )
 
+_CONFLICT = re.compile(r"\s*(?:<{7} |={7}$|>{7} )")
+
 _OF_CALLED = re.compile(
     r"The traceback for the exception was written to the log file"
     r"|CalledProcessError\b|returned non-zero exit status"
@@ -283,7 +285,9 @@ def _message(name: str, outcome: Outcome) -> str:
     else:
         message = f"{name} crashes on start: exit code {outcome.exit_code}"
     telling = telling_line(outcome.stderr_tail)[:REASON_COLUMNS]
-    return message if not telling or telling in message else f"{message}; {telling}"
+    message = message if not telling or telling in message else f"{message}; {telling}"
+    conflict = telling.startswith("SyntaxError") and any(_CONFLICT.match(line) for line in outcome.stderr_tail)
+    return f"{message}; its source has marks of a merge conflict" if conflict else message
 
 
 RULE = Rule(
