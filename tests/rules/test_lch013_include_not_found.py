@@ -181,7 +181,11 @@ def test_a_file_of_the_home_folder_of_whoever_launches(tmp_path: Path) -> None:
     [
         ("os.path.join(share, '..', '..', '..', '..', 'src', 'p', 'b.launch.py')", "info"),
         ("share.split('/install/')[0] + '/src/p/b.launch.py'", "info"),
+        ("re.match('(.*)/install/.*', share)[1] + '/src/p/b.launch.py'", "info"),
+        ("re.sub(r'install/.*', '', share) + '/src/p/b.launch.py'", "info"),
         ("os.path.join(share, 'launch', 'b.launch.py')", "error"),
+        ("'/home/me/ws/install/p/share/p/b.launch.py'", "error"),
+        ("f'{share}/install.yaml'", "error"),
     ],
 )
 def test_a_path_that_depends_on_where_packages_are_installed(tmp_path: Path, path: str, severity: str) -> None:

@@ -24,8 +24,9 @@ _RECORDING = re.compile(r"[\w+-]\.(?:bag|db3|mcap)(?:\.active)?\b")
 _NO_RECORDING = "Error reading version line"
 """What rosbag says of a file that is none, as Git LFS leaves it where it has not fetched the recording."""
 _SHARE = re.compile(r"\b(?:get_package_(?:share_directory|share_path|prefix)|FindPackage(?:Share|Prefix))\b")
-_OF_BUILD = re.compile(r"""['"][^'"\n]{0,200}\b(?:install|devel)\b""")
-"""A text with the name of a folder of what is built."""
+_OF_BUILD = re.compile(r"""['"][\^(]?(?:\.[*+]\??|\(\.[*+]\??\))?/?(?:install|devel)\b""")
+"""A text that begins with the name of a folder of what is built, or an expression for all that is before it: not one
+that has all of a path."""
 _ABOVE = re.compile(r"""['"][^'"\n]{0,200}(?<!\.)\.\.(?!\.)|\bpardir\b|\.parents?\b""")
 """How a program goes up from a folder."""
 _WORKING_FOLDER = re.compile(r"\bPWD\b|\bgetcwd\(|\bcwd\(\)")
@@ -78,7 +79,7 @@ def asks_for_unbuilt_package(context: Context, file: str) -> bool:
 
 
 def names_folder_of_build(text: str) -> bool:
-    """Whether a text of the program has the name of a folder of what is built."""
+    """Whether a text of the program is the name of a folder of what is built, or begins with it."""
     return _OF_BUILD.search(text) is not None
 
 
