@@ -48,8 +48,9 @@ def test_the_source_of_a_node(call: str, severity: str) -> None:
 
 
 @pytest.mark.silent
-def test_what_takes_the_slash_off() -> None:
-    check(fixture(_UNKNOWN.format("exec"), _source("MessageFilter")))
+@pytest.mark.parametrize("call", ["MessageFilter", "sensor_msgs/Joy"])
+def test_what_takes_the_slash_off_or_is_no_frame(call: str) -> None:
+    check(fixture(_UNKNOWN.format("exec"), _source(call, "/" not in call)))
 
 
 def test_tf2_in_ros_1() -> None:

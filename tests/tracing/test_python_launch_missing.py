@@ -15,6 +15,7 @@ from preflight_analysis.evaluation.problems import (
     UnsetVariable,
 )
 from preflight_analysis.evaluation.ros2 import unknown_text
+from preflight_analysis.evaluation.ros2.params import given_within, of_name
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing.agents import anything
 from support.python_launch_harness import PythonHarness
@@ -339,6 +340,36 @@ def generate_launch_description():
     assert kept.file.endswith("/params.yaml")
     assert set(places.values()) == {None}
     assert tree.complete
+
+
+def test_a_rewritten_file_has_parameters_for_nodes_whose_names_are_found_later(harness: PythonHarness) -> None:
+    harness.write(
+        "params.yaml",
+        """
+        server: {ros__parameters: {rate: 20.0}}
+        map: {map: {ros__parameters: {layers: [scan]}}}
+        """,
+    )
+    tree = tree_of(
+        harness,
+        """
+from nav2_common.launch import RewrittenYaml
+
+def generate_launch_description():
+    file = os.path.join(get_package_share_directory("p"), "params.yaml")
+    rewritten = RewrittenYaml(source_file=file, root_key="r1", param_rewrites={})
+    return LaunchDescription([Node(package="p", executable="x", namespace="r1", parameters=[rewritten])])
+""",
+    )
+    (node,) = tree.nodes
+    assert node.params == ()
+    named = of_name(node, "/r1/server", {}, inferred=True)
+    assert [(param.name, param.value, param.owner) for param in named.params] == [("rate", 20.0, "/r1/server")]
+    assert named.params[0].place.file.endswith("/params.yaml")
+    within = given_within(named, "/r1/map/map", {})
+    assert [(param.name, param.value) for param in within] == [("layers", ["scan"])]
+    assert within[0].place.file.endswith("/params.yaml")
+    assert given_within(named, "/map/map", {}) == ()
 
 
 def test_helpers_of_moveit_that_are_not_here_have_their_behaviour(harness: PythonHarness) -> None:

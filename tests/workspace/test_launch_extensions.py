@@ -12,7 +12,7 @@ from preflight_analysis.workspace.workspace import Workspace
 MANIFEST = "<package><name>{}</name><export><build_type>ament_cmake</build_type></export></package>"
 ENTRY = "[options.entry_points]\nlaunch.frontend.launch_extension =\n  sim = sim\n"
 LAUNCH = (
-    "<launch>\n  <sim_server world='w'/>\n  <group><sim_server/></group>\n  <node><sim_server/></node>\n</launch>\n"
+    "<launch>\n  <open_hangar world='w'/>\n  <group><open_hangar/></group>\n  <node><open_hangar/></node>\n</launch>\n"
 )
 
 
@@ -35,7 +35,7 @@ def said(folder: Path) -> list[tuple[int, str]]:
 
 def extension(folder: Path) -> None:
     write(folder / "sim" / "__init__.py", "")
-    write(folder / "sim" / "actions" / "server.py", "@expose_action('sim_server')\nclass Server(Action):\n    pass\n")
+    write(folder / "sim" / "actions" / "server.py", "@expose_action('open_hangar')\nclass Server(Action):\n    pass\n")
 
 
 def test_a_tag_that_nobody_defines(tmp_path: Path) -> None:
@@ -81,6 +81,6 @@ def test_a_huge_package_is_not_walked_to_its_end(tmp_path: Path) -> None:
     for number in range(600):
         (package / "sim" / f"a{number}").mkdir(parents=True)
     extension(package)
-    write(package / "sim" / "z" / "late.py", "@expose_action('sim_server')\n")
+    write(package / "sim" / "z" / "late.py", "@expose_action('open_hangar')\n")
     (package / "sim" / "actions" / "server.py").unlink()
     assert [line for line, _ in said(tmp_path)] == [1, 2, 3]

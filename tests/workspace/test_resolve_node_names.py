@@ -144,3 +144,13 @@ def test_a_name_for_several_nodes(tmp_path: Path) -> None:
     sources = (SEVERAL["two branches"], SEVERAL["two branches in C++"], ONE["a node in C++"], own, own_cpp)
     for source in (*sources, unknown_options, no_such_constructor):
         assert not told(analysis(tmp_path, source, NAMED))
+
+
+@pytest.mark.parametrize(("section", "values"), [("controller_server", [2.0]), ("pump", [])])
+def test_the_knowledge_of_a_package_names_one_that_is_not_here(
+    tmp_path: Path, section: str, values: list[float]
+) -> None:
+    launch = '<node pkg="nav2_controller" exec="controller_server"><param from="$(dirname)/p.yaml"/></node>'
+    (node,) = analysis(tmp_path, PYTHON.format(body="    pass"), launch, section).tree.nodes
+    assert (node.name, node.name_from_code, node.name_inferred) == ("/controller_server", True, True)
+    assert [param.value for param in node.params] == values

@@ -98,12 +98,22 @@ class Remap(NamedTuple):
     """Earlier or outer remaps of the same name that this one took the place of, for the same nodes."""
 
 
+class FileSection(NamedTuple):
+    """The parameters of a file for the nodes that `pattern` (`/robot/camera`, `/**`) fits, below its `key`."""
+
+    pattern: str
+    key: str
+    params: tuple[Param, ...]
+
+
 class ParamSource(NamedTuple):
     """What gives parameters to a ROS 2 node: a file, or values in the launch file (`path` None). `params` are those
     that reach the node, their names as it declares them (`a.b`). `keys` are those that they stand below, as written
     (`/robot/camera`, `/**`); values of the launch file have the one that launch gives them. `substituted`: the file's
     substitutions are made before the node gets it, so that its text tells no more than what stands in it plainly.
-    `pushed`: it is for each node of a scope (`<set_parameter>`), not for this one."""
+    `pushed`: it is for each node of a scope (`<set_parameter>`), not for this one. `sections` has all of a file that
+    cannot be read again, as a run of a launch file wrote it, or its substitutions were made: for a node that gets
+    another name, and for those within it."""
 
     path: str | None
     params: tuple[Param, ...]
@@ -111,6 +121,7 @@ class ParamSource(NamedTuple):
     keys: tuple[str, ...] = ()
     substituted: bool = False
     pushed: bool = False
+    sections: tuple[FileSection, ...] = ()
 
 
 class Tag:

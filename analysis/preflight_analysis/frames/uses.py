@@ -30,6 +30,8 @@ _SENSORS = frozenset(
     )
 )
 """Messages of sensors whose place counts."""
+_NO_FRAME = frozenset(("sensor_msgs/Joy",))
+"""Messages whose header has no frame: drivers write the path of their device into it."""
 OF_SENSOR = ("frame_id", "camera_frame_id", "imu_frame", "laser_frame_id", "lidar_frame", "sensor_frame")
 """The parameters by which drivers have the frame of their messages."""
 OF_LOCALIZATION = frozenset(("map", "odom", "world", "earth", "utm"))
@@ -53,7 +55,7 @@ def uses_of_node(
             what = f"transform {asked[1]} <- {asked[2]}"
             found += (Use(plain(frame), frame, node, what, None, space) for frame in asked.groups() if is_frame(frame))
     for use in interface.frame_uses if interface is not None else ():
-        if is_frame(use.frame):
+        if is_frame(use.frame) and use.call not in _NO_FRAME:
             found.append(_of_source(use, node, given, space))
     return tuple(found)
 

@@ -79,14 +79,16 @@ class Entry:
     has words that stand as they are and names of others. `options` has the names of what stands behind options. What
     has a name is a parameter for `meanings`. `whole`: whether they have all endpoints of the node.
 
-    `within` has what other nodes there are in the process, by their full name below the namespace of the process, with
-    the component or plugin that says what they are.
+    `node` is the name that the code gives to the node, of a process with several (ROS 2). `within` has what other nodes
+    there are in the process, by their full name below the namespace of the process, with the component or plugin that
+    says what they are.
     """
 
     names: Mapping[EntryKind, tuple[str, ...]]
     meanings: tuple[Meaning, ...] = ()
     frames: tuple[Frames, ...] = ()
     distributions: tuple[str, ...] = ()
+    node: str = ""
     within: Mapping[str, str] = field(default_factory=dict)
     arguments: tuple[str, ...] = ()
     options: Mapping[str, str] = field(default_factory=dict)

@@ -22,7 +22,7 @@ from preflight_analysis.knowledge.model import (
     Problem,
 )
 
-_OF_ENTRIES = ("parameters", "arguments", "options", "broadcasts", "distributions", "within", "whole")
+_OF_ENTRIES = ("parameters", "arguments", "options", "broadcasts", "distributions", "node", "within", "whole")
 _MAX_VALUES = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
 
@@ -85,6 +85,8 @@ class _Reader:
                 given["arguments"] = self._texts(value, "arguments")
             elif key.value in ("within", "options"):
                 given[key.value] = {k.value: self._text(v, k.value) for k, v in self._pairs(value, key.value)}
+            elif key.value == "node":
+                given["node"] = self._text(value, "node")
             elif key.value == "whole":
                 given["whole"] = self._plain(value) is True
             else:

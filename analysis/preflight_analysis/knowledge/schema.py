@@ -63,6 +63,7 @@ def schema() -> dict[str, Any]:
             "whole": {"type": "boolean", "description": "Whether these are all endpoints of the node."},
             "broadcasts": {"type": "array", "items": broadcast},
             "distributions": _TEXTS,
+            "node": {**_TEXT, "description": "The name that the code gives to the node, if there are others within."},
             "within": _of_texts(),
         },
     )

@@ -16,7 +16,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.evaluation.ros2.params import given_within
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.catalogued import Catalogued, catalogued, may_be_newer, typed_end
@@ -68,7 +68,9 @@ class LoadedPlugins:
         return whole
 
     def _ends(self, node: LaunchNode, host: _Host, documents: Mapping[str, Document]) -> Iterator[Endpoint]:
-        given, places = _own(node) if host.name == _OWN else _given(node, host.name, documents)
+        params = node.params if host.name == _OWN else given_within(node, host.name, documents)
+        given = {param.name: param.value for param in params}
+        places = {param.name: param.place for param in params}
         values = {**host.defaults, **given}
         listed = {item for name, value in values.items() if not name.endswith(KIND) for item in _items(value)}
         for name, type_ in [*_types(values, listed)][:_MOST]:
@@ -118,28 +120,6 @@ def _hosts(interface: Interface) -> tuple[_Host, ...]:
 
 def _is_kind(param: str) -> bool:
     return param.endswith(KIND)
-
-
-_Given = tuple[Mapping[str, Any], Mapping[str, Location]]
-"""Parameters of a node with their values, and where they are written."""
-
-
-def _own(node: LaunchNode) -> _Given:
-    return {param.name: param.value for param in node.params}, {param.name: param.place for param in node.params}
-
-
-def _given(node: LaunchNode, host: str, documents: Mapping[str, Document]) -> _Given:
-    """What the files of a node have for one within it."""
-    paths = dict.fromkeys(source.path for source in node.param_sources if source.path is not None)
-    found = [
-        (param, document)
-        for document in map(documents.get, paths)
-        if document is not None
-        for section in read_param_file(document).reaching(host)
-        for param in section.params
-    ]
-    values = {param.name: param.value for param, _ in found}
-    return values, {param.name: document.location(param.name_span) for param, document in found}
 
 
 def _types(values: Mapping[str, Any], listed: set[str]) -> Iterator[tuple[str, str]]:

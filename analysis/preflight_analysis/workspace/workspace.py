@@ -351,13 +351,13 @@ class Workspace:
         """
         kept = Kept(previous.context.kept if previous is not None else None)
         db = self.sources.db
-        tree = resolve_node_names(analysis.tree, interfaces, analysis.documents)
+        tree = resolve_node_names(analysis.tree, interfaces, analysis.documents, analysis.context.known)
         if tree is not analysis.tree:
             analysis = _under_names(analysis, tree)
         project = self.settings
         managed = with_spawned(tree, analysis.documents)
         whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
-        of_source = resolve_node_names(tree, whole[: len(tree.nodes)], analysis.documents)
+        of_source = resolve_node_names(tree, whole[: len(tree.nodes)], analysis.documents, analysis.context.known)
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             managed = with_spawned(of_source, analysis.documents)

@@ -32,7 +32,7 @@ from preflight_analysis.evaluation.ros2.substitute import Performer, yaml_bool
 from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coerce, is_of_type, is_valid, loaded
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
-from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource
+from preflight_analysis.evaluation.tree import FileSection, LaunchNode, Param, ParamSource
 from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
@@ -271,7 +271,9 @@ def of_name(node: LaunchNode, name: str, documents: Mapping[str, Document], *, i
     to = Sources(name)
     for source in node.param_sources:
         document = _as_it_stands(source, documents)
-        if source.path is None or document is None:
+        if source.sections:
+            to.add(_of_sections(source, name))
+        elif source.path is None or document is None:
             to.add(source)
         else:
             file = read_param_file(document)
@@ -297,8 +299,9 @@ def of_file(
         reaching.sort(key=lambda section: section.exact)
         if not file.sections:
             reaching = [Section(EVERY, (), file.flat, EVERY)]
-    params, keys = [], []
-    for section in reaching:
+
+    def params_of(section: Section) -> tuple[Param, ...]:
+        found = []
         for param in section.params:
             if is_unknown(param.name) or any(map(is_unknown, _items(param.value))):
                 continue
@@ -310,9 +313,39 @@ def of_file(
             value = param.by_launch if to.composable else param.value
             by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
             way = origin if place is None else (*origin, place)
-            params.append(Param(param.name, value, way, to.owner, place, by_launch=by_launch))
-            keys.append(section.key)
-    return ParamSource(path, tuple(params), origin, tuple(keys), lines is None)
+            found.append(Param(param.name, value, way, to.owner, place, by_launch=by_launch))
+        return tuple(found)
+
+    own = [(section.key, param) for section in reaching for param in params_of(section)]
+    others: tuple[FileSection, ...] = ()
+    if not to.composable and (lines is None or made_of is not None):
+        others = tuple(FileSection(each.pattern, each.key, params_of(each)) for each in file.sections)
+    params, keys = tuple(param for _, param in own), tuple(key for key, _ in own)
+    return ParamSource(path, params, origin, keys, lines is None, sections=others)
+
+
+def _of_sections(source: ParamSource, node: str) -> ParamSource:
+    """What a file that cannot be read again has for the node of this full name."""
+    own = [(s.key, p._replace(owner=node)) for s in source.sections if _fits(s, node) for p in s.params]
+    return source._replace(params=tuple(param for _, param in own), keys=tuple(key for key, _ in own))
+
+
+def _fits(section: FileSection, node: str) -> bool:
+    return Section(section.pattern, (), ()).fits(node)
+
+
+def given_within(node: LaunchNode, name: str, documents: Mapping[str, Document]) -> tuple[Param, ...]:
+    """What the parameter files of a node have for the one of this full name that its process has, too; the one that
+    counts comes last."""
+    found: list[Param] = []
+    for source in {each.path: each for each in node.param_sources if each.path is not None}.values():
+        document = _as_it_stands(source, documents)
+        if source.sections:
+            found += _of_sections(source, name).params
+        elif document is not None and source.path is not None:
+            file = read_param_file(document)
+            found += of_file(file, source.path, document.lines, source.origin, Sources(name)).params
+    return tuple(found)
 
 
 def _items(value: Any) -> list[Any]:
