@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.evaluation.words import words_of
+from preflight_analysis.evaluation.words import beside_ros, words_of
 from preflight_analysis.knowledge.model import Entry
 
 _REMAP = ":="
-_ROS_ARGUMENTS = "--ros-args"
 _REST = "..."
 _KEPT = 256
 _MOST = 256
@@ -44,7 +43,7 @@ def _split(args: str, options: Mapping[str, str]) -> tuple[dict[str, Any], list[
     """The values of options, and the words that belong to none. Remaps and private parameters (`_lazy:=true`) may
     stand anywhere."""
     found, words = dict[str, Any](), list[str]()
-    given = iter(_own_words(words_of(args)[:_MOST]))
+    given = iter([word for word in beside_ros(words_of(args)[:_MOST]) if _REMAP not in word])
     for word in given:
         option, sign, value = word.partition("=")
         if word in options:
@@ -54,16 +53,6 @@ def _split(args: str, options: Mapping[str, str]) -> tuple[dict[str, Any], list[
         elif not word.startswith("-"):
             words.append(word)
     return found, words
-
-
-def _own_words(words: Sequence[str]) -> Iterator[str]:
-    """Without what ROS takes for itself: in ROS 2 all between `--ros-args` and `--`."""
-    is_ros = False
-    for word in words:
-        if is_ros or word == _ROS_ARGUMENTS:
-            is_ros = word != "--"
-        elif _REMAP not in word:
-            yield word
 
 
 def _fitting(form: Sequence[_Word], words: Sequence[str]) -> dict[str, Any] | None:

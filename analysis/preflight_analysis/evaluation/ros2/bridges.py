@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.evaluation.words import words_of
+from preflight_analysis.evaluation.words import beside_ros, words_of
 
 if TYPE_CHECKING:
     from preflight_analysis.evaluation.ros2.state import State
@@ -49,7 +49,7 @@ def arguments_of(node: LaunchNode) -> Iterator[Argument]:
     if not is_bridge(node) or node.executable != _PROGRAM:
         return
     whole = not node.unknowns and "$(" not in node.args
-    for word in _beside_ros(words_of(node.args)):
+    for word in beside_ros(words_of(node.args)):
         given = parse_argument(word)
         # A substitution that is not known may have blanks in it: its pieces are no arguments.
         if whole or not (given.refused or is_unknown(word) or _OF_SUBSTITUTION.intersection(word)):
@@ -80,17 +80,6 @@ def _refused(given: Argument) -> str:
     if not given.gazebo:
         return f"names no type of Gazebo after '{given.direction}'"
     return "has more than two types" if "@" in given.gazebo else ""
-
-
-def _beside_ros(words: list[str]) -> Iterator[str]:
-    inside = False
-    for word in words:
-        if word == "--ros-args":
-            inside = True
-        elif inside:
-            inside = word != "--"
-        else:
-            yield word
 
 
 def is_bridge(node: LaunchNode) -> bool:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field
+from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.dataclass import dataclass
@@ -208,7 +209,15 @@ def file_source(
         fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
-    return of_file(file, path, lines, origin, to, made_of=_places_before(performer, text) if made else None)
+    if not (made or substitute):
+        return of_file(file, path, lines, origin, to)
+    before = _document_before(performer, text) if made else None
+    places: _Places = before.once(_places) if before is not None else {}
+    source = of_file(file, path, lines, origin, to, made_of=places if made else None)
+    if to.composable:
+        return source
+    sections = _sections_made(text, path) if before is None else before.once(_sections_rewritten, text)
+    return source._replace(sections=sections)
 
 
 _Places = Mapping[str, tuple[tuple[FileParam, str, Location], ...]]
@@ -217,18 +226,51 @@ _SOURCE = re.compile(r"# preflight: rewritten from (/.+)\n")
 """How `rewrites.py` of `tracing/agents/fake_launch` says what a file was made from."""
 
 
-def _places_before(performer: Performer, text: str) -> _Places:
-    """Where the parameters of a file that a run of a launch file wrote stand in the one that it was made from."""
+def _document_before(performer: Performer, text: str) -> Document | None:
+    """The file that one was made from which a run of a launch file wrote."""
     source = _SOURCE.match(text)
     found = performer.state.read_text(source[1]) if source is not None else None
-    if source is None or not isinstance(found, Document) or performer.state.text_made(source[1]) is not None:
-        return {}
+    is_own = source is None or performer.state.text_made(source[1]) is not None
+    return found if isinstance(found, Document) and not is_own else None
+
+
+def _places(document: Document) -> _Places:
+    """Where its parameters stand."""
     places: dict[str, tuple[tuple[FileParam, str, Location], ...]] = {}
-    for section in read_param_file(found).sections:
+    for section in read_param_file(document).sections:
         for param in section.params:
-            place = found.lines.location(source[1], param.name_span)
+            place = document.location(param.name_span)
             places[param.name] = (*places.get(param.name, ()), (param, section.key, place))
     return places
+
+
+def _sections_rewritten(document: Document, text: str) -> tuple[FileSection, ...]:
+    """Those of a text that was made from the document."""
+    places = document.once(_places)
+    return _sections(text, lambda param, key: _place_before(places, param, key))
+
+
+@lru_cache(maxsize=64)
+def _sections_made(text: str, path: str) -> tuple[FileSection, ...]:
+    """Those of a text that no file has as it stands."""
+    place = Location.of_file(path)
+    return _sections(text, lambda param, key: place)
+
+
+def _sections(text: str, place: Callable[[FileParam, str], Location | None]) -> tuple[FileSection, ...]:
+    """A file may be shared by hundreds of nodes: who gets which of its parameters is left to those who ask."""
+    return tuple(
+        FileSection(
+            each.pattern,
+            each.key,
+            tuple(
+                Param(param.name, param.value, (), None, place(param, each.key), by_launch=_by_launch(param))
+                for param in each.params
+                if not is_unknown(param.name) and not any(map(is_unknown, _items(param.value)))
+            ),
+        )
+        for each in read_made_param_file(text).sections
+    )
 
 
 def _place_before(places: _Places, param: FileParam, key: str) -> Location | None:
@@ -299,9 +341,8 @@ def of_file(
         reaching.sort(key=lambda section: section.exact)
         if not file.sections:
             reaching = [Section(EVERY, (), file.flat, EVERY)]
-
-    def params_of(section: Section) -> tuple[Param, ...]:
-        found = []
+    params, keys = [], []
+    for section in reaching:
         for param in section.params:
             if is_unknown(param.name) or any(map(is_unknown, _items(param.value))):
                 continue
@@ -311,23 +352,25 @@ def of_file(
             elif lines is not None:
                 place = lines.location(path, param.name_span)
             value = param.by_launch if to.composable else param.value
-            by_launch = None if repr(value) == repr(param.by_launch) else param.by_launch
+            by_launch = None if to.composable else _by_launch(param)
             way = origin if place is None else (*origin, place)
-            found.append(Param(param.name, value, way, to.owner, place, by_launch=by_launch))
-        return tuple(found)
+            params.append(Param(param.name, value, way, to.owner, place, by_launch=by_launch))
+            keys.append(section.key)
+    return ParamSource(path, tuple(params), origin, tuple(keys), lines is None)
 
-    own = [(section.key, param) for section in reaching for param in params_of(section)]
-    others: tuple[FileSection, ...] = ()
-    if not to.composable and (lines is None or made_of is not None):
-        others = tuple(FileSection(each.pattern, each.key, params_of(each)) for each in file.sections)
-    params, keys = tuple(param for _, param in own), tuple(key for key, _ in own)
-    return ParamSource(path, params, origin, keys, lines is None, sections=others)
+
+def _by_launch(param: FileParam) -> Any:
+    """What launch reads, where that is something else than rcl does."""
+    return None if repr(param.value) == repr(param.by_launch) else param.by_launch
 
 
 def _of_sections(source: ParamSource, node: str) -> ParamSource:
     """What a file that cannot be read again has for the node of this full name."""
-    own = [(s.key, p._replace(owner=node)) for s in source.sections if _fits(s, node) for p in s.params]
-    return source._replace(params=tuple(param for _, param in own), keys=tuple(key for key, _ in own))
+    own = [(each.key, param) for each in source.sections if _fits(each, node) for param in each.params]
+    params = tuple(
+        param._replace(owner=node, origin=(*source.origin, *filter(None, (param.name_location,)))) for _, param in own
+    )
+    return source._replace(params=params, keys=tuple(key for key, _ in own))
 
 
 def _fits(section: FileSection, node: str) -> bool:
