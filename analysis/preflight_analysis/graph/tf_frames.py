@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import shlex
 from collections.abc import Sequence
 
@@ -12,6 +13,7 @@ from preflight_analysis.tracing.interface import Frame, Interface
 _PACKAGES = ("tf", "tf2_ros")
 _NUMBERS = (6, 7)
 """How many numbers stand before the frames: a translation, and Euler angles or a quaternion."""
+_NUMBER = re.compile(r"\s*[-+]?(?:\d|\.\d|inf|nan)", re.IGNORECASE)
 _PARENT, _CHILD = "--frame-id", "--child-frame-id"
 _PARENT_PARAM, _CHILD_PARAM = "frame_id", "child_frame_id"
 
@@ -39,23 +41,36 @@ def frame_in_arguments(node: LaunchNode) -> Frame | None:
             and node.plugin.endswith("StaticTransformBroadcasterNode")
         )
         return Frame(str(parent), str(child), True) if named else None
-    if node.executable != "static_transform_publisher":
+    words = static_transform_words(node)
+    if words is None:
+        return None
+    if _PARENT in words or _CHILD in words:
+        parent, child = _option(words, _PARENT), _option(words, _CHILD)
+        return Frame(parent, child, True) if parent and child else None
+    static = node.package == "tf2_ros"
+    # With a period that tf2's takes for a frame: what is meant, FRM006 reports it.
+    if not static or (len(words) - 2 == max(_NUMBERS) and not begins_with_number(words[-3])):
+        words = words[:-1]
+    if len(words) - 2 not in _NUMBERS:
+        return None
+    return Frame(words[-2], words[-1], static)
+
+
+def static_transform_words(node: LaunchNode) -> list[str] | None:
+    """What a static transform publisher gets on its command line; None of another node, and where it is no list."""
+    if node.package not in _PACKAGES or node.plugin is not None or node.executable != "static_transform_publisher":
         return None
     try:
         words = shlex.split(node.args)
     except ValueError:
         return None
     # What follows is for the client library.
-    words = [*itertools.takewhile(lambda word: word != "--ros-args" and ":=" not in word, words)]
-    if _PARENT in words or _CHILD in words:
-        parent, child = _option(words, _PARENT), _option(words, _CHILD)
-        return Frame(parent, child, True) if parent and child else None
-    static = node.package == "tf2_ros"
-    if not static:
-        words = words[:-1]
-    if len(words) - 2 not in _NUMBERS:
-        return None
-    return Frame(words[-2], words[-1], static)
+    return [*itertools.takewhile(lambda word: word != "--ros-args" and ":=" not in word, words)]
+
+
+def begins_with_number(word: str) -> bool:
+    """Whether `atof` and `std::stod` make a number of it: they read as far as it goes."""
+    return _NUMBER.match(word) is not None
 
 
 def _option(words: Sequence[str], name: str) -> str:
