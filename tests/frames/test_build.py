@@ -58,6 +58,16 @@ def test_a_description_that_nobody_publishes() -> None:
     assert not any(edge.sure or edge.node for edge in frames.edges)
 
 
+def test_the_xacro_of_ours_leaves_no_gap() -> None:
+    line = "xacro /p/r.xacro"
+    node = '<node pkg="robot_state_publisher" type="robot_state_publisher" name="rsp"/>'
+    param = '<param name="robot_description" command="$(find xacro)/xacro /p/r.xacro"/>'
+    made = f"\n//- commands\n{json.dumps({line: {'output': f'<robot>{_URDF}</robot>'}})}"
+    frames = _frames(param + node, ros=1, more=made)
+    assert not frames.gaps
+    assert frames.names("") == {"base", "wheel", "lidar"}
+
+
 def test_static_transforms() -> None:
     node = '<node pkg="tf2_ros" exec="static_transform_publisher" name="{}" args="{}"/>'
     frames = _frames(

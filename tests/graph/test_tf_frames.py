@@ -23,6 +23,8 @@ def frames(package: str, args: str) -> tuple[Frame, ...]:
         ("tf", "0 0 1 0 0 0 1 base laser 100", (Frame("base", "laser"),)),
         ("tf2_ros", "0 0 base laser", ()),
         ("tf2_ros", "'0 0", ()),
+        ("tf2_ros", "0 0 0 0 0 0 base laser 100", (Frame("base", "laser", static=True),)),
+        ("tf2_ros", "0 0 0 0 0 0 $(unknown of it) laser", ()),
         ("tf2_ros", "", ()),
         ("tf", "", ()),
         ("p", "0 0 1 0 0 0 base laser", ()),

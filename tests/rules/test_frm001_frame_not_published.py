@@ -36,6 +36,32 @@ def test_where_not_all_is_known() -> None:
     assert found.confidence == "possible"
 
 
+_SLAM = (
+    '<node pkg="slam_toolbox" exec="async_slam_toolbox_node" name="slam"><param name="base_frame" value="{}"/></node>'
+)
+_SLAM_PACKAGE = "\n//- /slam_toolbox/package.xml\n<package><name>slam_toolbox</name></package>"
+
+
+def _with_slam(frame: str, said: str, more: str = "") -> str:
+    expected = f"\n{below(_SLAM.index('{}'), len(frame), said)}" if said else ""
+    return fixture(f"{_ROBOT}\n{more}{_SLAM.format(frame)}{expected}", {}, _SLAM_PACKAGE)
+
+
+def test_a_base_that_the_robot_does_not_have() -> None:
+    """https://github.com/SteveMacenski/slam_toolbox/issues/556"""
+    said = "[FRM001] frame 'base_footprint' has no publisher: /slam uses it (parameter 'base_frame'); the robot"
+    (found,) = check(_with_slam("base_footprint", f"warning{said}"))
+    assert found.confidence == "likely"
+    (found,) = check(_with_slam("base_footprint", f"info{said} description begins with 'base_link'", f"{_UNKNOWN}\n"))
+    assert found.confidence == "possible"
+
+
+@pytest.mark.silent
+def test_a_base_that_something_joins_with_the_robot() -> None:
+    joints = (static("s", "base_footprint", "base_link"), static("o", "odom", "base_footprint"))
+    check(_with_slam("base_footprint", "", "\n".join((*joints, ""))))
+
+
 def test_what_a_run_asked_for() -> None:
     answer = "it waits for the transform odom <- camera_lnk, and was given the identity"
     expected = below(0, len(_UNKNOWN), "warning[FRM001] (transform odom <- camera_lnk); did you mean 'camera_link'?")

@@ -12,6 +12,8 @@ _PREFIX = '<param name="frame_prefix" value="{}"/>'
     [
         ("one/", "base", "frame 'base' is published as 'one/base': /ekf uses it (parameter 'base_link_frame')"),
         ("one", "base", "frame 'base' is published as 'onebase'"),
+        # https://github.com/ros/robot_state_publisher/issues/205
+        ("one", "one/base", "(parameter 'base_link_frame'); 'frame_prefix' lacks the '/' at its end"),
         ("", "one/base", "frame 'one/base' is published as 'base'"),
     ],
 )
@@ -34,3 +36,10 @@ def test_a_namespace_of_tf_on_one_side() -> None:
 def test_the_same_on_both_sides() -> None:
     publisher = robot(("base", "laser"), more=_PREFIX.format("one/"))
     check(fixture(f"{publisher}\n{static('s', 'odom', 'one/base')}\n{EKF.format('one/base', '')}"))
+
+
+@pytest.mark.silent
+def test_a_topic_that_a_node_passes_on() -> None:
+    """As in medipick_moveit_config: a node makes `/tf` of `/raw_tf`."""
+    remap = '<remap from="/tf" to="/one/raw_tf"/><remap from="/tf_static" to="/one/raw_tf_static"/>'
+    check(fixture(f"{robot(('base', 'laser'), more=remap)}\n{EKF.format('base', '')}"))

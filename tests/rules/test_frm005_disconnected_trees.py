@@ -47,6 +47,29 @@ def test_what_one_call_needs() -> None:
     check(fixture(nodes.rpartition("\n")[0], {"/driver": {"frame_uses": other}}))
 
 
+_EKF = '<node pkg="robot_localization" exec="ekf_node" name="ekf"><param name="base_link_frame" value="{}"/></node>'
+
+
+@pytest.mark.parametrize(("more", "severity"), [("", "warning"), (f"{_DRIVER}\n", "info")])
+def test_a_base_that_localization_publishes_and_the_robot_does_not_have(more: str, severity: str) -> None:
+    said = f"{severity}[FRM005] frames 'base_footprint' and 'base_link' are in trees that nothing joins: /ekf (odom_fr"
+    expected = below(_EKF.index("base_link_frame"), len("base_link_frame"), said)
+    check(fixture(f"{_APART}\n{more}{_EKF.format('base_footprint')}\n{expected}", {}))
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        f"{static('s', 'base_footprint', 'base_link')}\n{_APART}\n{_EKF.format('base_footprint')}",
+        f"{_APART}\n{_EKF.format('rear/base_link')}",
+        _EKF.format("base_footprint"),
+    ],
+)
+def test_a_base_of_the_robot(nodes: str) -> None:
+    check(fixture(nodes, {}))
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
     ("more", "seen"),

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from preflight_analysis.rules.frm006_static_transform_arguments import RULE
 from support.check import analyse, check, findings_of, read_fixture
+from support.frame_launch import below
 
 _PACKAGES = "".join(f"\n//- /{name}/package.xml\n<package><name>{name}</name></package>" for name in ("tf", "tf2_ros"))
 _SAME = "both the parent and the child frame"
@@ -25,16 +26,10 @@ def _told(package: str, args: str, ros: int) -> list[str]:
 
 def test_a_period_that_tf2_takes_for_a_frame() -> None:
     """As in launch files of moveit_tutorials and of PyroTeam/robocup-pkg."""
-    check(
-        """
-        <launch>
-          <node pkg="tf2_ros" type="static_transform_publisher" name="mount" args="0 0 1 0 0 0 base_link laser 100"/>
-                                                                                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[FRM006] /mount publishes the frame '100' below 'laser': tf2 has no period, so it takes 'base_link' for a number
-        </launch>
-        //- /tf2_ros/package.xml
-        <package><name>tf2_ros</name></package>
-        """
-    )
+    text = _node("tf2_ros", "0 0 1 0 0 0 base_link laser 100", 1)
+    start = text.index("0 0 1")
+    expected = below(start, len("0 0 1 0 0 0 base_link laser 100"), "error[FRM006] /mount publishes the frame '100'")
+    check(text.replace("/></launch>", f"/>\n{expected}\n</launch>"))
 
 
 @pytest.mark.parametrize(
@@ -42,8 +37,13 @@ def test_a_period_that_tf2_takes_for_a_frame() -> None:
     [
         ("tf", "0 0 1 0 0 0 base laser", "exits: static_transform_publisher of tf gets 8 arguments; the period"),
         ("tf", "0 0 1 0 0 0 1 base laser", "publishes the frame 'base' below '1': the period"),
-        ("tf", "0 0 1 base laser 100", "gets 6 arguments; expected 'x y z yaw pitch roll frame_id child_frame_id period'"),
+        (
+            "tf",
+            "0 0 1 base laser 100",
+            "gets 6 arguments; expected 'x y z yaw pitch roll frame_id child_frame_id period'",
+        ),
         ("tf", "0 0 TODO 0 0 0 base laser 100", "warning: /mount uses 0 for 'TODO'"),
+        ("tf", "0.0.3 0 0 0 0 0 base laser 100", "warning: /mount uses 0.0 for '0.0.3'"),
         ("tf", "0 0 1 0 0 0 base base 100", _SAME),
         ("tf2_ros", "0 0 1 0 0 0 1 base laser 100", "gets 10 arguments; tf2 has no period, remove '100'"),
         ("tf2_ros", "0 0 1 0 0 base laser", "gets 7 arguments; expected"),

@@ -10,8 +10,9 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.model import Executable
+from preflight_analysis.environment.own_programs import OWN_PROGRAMS
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.problems import Problem
+from preflight_analysis.evaluation.problems import PackageNotFound, Problem
 from preflight_analysis.generation import Generation, ros
 from preflight_analysis.incremental.once import Once
 from preflight_analysis.launch.model import Action, Value
@@ -386,6 +387,8 @@ class LaunchTree(Once):
         return not self.unknowns and not any(p.fatal and not self._is_stood_in_for(p) for p in self.problems)
 
     def _is_stood_in_for(self, problem: Problem[ProblemKind]) -> bool:
+        if isinstance(problem.kind, PackageNotFound) and problem.kind.name in OWN_PROGRAMS:
+            return True
         edited = self.edited.get(problem.location.file)
         return edited is not None and problem.location.span in edited.wrong
 

@@ -37,11 +37,12 @@ def plain(frame: str) -> str:
 
 
 def space_of(node: LaunchNode, generation: int) -> str:
-    """The namespace of the topic that a node has for `/tf`: "" for that itself, `/robot1` where it is remapped."""
+    """The namespace of the topic that a node has for `/tf`: "" for that itself, `/robot1` where it is remapped. Another
+    topic, such as `/raw_tf`, has a node that passes its frames on."""
     if not node.remaps and ":=" not in node.args:
         return ""
     remap = effective_remaps(node, generation).get("/tf")
-    return remap[1].removesuffix("/tf") if remap is not None else ""
+    return remap[1].removesuffix("/tf") if remap is not None and names.leaf(remap[1]) == "tf" else ""
 
 
 def is_state_publisher(node: LaunchNode) -> bool:

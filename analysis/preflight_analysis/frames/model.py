@@ -138,6 +138,10 @@ class Frames(Once):
         """Whether nothing speaks for more frames."""
         return not self.gaps
 
+    def robot_root(self, space: str) -> str | None:
+        """The root of the only robot description that is published in a space, if all of its links are known."""
+        return self.once(_robot_roots).get(space)
+
     def path(self, space: str, frame: str) -> tuple[Edge, ...]:
         """The transforms from a frame up to its root, the first one that is known at each step."""
         parents, found, met = self.parents(space), list[Edge](), {frame}
@@ -153,6 +157,17 @@ class Frames(Once):
         """The root of the tree that a frame is in."""
         path = self.path(space, frame)
         return path[-1].parent if path else frame
+
+
+def _robot_roots(frames: Frames) -> Mapping[str, str]:
+    found: dict[str, str] = {}
+    for space in {edge.space for edge in frames.edges if edge.how == "urdf" and edge.sure}:
+        edges = [edge for edge in frames.edges if edge.how == "urdf" and edge.space == space]
+        children = {edge.child for edge in edges}
+        roots = {edge.parent for edge in edges if edge.parent not in children}
+        if len(roots) == 1 and all(edge.sure and edge.robot and edge.robot.description.is_whole for edge in edges):
+            found[space] = roots.pop()
+    return found
 
 
 def _names(frames: Frames) -> Mapping[str, frozenset[str]]:

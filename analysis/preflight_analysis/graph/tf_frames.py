@@ -57,9 +57,11 @@ def frame_in_arguments(node: LaunchNode) -> Frame | None:
 
 
 def static_transform_words(node: LaunchNode) -> list[str] | None:
-    """What a static transform publisher gets on its command line; None of another node, and where it is no list."""
+    """The command line of a static transform publisher; None of another node, and where a part of it is not known."""
     if node.package not in _PACKAGES or node.plugin is not None or node.executable != "static_transform_publisher":
         return None
+    if "$(" in node.args:
+        return None  # a part of them is not known
     try:
         words = shlex.split(node.args)
     except ValueError:

@@ -26,6 +26,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         severity, confidence = judged
         place = place_of_use(context, use)
         gaps = f"; {frames.gaps[0]}" if frames.gaps and near is None else ""
+        if missing.root is not None:
+            gaps = f"; the robot description begins with '{missing.root}'"
         yield rule.finding(
             f"frame '{use.written}' has no publisher: {use.does}{did_you_mean(near)}{gaps}",
             place,
@@ -65,6 +67,11 @@ def _judged(frames: Frames, missing: MissingFrame, is_mentioned: bool) -> tuple[
         return "info", "possible"
     if is_mentioned or not any(edge.how == "urdf" and edge.sure for edge in frames.edges):
         return None  # what has no robot in it is started beside another launch
+    if missing.root is not None and use.sure:
+        # Whoever publishes it would have to join it with the root of the description.
+        return ("warning", "likely") if frames.complete else ("info", "possible")
+    if frames.complete and use.frame.rpartition("/")[2] in OF_LOCALIZATION:
+        return "hint", "possible"  # localization is mostly started by itself
     if frames.complete:
         return "info", "likely" if use.sure and not use.call else "possible"
     in_launch = use.param is not None and not use.call and not use.of_sensor
@@ -77,11 +84,12 @@ RULE = Rule(
     severity="warning",
     what="Checks for a frame that a node looks up and that nothing in the launch publishes: no robot description, no "
     "static transform, no node. A frame that is nearly the name of a published one is a warning. Otherwise it is "
-    "information if all nodes are known, and a hint if not; there is no finding in a launch without a robot "
-    "description, which another launch file provides. The frame that a sensor writes into its messages counts, too: "
-    "of a driver, of a simulated sensor, or in the source of a node. It is a warning if it is nearly the name of a "
-    "published one and all nodes are known, and information otherwise. `laser_frame` beside `laser_link` is "
-    "information.",
+    "information if all nodes are known, and a hint if not, or for `map` and `odom`. There is no finding in a launch "
+    "without a robot description, which another launch file provides. `base_link` beside a description that begins "
+    "with `base_footprint`, or the other way round, is a warning if all nodes are known, and information otherwise. "
+    "The frame that a sensor writes into its messages counts, too: of a driver, of a simulated sensor, or in the "
+    "source of a node. It is a warning if it is nearly the name of a published one and all nodes are known, and "
+    "information otherwise. `laser_frame` beside `laser_link` is information.",
     why="The node waits for the transform, drops its data, or repeats `Could not transform ... frame does not exist`.",
     example="amcl:\n  ros__parameters:\n    base_frame_id: base_lnk",
     instead="amcl:\n  ros__parameters:\n    base_frame_id: base_link",

@@ -13,7 +13,8 @@ from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for use, edge, _, _ in missing_frames(context):
+    for missing in missing_frames(context):
+        use, edge = missing.use, missing.elsewhere
         if edge is None or use.of_sensor:
             continue
         if edge.space != use.space:
@@ -23,8 +24,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
         else:
             ends = (edge.child, edge.parent)
-            published = next(end for end in ends if end.endswith(use.frame) or use.frame.endswith(end))
+            published = next(end for end in ends if end.endswith(use.frame) or _ends_with(use.frame, end))
             message = f"frame '{use.frame}' is published as '{published}': {use.node.name} uses it ({use.what})"
+            if len(published) == len(use.frame) - 1:
+                message += "; 'frame_prefix' lacks the '/' at its end"
         known = use.sure and not use.call
         yield rule.finding(
             message,
@@ -38,13 +41,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _ends_with(frame: str, end: str) -> bool:
+    """Whether a frame is the other one behind a prefix, or has a slash behind the prefix that the other one lacks."""
+    return frame.endswith(end) or frame.replace("/", "", 1) == end
+
+
 RULE = Rule(
     id="FRM003",
     name="frame-prefix",
     severity="warning",
     what="Checks for a frame that a node looks up without the prefix under which it is published, or with one: "
     "`frame_prefix` of `robot_state_publisher` in ROS 2, `tf_prefix` in ROS 1. It also checks for a frame that is "
-    "published in another namespace of `/tf`, by a remap of `/tf` to `tf`.",
+    "published in another namespace of `/tf`, by a remap of `/tf` to `tf`. `frame_prefix` needs a slash at its end: "
+    "with `robot1` instead of `robot1/` the link is `robot1base_link`.",
     why="`base_link` and `robot1/base_link` are different frames, and `/tf` and `/robot1/tf` are different topics. The "
     "node finds no transform.",
     example="# robot_state_publisher has frame_prefix: robot1/\namcl:\n  ros__parameters:\n"

@@ -11,6 +11,7 @@ from preflight_analysis.frames.uses import OF_LOCALIZATION
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_use
 from preflight_analysis.rules.further_reading import FRAMES, TF2
+from preflight_analysis.rules.missing_frames import is_base_beside
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -20,6 +21,7 @@ _SENSORS = ("sensor_msgs/",)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _of_bases(rule, context)
     frames = frames_of(context)
     if not frames.complete or context.graph is None:
         return
@@ -49,6 +51,26 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     *(include_chain(other.node.origin) if other.param is None else ()),
                 ),
             )
+
+
+def _of_bases(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Localization that publishes a base of the robot that the description does not have."""
+    frames = frames_of(context)
+    for edge in frames.edges:
+        root = frames.robot_root(edge.space)
+        if edge.how != "knowledge" or not edge.sure or root is None or not is_base_beside(edge.child, root):
+            continue
+        trees = frames.trees(edge.space)
+        if edge.parent.rpartition("/")[2] not in OF_LOCALIZATION or trees[edge.child] == trees[root]:
+            continue
+        gaps = f"; {frames.gaps[0]}" if frames.gaps else ""
+        yield rule.finding(
+            f"frames '{edge.child}' and '{root}' are in trees that nothing joins: {edge.by} publishes the former below "
+            f"'{edge.parent}', the robot description begins with '{root}'{gaps}",
+            place_of_edge(context, edge),
+            severity="info" if frames.gaps else "warning",
+            confidence="possible" if frames.gaps else "likely",
+        )
 
 
 def _together(frames: Frames, graph: Graph) -> Iterator[list[Use]]:
@@ -97,7 +119,9 @@ RULE = Rule(
     what="Checks for frames that a node uses together and that are in two trees which no transform joins: those of one "
     "`lookupTransform`, those that the parameters of a node name, and those of the sensors whose topics it subscribes "
     "to. There is a finding if all nodes of the launch are known. It is a warning if one of the trees has the robot "
-    "and its odometry, and information otherwise, as another launch may join the trees.",
+    "and its odometry, and information otherwise, as another launch may join the trees. A `base_footprint`, "
+    "`base_link` or `base` that localization publishes and that the robot description does not have is a warning, or "
+    "information if not all nodes are known.",
     why="The node waits for the transform, or repeats `Could not find a connection between ...`.",
     example='<!-- robot_state_publisher has base_link -> mast; the driver of the lidar writes "laser" -->\n'
     '<node pkg="tf2_ros" exec="static_transform_publisher" args="0 0 0 0 0 0 lidar_mount laser"/>',

@@ -15,7 +15,7 @@ from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.tf_frames import begins_with_number, static_transform_words
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.places import argument_location, attribute_location, program_known
+from preflight_analysis.rules.places import argument_location, attribute_location
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -27,6 +27,8 @@ _WITHOUT_OPTIONS = frozenset(("ardent", "bouncy", "crystal", "dashing", "eloquen
 _OPTIONS_ALONE = frozenset(("lyrical", "rolling"))
 """https://github.com/ros2/geometry2/pull/790"""
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?\Z", re.IGNORECASE)
+_CUT_OFF = re.compile(r"([-+]?\d*\.\d*)\.")
+"""What is read of `0.0.3`."""
 _TOLERANCE = 10e-3
 """How far the square of a quaternion's length may be from 1 (`QUATERNION_NORMALIZATION_TOLERANCE` of tf2)."""
 _FORM = "'x y z yaw pitch roll frame_id child_frame_id'"
@@ -44,7 +46,7 @@ class _Fault(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in context.tree.nodes:
-        words = static_transform_words(node) if program_known(node) and not node.launch_prefix else None
+        words = static_transform_words(node) if not node.unknowns else None
         if words is None:
             continue
         if not context.tree.ros.own_parameters:
@@ -58,7 +60,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 if fault.word
                 else attribute_location(context, node, "args"),
                 severity=fault.severity,
-                confidence="likely" if node.unknowns else "certain",
                 related=include_chain(node.origin),
             )
 
@@ -95,10 +96,12 @@ def _of_tf2(words: Sequence[str]) -> _Fault | None:
 
 
 def _of_numbers(numbers: Sequence[str]) -> _Fault | None:
-    """ROS 1 takes what is no number for 0."""
-    wrong = next((word for word in numbers if not begins_with_number(word)), None)
-    if wrong is not None:
-        return _Fault(f"uses 0 for '{wrong}', which is not a number", wrong, "warning")
+    """ROS 1 takes what is no number for 0, and as much as it can read of the rest."""
+    for word in numbers:
+        if not begins_with_number(word):
+            return _Fault(f"uses 0 for '{word}', which is not a number", word, "warning")
+        if (cut := _CUT_OFF.match(word)) is not None:
+            return _Fault(f"uses {cut[1]} for '{word}', which is not a number", word, "warning")
     return _of_quaternion(numbers[3:]) if len(numbers) == 7 else None
 
 
@@ -188,13 +191,15 @@ RULE = Rule(
     id="FRM006",
     name="static-transform-arguments",
     severity="error",
-    what="Checks for arguments of `static_transform_publisher` that it refuses, or that make it publish another transform: "
-    "their number, a period that only tf of ROS 1 has, options that it does not have, a value that is not a number, a "
-    "quaternion whose length is not 1, and two frames with the same name. Options exist since ROS 2 Humble; Lyrical and "
-    "Rolling have nothing else.",
-    why="The process exits, or a frame such as '100' is published, and nothing publishes the frame that is meant.",
-    example='<node pkg="tf2_ros" type="static_transform_publisher" name="mount" args="0 0 1 0 0 0 base_link laser 100"/>',
-    instead='<node pkg="tf2_ros" type="static_transform_publisher" name="mount" args="0 0 1 0 0 0 base_link laser"/>',
+    what="Checks for arguments of `static_transform_publisher` that it refuses, or that make it publish another "
+    "transform: their number, a period that only tf of ROS 1 has, unknown options, a value that is not a number, a "
+    "quaternion whose length is not 1, and two frames with the same name. Options exist since ROS 2 Humble. Lyrical "
+    "and Rolling have nothing else.",
+    why="The process exits, or a frame such as '100' is published, and nothing publishes the intended frame.",
+    example='<node pkg="tf2_ros" type="static_transform_publisher" name="mount"\n'
+    '      args="0 0 1 0 0 0 base_link laser 100"/>',
+    instead='<node pkg="tf2_ros" type="static_transform_publisher" name="mount"\n'
+    '      args="0 0 1 0 0 0 base_link laser"/>',
     references=(TF2, FRAMES),
     check=_check,
     in_branches=True,

@@ -17,15 +17,21 @@ from preflight_analysis.rules.rule import Context
 _LAST_WORDS = re.compile(r"(?:_?(?:link|frame|optical|sensor|id))+\Z")
 
 
+_BASES = frozenset(("base", "base_footprint", "base_link"))
+"""Frames of REP 105 and REP 120 that a robot description has."""
+
+
 class MissingFrame(NamedTuple):
     """A frame that is asked for where nothing publishes it. `elsewhere` has it with or without a prefix, or in another
     namespace of `/tf`; `near` is a frame of which it is a slip; `alike`, of a sensor, the only one with the same
-    name but for its last words (`laser_frame`, `laser_link`)."""
+    name but for its last words (`laser_frame`, `laser_link`); `root`, of the base of a robot, the one that its
+    description has."""
 
     use: Use
     elsewhere: Edge | None
     near: str | None
     alike: str | None = None
+    root: str | None = None
 
 
 def missing_frames(context: Context) -> tuple[MissingFrame, ...]:
@@ -45,7 +51,8 @@ def _missing(context: Context) -> tuple[MissingFrame, ...]:
         elsewhere = next(_elsewhere(frames, use, prefixes), None)
         near = _near(frames, use) if elsewhere is None else None
         alike = _alike(frames, use) if use.of_sensor and elsewhere is None and near is None else None
-        found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near, alike))
+        root = _root(frames, use) if elsewhere is None and near is None else None
+        found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near, alike, root))
     return tuple(found.values())
 
 
@@ -77,6 +84,8 @@ def _elsewhere(frames: Frames, use: Use, prefixes: frozenset[str]) -> Iterator[E
     own = {f"{prefix}{use.frame}" for prefix in prefixes}
     # Without the prefix; a whole namespace may be one.
     own |= {use.frame.removeprefix(prefix) for prefix in prefixes} | {use.frame.partition("/")[2]}
+    # A prefix stands before the name as it is given.
+    own |= {f"{prefix}{name}" for prefix in prefixes if (name := use.frame.removeprefix(f"{prefix}/")) != use.frame}
     for edge in frames.edges:
         ends = (edge.child, edge.parent)
         if edge.sure and ((edge.space == use.space and not own.isdisjoint(ends)) or use.frame in ends):
@@ -87,6 +96,18 @@ def _near(frames: Frames, use: Use) -> str | None:
     names = frames.names(use.space)
     near = nearest(use.frame, names)
     return near if near is not None and is_slip(use.frame, near) else None
+
+
+def _root(frames: Frames, use: Use) -> str | None:
+    """The root of the robot description, where a parameter asks for another frame of the robot's base."""
+    root = frames.robot_root(use.space)
+    return root if root is not None and use.looked_up and not use.call and is_base_beside(use.frame, root) else None
+
+
+def is_base_beside(frame: str, root: str) -> bool:
+    """Whether a frame is the base of a robot by its name, with the prefix that the root of the description has."""
+    prefix, _, name = frame.rpartition("/")
+    return name in _BASES and prefix == root.rpartition("/")[0]
 
 
 def _alike(frames: Frames, use: Use) -> str | None:
