@@ -19,8 +19,8 @@ from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Related
 from preflight_analysis.rules.rule import Context
-from preflight_analysis.trees.known_nodes import NAV_LIBRARIES
-from preflight_analysis.trees.read import Included, TreeFile, read_trees
+from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS, NAV_LIBRARIES, is_version_3
+from preflight_analysis.trees.read import Included, TreeFile, Used, read_trees
 
 _NAMES_TREE = re.compile(r"(?:\A|[._])bt_xml(?:_filename)?\Z")
 _LIBRARIES = "plugin_lib_names"
@@ -75,6 +75,11 @@ class Loaded:
         return frozenset(model for part in self.parts for model in part.file.models)
 
     @property
+    def nodes(self) -> Iterator[tuple[Part, Used]]:
+        """The nodes of all files that the library takes, each with its file."""
+        return ((part, used) for part in self.parts if not part.file.problems for used in part.file.nodes)
+
+    @property
     def related(self) -> tuple[Related, ...]:
         """Who loads the file, and what says so."""
         return (Related(f"{self.node.name} loads the file by '{self.param.name}'", self.param.place),)
@@ -111,6 +116,14 @@ def has_only_nodes_of_nav(context: Context, loaded: Loaded) -> bool:
     if own is not None and workspace is not None and own.share.startswith(workspace.rstrip("/") + "/"):
         return False
     return loaded.knows_all and NAV_LIBRARIES.issuperset(loaded.libraries or ())
+
+
+def is_version_4(context: Context, loaded: Loaded) -> bool:
+    """Whether the tree is surely for version 4 of BehaviorTree.CPP: Nav2's of a known distribution, else as it says."""
+    distro = context.environment.distro
+    if loaded.is_navigator and distro in NAV_DISTRIBUTIONS:
+        return not is_version_3(distro)
+    return loaded.file.format == "4"
 
 
 def here(context: Context, path: str) -> str:

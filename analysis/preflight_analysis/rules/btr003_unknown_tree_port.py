@@ -34,7 +34,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for part in loaded.parts:
             for used in part.file.nodes if not part.file.problems else ():
                 ports = _ports(context, used, loaded, only_nav=only_nav)
-                for name, span in used.attributes if ports is not None else ():
+                for attribute in used.attributes if ports is not None else ():
+                    name, span = attribute.name, attribute.name_span
                     if ports is None or name in ports.names or not is_port(name) or (part.path, span.start) in seen:
                         continue
                     seen.add((part.path, span.start))

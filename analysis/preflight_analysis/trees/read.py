@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.document import Document, Element, SyntaxProblem
+from preflight_analysis.documents.document import Attribute, Document, Element, SyntaxProblem
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 
@@ -21,12 +21,19 @@ _UNCLOSED = ("expected </", "closes nothing", "is not closed", "</")
 
 @dataclass(frozen=True, slots=True)
 class Used:
-    """A node type or a tree that is used in a tree, and where its name stands; of a node also the names of its
-    attributes, which are mostly ports."""
+    """A node type or a tree that is used in a tree, and where its name stands; also its attributes, how many children
+    it has, and in which tree of the file it is. `tag` is that of its element: the name itself, or what kind it is."""
 
     name: str
     span: Span
-    attributes: tuple[tuple[str, Span], ...] = ()
+    attributes: tuple[Attribute, ...] = ()
+    children: int = 0
+    tree: int = 0
+    tag: str = ""
+
+    def get(self, attribute: str) -> Attribute | None:
+        """The attribute of that name."""
+        return next((each for each in self.attributes if each.name == attribute), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +96,7 @@ def _of_root(root: Element) -> TreeFile:
     problems: list[SyntaxProblem] = []
     nodes: list[Used] = []
     subtrees: list[Used] = []
-    for tree in trees:
+    for at, tree in enumerate(trees):
         children = tuple(tree.elements)
         if len(children) != 1:
             text = f"<BehaviorTree> must have exactly one child, not {len(children)}"
@@ -100,14 +107,25 @@ def _of_root(root: Element) -> TreeFile:
                 if named is None:
                     problems.append(SyntaxProblem(f"<{each.tag}> needs an attribute 'ID'", each.tag_span))
                 else:
-                    (subtrees if each.tag in _SUBTREES else nodes).append(_with_attributes(named, each))
+                    (subtrees if each.tag in _SUBTREES else nodes).append(_of_element(named.name, named.span, each, at))
             else:
-                nodes.append(_with_attributes(Used(each.tag, each.tag_span), each))
+                nodes.append(_of_element(each.tag, each.tag_span, each, at))
+            if each.tag in _SUBTREES and any(each.elements):
+                problems.append(SyntaxProblem(f"<{each.tag}> must not have children", each.tag_span))
     format_ = _used(root, "BTCPP_format")
     version = format_.name if format_ is not None else ""
     return TreeFile(
         tuple(problems), tuple(main_problems), ids, main, tuple(nodes), tuple(subtrees), includes, models, version
     )
+
+
+def entry_of(attribute: Attribute) -> str | None:
+    """The entry of the blackboard that a port names: `{goal}`, or `{=}` for one of the port's own name."""
+    value = attribute.value.text
+    if not (len(value) > len("{}") and value.startswith("{") and value.endswith("}")):
+        return None
+    named = value[1:-1].strip()
+    return attribute.name if named == "=" else named
 
 
 def _included(element: Element) -> Included | None:
@@ -117,8 +135,8 @@ def _included(element: Element) -> Included | None:
     return Included(path.name, package.name if package is not None else None, path.span)
 
 
-def _with_attributes(used: Used, element: Element) -> Used:
-    return Used(used.name, used.span, tuple((each.name, each.name_span) for each in element.attributes))
+def _of_element(name: str, span: Span, element: Element, tree: int) -> Used:
+    return Used(name, span, element.attributes, sum(1 for _ in element.elements), tree, element.tag)
 
 
 def _below(element: Element) -> Iterator[Element]:
