@@ -11,9 +11,10 @@ def _tree(inner: str, attributes: str = "") -> str:
 
 def test_of_nodes_that_are_known() -> None:
     check(
-        _tree("""        <RecoveryNode><RateController hz="1"><Wait/><Wait/></RateController><Spin/><Wait/></RecoveryNode>
+        _tree("""        <RecoveryNode><RateController hz="1"><Wait/><Wait/></RateController><Spin/><Wait/>
          ^^^^^^^^^^^^ warning[BTR004] behavior tree node 'RecoveryNode' must have 2 children, not 3
-                       ^^^^^^^^^^^^^^ warning[BTR004] behavior tree node 'RateController' must have 1 child, not 2""")
+                       ^^^^^^^^^^^^^^ warning[BTR004] behavior tree node 'RateController' must have 1 child, not 2
+        </RecoveryNode>""")
     )
 
 

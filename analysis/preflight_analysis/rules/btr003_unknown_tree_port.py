@@ -58,7 +58,7 @@ def _ports(context: Context, used: Used, loaded: Loaded, *, only_nav: bool) -> _
     node = own.nodes.get(used.name)
     if node is not None:
         at = Related(f"'{used.name}' is registered here", Location.of_file(node.path))
-        return _Ports(node.ports, "warning", (at,)) if node.ports is not None else None
+        return _Ports(frozenset(node.ports), "warning", (at,)) if node.ports is not None else None
     distro = context.environment.distro
     ports = ports_of(used.name, distro if distro in NAV_DISTRIBUTIONS else None)
     if ports is None or own.has(used.name) or not (loaded.is_navigator or used.name in BUILT_IN):

@@ -43,8 +43,9 @@ RULE = Rule(
     name="number-of-behavior-tree-children",
     severity="warning",
     what="Checks for a node in a behavior tree with too many or too few children. Actions and conditions have none, "
-    "decorators one. `RecoveryNode` has two, `IfThenElse` two or three. `Sequence` and `Fallback` are not empty. Nodes of "
-    "Nav2 and BehaviorTree.CPP are known, and what `<Action>`, `<Condition>`, `<Decorator>` and `<Control>` say.",
+    "decorators one. `RecoveryNode` has two, `IfThenElse` two or three. `Sequence` and `Fallback` are not empty. "
+    "Nodes of Nav2 and BehaviorTree.CPP are known, and what `<Action>`, `<Condition>`, `<Decorator>` and `<Control>` "
+    "say.",
     why="The tree cannot be created, or it fails as soon as it runs the node.",
     example='<RecoveryNode number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n'
     '  <FollowPath path="{path}"/>\n  <ClearEntireCostmap service_name="local_costmap/clear_entirely_local_costmap"/>\n'

@@ -34,11 +34,20 @@ _QUOTED = re.compile(r"\"([A-Za-z]\w*)\"")
 _CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\b[^;{}()]{0,200}\{")
 _PORTS = re.compile(r"\b(?:(?P<cls>\w+)::)?providedPorts\s*\(\s*\)\s*\{")
 _PORT = re.compile(r"\b(?:In|Out|Bidirectional)(?:put)?Port\b")
-_NAMED_PORT = re.compile(r"\b(?:Input|Output|Bidirectional)Port\s*(?:<[^()\";]{0,200}>)?\s*\(\s*\"(\w+)\"")
+_NAMED_PORT = re.compile(
+    r"\b(?P<kind>Input|Output|Bidirectional)Port\s*(?:<(?P<type>[^()\";]{0,200})>)?\s*\(\s*\"(?P<name>\w+)\""
+)
 _BRACE = re.compile(r"[{}]")
 _LONGEST = 20_000
 """Of a function."""
 _MORE = re.compile(r"\bprovided\w*Ports\s*\(|\binsert\b|\bmerge\b")
+
+
+class OwnPort(NamedTuple):
+    """A port that a source declares, with its C++ type, empty where it has none; `is_output`: it is only written."""
+
+    type: str
+    is_output: bool
 
 
 class OwnNode(NamedTuple):
@@ -46,7 +55,7 @@ class OwnNode(NamedTuple):
 
     name: str
     path: str
-    ports: frozenset[str] | None
+    ports: Mapping[str, OwnPort] | None
 
 
 class OwnNodes(NamedTuple):
@@ -62,7 +71,7 @@ class OwnNodes(NamedTuple):
 
 class _Read(NamedTuple):
     registered: tuple[tuple[str, str], ...] = ()
-    ports: tuple[tuple[str, frozenset[str] | None], ...] = ()
+    ports: tuple[tuple[str, Mapping[str, OwnPort] | None], ...] = ()
     words: frozenset[str] = frozenset()
 
 
@@ -74,7 +83,7 @@ def own_nodes(db: Database, environment: Environment) -> OwnNodes:
         packages = [each for each in packages if any(map(_DEPENDENCY.search, each.dependencies))]
     shares = {each.share for each in packages}
     registered = dict[str, tuple[str, str]]()
-    ports = dict[str, list[frozenset[str] | None]]()
+    ports = dict[str, list[Mapping[str, OwnPort] | None]]()
     words = set[str]()
     for share in sorted(shares):
         if os.path.dirname(share) in shares:
@@ -107,16 +116,20 @@ def _in_file(db: Database, path: str) -> _Read:
     return _Read(tuple(registered), tuple(_ports(text)), frozenset(_QUOTED.findall(text)))
 
 
-def _ports(text: str) -> Iterator[tuple[str, frozenset[str] | None]]:
+def _ports(text: str) -> Iterator[tuple[str, Mapping[str, OwnPort] | None]]:
     classes = [(found.start(), found[1]) for found in _CLASS.finditer(text)]
     for found in _PORTS.finditer(text):
         cls = found["cls"] or next((name for at, name in reversed(classes) if at < found.start()), None)
         if cls is None:
             continue
         body = text[found.end() : _end_of(text, found.end())]
-        names = _NAMED_PORT.findall(body)
-        whole = len(names) == len(_PORT.findall(body)) and _MORE.search(body) is None
-        yield cls, frozenset(names) if whole else None
+        found_ports = [*_NAMED_PORT.finditer(body)]
+        whole = len(found_ports) == len(_PORT.findall(body)) and _MORE.search(body) is None
+        ports = {
+            each["name"]: OwnPort(" ".join((each["type"] or "").split()), each["kind"] == "Output")
+            for each in found_ports
+        }
+        yield cls, ports if whole else None
 
 
 def _end_of(text: str, start: int) -> int:

@@ -33,21 +33,18 @@ class Number(NamedTuple):
 
 
 _NONE, _ONE, _SOME, _ANY = Number(0, 0), Number(1, 1), Number(1, None), Number(0, None)
-_DECORATORS = frozenset(
-    """
+_DECORATORS = """
     Inverter RetryUntilSuccesful RetryUntilSuccessful KeepRunningUntilFailure Repeat Timeout Delay RunOnce ForceSuccess
     ForceFailure Precondition LoopInt LoopBool LoopDouble LoopString SkipUnlessUpdated WaitValueUpdate
     BlackboardCheckInt BlackboardCheckDouble BlackboardCheckString BlackboardCheckBool
     DistanceController GoalUpdatedController GoalUpdater PathLongerOnApproach RateController SingleTrigger
     SpeedController
-    """.split()
-)
-_CONTROLS = frozenset(
-    """
+"""
+_CONTROLS = """
     Fallback AsyncFallback Sequence AsyncSequence SequenceWithMemory SequenceStar Parallel ParallelAll ReactiveSequence
     ReactiveFallback ManualSelector TryCatch NonblockingSequence PersistentSequence PipelineSequence RoundRobin
-    """.split()
-)
+"""
+_DECORATOR_NAMES, _CONTROL_NAMES = frozenset(_DECORATORS.split()), frozenset(_CONTROLS.split())
 _EXACT = {
     "RecoveryNode": Number(2, 2),
     "IfThenElse": Number(2, 3),
@@ -68,9 +65,9 @@ def children_of(used: Used, *, is_version_4: bool) -> Number | None:
         return Number(int(switch[1]) + 1, int(switch[1]) + 1)
     if used.name in _EXACT:
         return _EXACT[used.name]
-    if used.name in _CONTROLS:
+    if used.name in _CONTROL_NAMES:
         return _SOME if is_version_4 or used.name in _NEVER_EMPTY else _ANY
-    if used.name in _DECORATORS:
+    if used.name in _DECORATOR_NAMES:
         return _ONE
     if used.name in NAV_NODES or used.name in BUILT_IN:
         return _NONE
