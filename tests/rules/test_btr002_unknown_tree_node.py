@@ -51,20 +51,42 @@ def test_a_slip_beside_other_libraries() -> None:
     )
 
 
-def _found_in(folder: Path, node: str, libraries: str) -> list[Finding]:
-    files = {"t.xml": f'<root><BehaviorTree ID="A">{node}</BehaviorTree></root>', "src/nodes.cpp": _SOURCE}
+def _found_in(folder: Path, node: str, libraries: str, distro: str = "jazzy") -> list[Finding]:
+    tree = f'<root main_tree_to_execute="A"><BehaviorTree ID="A">{node}</BehaviorTree><BehaviorTree ID="B"><Wait/>'
+    files = {"t.xml": f"{tree}</BehaviorTree></root>", "src/nodes.cpp": _SOURCE}
     param = f'<param name="plugin_lib_names" value="{libraries}" value-sep=","/>'
-    analysis = package_elsewhere.analysed(folder, _LAUNCH.format(param), "a.launch.xml", "jazzy", **files)
+    analysis = package_elsewhere.analysed(folder, _LAUNCH.format(param), "a.launch.xml", distro, **files)
     return [each for each in run_rules(analysis.context) if each.rule == "BTR002"]
 
 
-def test_a_slip_of_a_library(tmp_path: Path) -> None:
-    (found,) = _found_in(tmp_path, "<Wait/>", "nav2_wait_action_bt_nod,my_door_bt_node")
+@pytest.mark.parametrize(
+    ("distro", "node", "message"),
+    [
+        (
+            "jazzy",
+            '<SubTreePlus ID="B"/>',
+            "'SubTreePlus' does not exist in BehaviorTree.CPP 4, which Nav2 of jazzy uses; did you mean 'SubTree'?",
+        ),
+        (
+            "humble",
+            "<SequenceWithMemory><Wait/></SequenceWithMemory>",
+            "'SequenceWithMemory' does not exist in BehaviorTree.CPP 3, which Nav2 of humble uses; "
+            "did you mean 'SequenceStar'?",
+        ),
+    ],
+)
+def test_a_node_of_another_version(tmp_path: Path, distro: str, node: str, message: str) -> None:
+    (found,) = _found_in(tmp_path, node, "nav2_wait_action_bt_node,my_door_bt_node", distro)
+    assert (found.message, found.severity) == (message, "warning")
+
+
+def test_a_node_whose_library_is_not_listed(tmp_path: Path) -> None:
+    """As in open-navigation/opennav_coverage, issue 78."""
+    node = '<GetPoseFromPath path="{path}" pose="{pose}"/>'
+    (found,) = _found_in(tmp_path, node, "nav2_wait_action_bt_node", "humble")
     assert found.message == (
-        "'plugin_lib_names' of /bt_navigator lists the unknown library 'nav2_wait_action_bt_nod'; "
-        "did you mean 'nav2_wait_action_bt_node'?"
+        "behavior tree node 'GetPoseFromPath' needs 'nav2_get_pose_from_path_action_bt_node' in 'plugin_lib_names'"
     )
-    assert found.fixes[0].edits[0].text == "nav2_wait_action_bt_node"
 
 
 @pytest.mark.silent

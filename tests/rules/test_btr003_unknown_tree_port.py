@@ -79,6 +79,51 @@ def test_ports_that_are_there(tmp_path: Path, node: str, distro: str | None) -> 
     assert not found_in(tmp_path, node, distro)
 
 
+def _of_subtree(folder: Path, distro: str | None, subtree: str) -> list[Finding]:
+    tree = f'<BehaviorTree ID="A">{subtree}</BehaviorTree><BehaviorTree ID="B"><Wait/></BehaviorTree>'
+    files = {"t.xml": f'<root main_tree_to_execute="A">{tree}</root>'}
+    analysis = package_elsewhere.analysed(folder, _LAUNCH.format(""), "a.launch.xml", distro, **files)
+    return [each for each in run_rules(analysis.context) if each.rule == "BTR003"]
+
+
+@pytest.mark.parametrize(
+    ("distro", "attribute", "message"),
+    [
+        (
+            "jazzy",
+            "__shared_blackboard",
+            "'__shared_blackboard' of <SubTree> has no effect in BehaviorTree.CPP 4, which Nav2 of jazzy uses; "
+            "did you mean '_autoremap'?",
+        ),
+        (
+            "humble",
+            "_autoremap",
+            "'_autoremap' of <SubTree> has no effect in BehaviorTree.CPP 3, which Nav2 of humble uses; "
+            "did you mean '__autoremap' of <SubTreePlus>?",
+        ),
+    ],
+)
+def test_what_shares_the_blackboard_in_another_version(
+    tmp_path: Path, distro: str, attribute: str, message: str
+) -> None:
+    (found,) = _of_subtree(tmp_path, distro, f'<SubTree ID="B" {attribute}="true"/>')
+    assert found.message == message
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("distro", "subtree"),
+    [
+        ("jazzy", '<SubTree ID="B" _autoremap="true"/>'),
+        ("jazzy", '<SubTree ID="B" __shared_blackboard="false"/>'),
+        ("humble", '<SubTreePlus ID="B" __autoremap="1"/>'),
+        (None, '<SubTree ID="B" __shared_blackboard="true"/>'),
+    ],
+)
+def test_what_shares_it_in_this_version(tmp_path: Path, distro: str | None, subtree: str) -> None:
+    assert not _of_subtree(tmp_path, distro, subtree)
+
+
 _RUNNER = """<launch><node pkg="robot" exec="runner" name="runner"><param name="tree" value="$(dirname)/t.xml"/></node>
 </launch>"""
 

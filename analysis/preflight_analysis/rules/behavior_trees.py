@@ -23,7 +23,8 @@ from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS, NAV_LIBRARIE
 from preflight_analysis.trees.read import Included, TreeFile, Used, read_trees
 
 _NAMES_TREE = re.compile(r"(?:\A|[._])bt_xml(?:_filename)?\Z")
-_LIBRARIES = "plugin_lib_names"
+LIBRARIES = "plugin_lib_names"
+"""The parameter of bt_navigator that lists libraries of nodes."""
 _SUFFIX = ".xml"
 _MOST = 50
 """Files of one tree, each counted as often as it is included."""
@@ -80,6 +81,11 @@ class Loaded:
         return ((part, used) for part in self.parts if not part.file.problems for used in part.file.nodes)
 
     @property
+    def subtrees(self) -> Iterator[tuple[Part, Used]]:
+        """The trees that those of the same files name, each with the file that does."""
+        return ((part, used) for part in self.parts if not part.file.problems for used in part.file.subtrees)
+
+    @property
     def related(self) -> tuple[Related, ...]:
         """Who loads the file, and what says so."""
         return (Related(f"{self.node.name} loads the file by '{self.param.name}'", self.param.place),)
@@ -92,30 +98,35 @@ def trees_of(context: Context) -> tuple[Loaded, ...]:
     workspace = context.environment.workspace
     for node in context.tree.nodes:
         package = context.environment.packages.get(node.package)
-        is_navigator = _is_navigator(node)
-        if not is_navigator and (package is None or not package.is_within(workspace)):
+        navigates = is_navigator(node)
+        if not navigates and (package is None or not package.is_within(workspace)):
             continue
-        for param in _naming(node, any_name=not is_navigator):
+        for param in _naming(node, any_name=not navigates):
             path = here(context, str(param.value))
             document = context.disk.text(path)
             if (node.name, path) in found or not isinstance(document, Document):
                 continue
             files = _Files(context)
             files.read(path, document)
-            if is_navigator or files.parts[0].file.trees:
+            if navigates or files.parts[0].file.trees:
                 whole = files.whole and len(files.parts) < _MOST
                 parts, missing = tuple(files.parts), tuple(files.missing)
-                found[node.name, path] = Loaded(node, is_navigator, param, parts, missing, whole, *_libraries(node))
+                libraries, knows_all = libraries_of(node), _knows_libraries(node)
+                found[node.name, path] = Loaded(node, navigates, param, parts, missing, whole, libraries, knows_all)
     return tuple(found.values())
 
 
 def has_only_nodes_of_nav(context: Context, loaded: Loaded) -> bool:
     """Whether the node loads no other libraries: its list is known, and Nav2 is not changed in the workspace."""
-    own = context.environment.packages.get("nav2_behavior_tree")
-    workspace = context.environment.workspace
-    if own is not None and workspace is not None and own.share.startswith(workspace.rstrip("/") + "/"):
+    if has_own_nav(context):
         return False
     return loaded.knows_all and NAV_LIBRARIES.issuperset(loaded.libraries or ())
+
+
+def has_own_nav(context: Context) -> bool:
+    """Whether the workspace has a Nav2 of its own, which may have any nodes."""
+    own = context.environment.packages.get("nav2_behavior_tree")
+    return own is not None and own.is_within(context.environment.workspace)
 
 
 def is_version_4(context: Context, loaded: Loaded) -> bool:
@@ -190,7 +201,8 @@ class _Files:
         self.whole = self.whole and not pending
 
 
-def _is_navigator(node: LaunchNode) -> bool:
+def is_navigator(node: LaunchNode) -> bool:
+    """Whether it is the one of Nav2, of which it is known how it loads trees."""
     return node.package == "nav2_bt_navigator"
 
 
@@ -207,10 +219,15 @@ def _naming(node: LaunchNode, *, any_name: bool) -> Iterator[Param]:
             yield param
 
 
-def _libraries(node: LaunchNode) -> tuple[tuple[str, ...] | None, bool]:
-    listed = next((param.value for param in node.params if param.name == _LIBRARIES), None)
-    if listed is None:
-        return None, not node.unknowns
+def libraries_of(node: LaunchNode) -> tuple[str, ...] | None:
+    """Those that the node lists; None where it has no list or not all of it is known."""
+    listed = next((param.value for param in node.params if param.name == LIBRARIES), None)
     if not isinstance(listed, list) or not all(isinstance(each, str) and not is_unknown(each) for each in listed):
-        return None, False
-    return tuple(map(str, listed)), True
+        return None
+    return tuple(map(str, listed))
+
+
+def _knows_libraries(node: LaunchNode) -> bool:
+    if any(param.name == LIBRARIES for param in node.params):
+        return libraries_of(node) is not None
+    return not node.unknowns

@@ -8,21 +8,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, is_slip_of_words
-from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.nearest import did_you_mean, is_slip
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
 from preflight_analysis.trees.known_nodes import (
     BUILT_IN,
     NAV_DISTRIBUTIONS,
-    NAV_LIBRARIES,
     NAV_NODES,
+    built_in,
+    instead_of,
+    is_version_3,
     loads_by_default,
 )
+from preflight_analysis.trees.read import SUBTREES
 
 
 class _Complaint(NamedTuple):
@@ -37,48 +38,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not loaded.is_navigator:
             continue
         only_nav = has_only_nodes_of_nav(context, loaded)
-        yield from _of_libraries(rule, context, loaded, seen)
-        for part in loaded.parts:
-            for used in part.file.nodes if not part.file.problems else ():
-                if used.name in BUILT_IN or used.name in loaded.trees or (part.path, used.span.start) in seen:
-                    continue
-                found = _complaint(context, used.name, loaded, only_nav=only_nav)
-                if found is None:
-                    continue
-                seen.add((part.path, used.span.start))
-                yield rule.finding(
-                    found.message + did_you_mean(found.near),
-                    context.location(part.path, used.span),
-                    severity=found.severity,
-                    confidence="likely",
-                    related=loaded.related,
-                )
-
-
-def _of_libraries(rule: Rule, context: Context, loaded: Loaded, seen: set[tuple[str, int]]) -> Iterator[Finding]:
-    """Libraries in the list of which the name is a slip of one of Nav2."""
-    param = next((each for each in loaded.node.params if each.name == "plugin_lib_names"), None)
-    distro = context.environment.distro
-    if param is None:
-        return
-    known = {
-        library
-        for node in NAV_NODES.values()
-        for distribution, library in node.libraries.items()
-        if distro not in NAV_DISTRIBUTIONS or distribution == distro
-    }
-    for listed in loaded.libraries or ():
-        place = value_place(param.place, listed, context.documents.get(param.place.file)) or param.place
-        near = [each for each in known if is_slip_of_words(listed, each)]
-        if listed in NAV_LIBRARIES or len(near) != 1 or (place.file, place.span.start) in seen:
-            continue
-        seen.add((place.file, place.span.start))
-        yield rule.finding(
-            f"'plugin_lib_names' of {loaded.node.name} lists the unknown library '{listed}'" + did_you_mean(near[0]),
-            place,
-            confidence="likely",
-            fixes=rename(context, place, listed, near[0]),
-        )
+        here = built_in(context.environment.distro)
+        for part, used in (*loaded.nodes, *loaded.subtrees):
+            name, span = (used.tag, used.tag_span) if used.tag in SUBTREES else (used.name, used.span)
+            if name in here or name in loaded.trees or (part.path, span.start) in seen:
+                continue
+            found = _complaint(context, name, loaded, only_nav=only_nav)
+            if found is None:
+                continue
+            seen.add((part.path, span.start))
+            yield rule.finding(
+                found.message + did_you_mean(found.near),
+                context.location(part.path, span),
+                severity=found.severity,
+                confidence="likely",
+                related=loaded.related,
+            )
 
 
 def _complaint(context: Context, name: str, loaded: Loaded, *, only_nav: bool) -> _Complaint | None:
@@ -87,6 +62,10 @@ def _complaint(context: Context, name: str, loaded: Loaded, *, only_nav: bool) -
     node = NAV_NODES.get(name)
     if name in loaded.models or own_nodes(context.disk.db, context.environment).has(name):
         return None
+    if name in BUILT_IN and distro is not None:
+        version = 3 if is_version_3(distro) else 4
+        message = f"'{name}' does not exist in BehaviorTree.CPP {version}, which Nav2 of {distro} uses"
+        return _Complaint(message, "warning", instead_of(name, distro))
     if node is None:
         near = [each for each in (*NAV_NODES, *BUILT_IN) if is_slip(name, each)]
         meant = near[0] if len(near) == 1 else None
@@ -110,7 +89,7 @@ RULE = Rule(
     name="unknown-behavior-tree-node",
     severity="warning",
     what="Checks for a node in a behavior tree that no library of bt_navigator has: a typo, a node of another "
-    "distribution, or a node whose library `plugin_lib_names` does not list. It also checks for a typo in that list. "
+    "distribution or version, or a node whose library `plugin_lib_names` does not list. "
     "Nodes of Nav2, of BehaviorTree.CPP and of the sources of the workspace are known. The finding is information if "
     "`plugin_lib_names` lists other libraries, or if it is not known. An unknown node is information too if no known "
     "name is similar.",

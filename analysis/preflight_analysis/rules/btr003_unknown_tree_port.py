@@ -16,9 +16,12 @@ from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
-from preflight_analysis.trees.known_nodes import BUILT_IN, NAV_DISTRIBUTIONS
+from preflight_analysis.trees.known_nodes import BUILT_IN, NAV_DISTRIBUTIONS, is_version_3
 from preflight_analysis.trees.ports import distributions_with, is_port, ports_of
 from preflight_analysis.trees.read import Used
+
+_SHARING = {True: ("__autoremap", "__shared_blackboard"), False: ("_autoremap",)}
+"""By whether it is version 3 of BehaviorTree.CPP: attributes by which a subtree has the entries of its parent."""
 
 
 class _Ports(NamedTuple):
@@ -30,6 +33,7 @@ class _Ports(NamedTuple):
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen = set[tuple[str, int]]()
     for loaded in context.once(trees_of):
+        yield from _of_subtrees(rule, context, loaded, seen)
         only_nav = loaded.is_navigator and has_only_nodes_of_nav(context, loaded)
         for part in loaded.parts:
             for used in part.file.nodes if not part.file.problems else ():
@@ -53,6 +57,30 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     )
 
 
+def _of_subtrees(rule: Rule, context: Context, loaded: Loaded, seen: set[tuple[str, int]]) -> Iterator[Finding]:
+    """What shares the blackboard with a subtree in the other version of BehaviorTree.CPP only."""
+    distro = context.environment.distro
+    if not loaded.is_navigator or distro not in NAV_DISTRIBUTIONS:
+        return
+    is_old = is_version_3(distro)
+    for part, used in loaded.subtrees:
+        for attribute in used.attributes:
+            if attribute.name not in _SHARING[not is_old] or attribute.value.text.lower() not in ("1", "true"):
+                continue
+            if (part.path, attribute.name_span.start) in seen:
+                continue
+            seen.add((part.path, attribute.name_span.start))
+            near = "__autoremap' of <SubTreePlus>" if is_old else "_autoremap'"
+            version = 3 if is_old else 4
+            yield rule.finding(
+                f"'{attribute.name}' of <{used.tag}> has no effect in BehaviorTree.CPP {version}, which Nav2 of "
+                f"{distro} uses; did you mean '{near}?",
+                context.location(part.path, attribute.name_span),
+                confidence="likely",
+                related=loaded.related,
+            )
+
+
 def _ports(context: Context, used: Used, loaded: Loaded, *, only_nav: bool) -> _Ports | None:
     own = own_nodes(context.disk.db, context.environment)
     node = own.nodes.get(used.name)
@@ -72,8 +100,10 @@ RULE = Rule(
     severity="warning",
     what="Checks for an attribute of a node in a behavior tree that is not one of its ports: a typo, or a port of "
     "another distribution of Nav2. Ports of the nodes of Nav2 and BehaviorTree.CPP are known, and those of the "
-    "workspace whose `providedPorts` has all of them. The finding is information if the distribution is not known, or "
-    "if `plugin_lib_names` lists libraries beside those of Nav2.",
+    "workspace whose `providedPorts` has all of them. It also checks for "
+    "`__autoremap` and `__shared_blackboard` of BehaviorTree.CPP 3 in version 4, and for `_autoremap` in version 3. "
+    "The finding is information if the distribution is not known, or if `plugin_lib_names` lists libraries beside "
+    "those of Nav2.",
     why="bt_navigator cannot create the tree. It rejects the goal or does not become active.",
     example='<ComputePathToPose gaol="{goal}" path="{path}" planner_id="GridBased"/>',
     instead='<ComputePathToPose goal="{goal}" path="{path}" planner_id="GridBased"/>',

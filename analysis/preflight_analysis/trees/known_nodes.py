@@ -151,6 +151,25 @@ NAV_DISTRIBUTIONS = frozenset(distribution for node in NAV_NODES.values() for di
 BUILT_IN = frozenset((*_VERSION_3.split(), *_VERSION_4.split()))
 
 
+_REPLACED = {
+    True: {"SequenceWithMemory": "SequenceStar"},
+    False: {"SubTreePlus": "SubTree", "RetryUntilSuccesful": "RetryUntilSuccessful"},
+}
+"""By whether it is version 3: what nodes of the other version are called."""
+
+
+def built_in(distribution: str | None) -> frozenset[str]:
+    """The nodes of BehaviorTree.CPP itself there; of all versions where Nav2's distribution is not known."""
+    if distribution not in NAV_DISTRIBUTIONS:
+        return BUILT_IN
+    return frozenset((_VERSION_3 if is_version_3(distribution) else _VERSION_4).split())
+
+
+def instead_of(name: str, distribution: str) -> str | None:
+    """What a node of BehaviorTree.CPP is called there that another version has."""
+    return _REPLACED[is_version_3(distribution)].get(name)
+
+
 def is_version_3(distribution: str) -> bool:
     """Whether Nav2 uses version 3 of BehaviorTree.CPP there."""
     return distribution in _WITH_VERSION_3

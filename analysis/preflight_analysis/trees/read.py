@@ -14,7 +14,8 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 
 _EXPLICIT = frozenset({"Action", "Condition", "Control", "Decorator"})
-_SUBTREES = frozenset({"SubTree", "SubTreePlus"})
+SUBTREES = frozenset({"SubTree", "SubTreePlus"})
+"""The tags that name another tree."""
 _MODELS = "TreeNodesModel"
 _UNCLOSED = ("expected </", "closes nothing", "is not closed", "</")
 
@@ -30,6 +31,7 @@ class Used:
     children: int = 0
     tree: int = 0
     tag: str = ""
+    tag_span: Span = Span(0, 0)
 
     def get(self, attribute: str) -> Attribute | None:
         """The attribute of that name."""
@@ -103,14 +105,14 @@ def _of_root(root: Element) -> TreeFile:
             problems.append(SyntaxProblem(text, tree.tag_span))
         for each in _below(tree):
             named = _used(each, "ID")
-            if each.tag in _EXPLICIT or each.tag in _SUBTREES:
+            if each.tag in _EXPLICIT or each.tag in SUBTREES:
                 if named is None:
                     problems.append(SyntaxProblem(f"<{each.tag}> needs an attribute 'ID'", each.tag_span))
                 else:
-                    (subtrees if each.tag in _SUBTREES else nodes).append(_of_element(named.name, named.span, each, at))
+                    (subtrees if each.tag in SUBTREES else nodes).append(_of_element(named.name, named.span, each, at))
             else:
                 nodes.append(_of_element(each.tag, each.tag_span, each, at))
-            if each.tag in _SUBTREES and any(each.elements):
+            if each.tag in SUBTREES and any(each.elements):
                 problems.append(SyntaxProblem(f"<{each.tag}> must not have children", each.tag_span))
     format_ = _used(root, "BTCPP_format")
     version = format_.name if format_ is not None else ""
@@ -136,7 +138,7 @@ def _included(element: Element) -> Included | None:
 
 
 def _of_element(name: str, span: Span, element: Element, tree: int) -> Used:
-    return Used(name, span, element.attributes, sum(1 for _ in element.elements), tree, element.tag)
+    return Used(name, span, element.attributes, sum(1 for _ in element.elements), tree, element.tag, element.tag_span)
 
 
 def _below(element: Element) -> Iterator[Element]:
