@@ -28,6 +28,7 @@ CONTAINERS = {
 OUTSIDE = {"open", "os", "Path", "shutil", "subprocess", "tempfile", "ctypes", "importlib"}
 """Names of what looks at the disk, the machine or other programs."""
 ONCE_PER_PROCESS = {
+    "_described",  # our own data
     "_agents_digest",  # our own code
     "_digest",  # by path and state of the file
     "_in_place_of",  # a folder that the process removes at its end

@@ -184,3 +184,15 @@ def test_the_place_of_a_joint() -> None:
     context = analyse(read_fixture(launch + more))
     (turn, _) = frames_of(context).edges
     assert context.text(place_of_edge(context, turn)) == "turn"
+
+
+@pytest.mark.parametrize(("distro", "doubt"), [("noetic", "likely"), ("jazzy", "possible")])
+def test_a_joint_of_the_catalogue(distro: str, doubt: str) -> None:
+    comment = f"&lt;!-- from the catalogue of ros-preflight for {distro}, parts --&gt;"
+    described = _ROBOT.replace("&lt;robot", f"{comment}&lt;robot", 1).replace(
+        "type=", "preflight=&quot;parts&quot; type=", 1
+    )
+    node = '<node pkg="robot_state_publisher" type="robot_state_publisher" name="rsp"/>'
+    turn, hold = _frames(f"{described}{node}", ros=1).edges
+    assert (turn.by, turn.sure, turn.doubt) == (f"/rsp (joint turn, catalogue: parts of {distro})", False, doubt)
+    assert (hold.sure, hold.doubt) == (True, "")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.robot.parse import parse_description
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.workspace import Analysis
 from support.python_launch_harness import MANIFEST, PythonHarness
@@ -136,3 +137,19 @@ def test_without_a_package_that_it_includes_a_description_is_known_in_part(tmp_p
     assert (found.status, found.reason) == ("not-run", "package 'camera_parts' is not installed here")
     assert '<link name="base"/>' in found.output
     assert runner.lookup(line) == found
+
+
+def test_the_catalogue_has_the_structure_of_a_common_package(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "arm"
+    (package / "urdf").mkdir(parents=True)
+    (package / "package.xml").write_text(MANIFEST.format("arm"))
+    include = '<xacro:include filename="$(find velodyne_description)/urdf/VLP-16.urdf.xacro"/><link name="base"/>'
+    call = '<xacro:VLP-16 parent="base" name="lidar"><origin xyz="0 0 0"/></xacro:VLP-16>'
+    (package / "urdf" / "robot.xacro").write_text(f'<robot xmlns:xacro="http://x">{include}{call}</robot>')
+    environment = detect_environment(str(tmp_path), {"ROS_VERSION": "2"}, (str(tmp_path),), root=str(tmp_path))
+    runner = CommandRunner(environment, str(tmp_path), None)
+    found = runner.run(f"xacro {package}/urdf/robot.xacro", threading.Event())
+    assert found.reason == (
+        "package 'velodyne_description' is not installed here; the catalogue has velodyne_description of jazzy"
+    )
+    assert parse_description(found.output).links == ("base", "lidar_base_link", "lidar")

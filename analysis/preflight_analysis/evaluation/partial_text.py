@@ -1,17 +1,32 @@
-"""Robot descriptions that are known in part: xacro left out what it includes of packages that are not installed here.
+"""Robot descriptions that are known in part: packages that xacro was to include of are not installed here.
 
-`tracing/agents/partial_xacro.py` makes them, with a comment at the top that names the packages.
+`tracing/agents/partial_xacro.py` makes them, with comments at the top that name the packages.
 """
 
 from __future__ import annotations
 
 import re
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import CommandValue
 
 _REACH = 4000
-"""Characters at the start of a text among which the comment is: xacro's own, which names a file, is before it."""
-_COMMENT = re.compile(r"<!-- incomplete for ros-preflight without (.*?) -->")
+"""Characters at the start of a text among which the comments are: xacro's own, which names a file, is before them."""
+_LACKS = re.compile(r"<!-- incomplete for ros-preflight without (.*?) -->")
+_INEXACT = re.compile(r"<!-- values unknown to ros-preflight without (.*?) -->")
+_CATALOGUED = re.compile(r"<!-- from the catalogue of ros-preflight for (\w+), (.*?) -->")
+
+
+@dataclass(frozen=True, slots=True)
+class Catalogued:
+    """The packages of which the catalogue gave the structure, as their distribution `distro` has them."""
+
+    distro: str
+    packages: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """As a message shows it."""
+        return f"{', '.join(self.packages)} of {self.distro}"
 
 
 def named(lacks: tuple[str, ...]) -> str:
@@ -21,11 +36,32 @@ def named(lacks: tuple[str, ...]) -> str:
 
 
 def lacks_of(text: str) -> tuple[str, ...]:
-    """What a text lacks; nothing for one that is whole."""
-    found = _COMMENT.search(text, 0, _REACH) if text[:_REACH].lstrip()[:1] == "<" else None
-    return tuple(found[1].split(", ")) if found is not None else ()
+    """The packages without which links, joints or the like are not known; none for a text of which these are."""
+    return _packages(_LACKS, text)
+
+
+def catalogued_of(text: str) -> Catalogued | None:
+    """What the text has from the catalogue."""
+    found = _CATALOGUED.search(text, 0, _REACH) if _is_xml(text) else None
+    return Catalogued(found[1], tuple(found[2].split(", "))) if found is not None else None
+
+
+def missing_of(text: str) -> tuple[str, ...]:
+    """All packages that the text was to be made of and that are not here."""
+    catalogued = catalogued_of(text)
+    names = (*(catalogued.packages if catalogued else ()), *lacks_of(text), *_packages(_INEXACT, text))
+    return tuple(dict.fromkeys(names))
 
 
 def is_whole(value: object) -> bool:
-    """Whether the value of a parameter is known, and that not in part."""
-    return not isinstance(value, CommandValue) and not (isinstance(value, str) and lacks_of(value))
+    """Whether the value of a parameter is what the node gets: known, and not in part or in structure alone."""
+    return not isinstance(value, CommandValue) and not (isinstance(value, str) and missing_of(value))
+
+
+def _packages(comment: re.Pattern[str], text: str) -> tuple[str, ...]:
+    found = comment.search(text, 0, _REACH) if _is_xml(text) else None
+    return tuple(found[1].split(", ")) if found is not None else ()
+
+
+def _is_xml(text: str) -> bool:
+    return text[:_REACH].lstrip()[:1] == "<"

@@ -49,7 +49,7 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     simulated = _of_sensors(tree) if simulates else ()
     shown = (use for node in nodes if (use := fixed_frame(node, disk, generation)) is not None)
     return Frames(
-        (*_of_robots(tree), *chain.from_iterable(edges)),
+        (*_of_robots(tree, meanings.distro), *chain.from_iterable(edges)),
         (*chain.from_iterable(uses), *simulated, *shown),
         tuple(chain.from_iterable(mentions)),
         tuple(_gaps(tree, nodes, interfaces, known, unnamed, edges)),
@@ -68,18 +68,18 @@ def _lacks_params(node: LaunchNode) -> bool:
     return files > sum(source.path is not None and not source.pushed for source in node.param_sources)
 
 
-def _of_robots(tree: LaunchTree) -> Iterator[Edge]:
+def _of_robots(tree: LaunchTree, distro: str | None) -> Iterator[Edge]:
     published: set[int] = set()
     for node in tree.nodes:
         robot = _robot_of(tree, node) if is_state_publisher(node) else None
         if robot is not None:
             published.add(id(robot))
             space = space_of(node, tree.generation)
-            yield from edges_of_robot(robot, node, prefix_of(node, tree), space)
+            yield from edges_of_robot(robot, node, prefix_of(node, tree), space, distro)
             yield from edges_of_plugins(robot, node, space)
     for robot in robots_of(tree):
         if id(robot) not in published and not published:
-            yield from edges_of_robot(robot, None, "", "")
+            yield from edges_of_robot(robot, None, "", "", distro)
 
 
 def _of_sensors(tree: LaunchTree) -> Iterator[Use]:

@@ -143,8 +143,12 @@ def _frame(settings: Settings, name: str) -> str:
     return plain(value) if isinstance(value, str) else ""
 
 
-def edges_of_robot(robot: Robot, publisher: LaunchNode | None, prefix: str, space: str) -> tuple[Edge, ...]:
-    """The frames of a robot description, as a node publishes them with a prefix."""
+def edges_of_robot(
+    robot: Robot, publisher: LaunchNode | None, prefix: str, space: str, distro: str | None
+) -> tuple[Edge, ...]:
+    """The frames of a robot description, as a node publishes them with a prefix. `distro` is the distribution in use:
+    what the catalogue has of another one is no more than possible."""
+    catalogued = robot.description.catalogued
     links = frozenset(robot.description.links)
     return tuple(
         Edge(
@@ -155,9 +159,11 @@ def edges_of_robot(robot: Robot, publisher: LaunchNode | None, prefix: str, spac
             publisher,
             robot.param.place,
             space,
-            publisher is not None,
+            publisher is not None and not joint.catalogued,
             f"joint {joint.name}",
             robot,
+            likely=catalogued is not None and bool(joint.catalogued) and catalogued.distro == distro,
+            catalogued=f"{joint.catalogued} of {catalogued.distro}" if catalogued and joint.catalogued else "",
         )
         for joint in robot.description.joints
         if joint.parent in links and joint.child in links

@@ -40,20 +40,25 @@ class Edge:
     source_file: str = ""
     """Where in the node's source it is broadcast, line counted from 1."""
     source_line: int = 0
+    likely: bool = False
+    """Not sure, but known of the version that is used."""
+    catalogued: str = ""
+    """The package and its distribution, where the catalogue has the joint: `ur_description of jazzy`."""
 
     @property
     def doubt(self) -> str:
         """How far it is from sure, in a word for the user; empty where it is sure."""
         if self.sure:
             return ""
-        return "likely" if self.how == "source" and not self.conditional else "possible"
+        return "likely" if self.likely or (self.how == "source" and not self.conditional) else "possible"
 
     @property
     def by(self) -> str:
         """Who broadcasts it, for the user."""
         if self.node is None:
             return "robot_description (no robot_state_publisher in this launch)"
-        return f"{self.node.name} ({self.detail})" if self.detail else self.node.name
+        detail = f"{self.detail}, catalogue: {self.catalogued}" if self.catalogued else self.detail
+        return f"{self.node.name} ({detail})" if detail else self.node.name
 
 
 @dataclass(frozen=True, slots=True)

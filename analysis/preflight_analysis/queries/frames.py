@@ -83,7 +83,7 @@ def _places(context: QueryContext, symbol: FrameSymbol, edge: Edge) -> Iterator[
     if edge.source_file:
         yield context.line(edge.source_file, edge.source_line)
         return
-    if edge.how == "urdf" and edge.robot is not None:
+    if edge.how == "urdf" and edge.robot is not None and not edge.catalogued:
         # What `frame_prefix` puts before it is no part of the link's name.
         link = next((each for each in edge.robot.description.links if symbol.frame.endswith(each)), "")
         found = place_of(edge.robot, rules.disk, rules.environment, "link", "name", link) if link else None

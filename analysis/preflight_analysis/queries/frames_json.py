@@ -44,6 +44,7 @@ def _edge(edge: Edge, analysis: Analysis) -> dict[str, Any]:
         "how": edge.how,
         "detail": edge.detail,
         "sure": edge.sure,
+        "catalogue": edge.catalogued or None,
         **place_json(place_of_edge(analysis.context, edge), analysis.all_documents),
     }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation.partial_text import Catalogued
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +20,8 @@ class Joint:
     mimic: str | None = None
     limited: bool = False
     """Whether it has a `<limit>`, which revolute and prismatic ones need."""
+    catalogued: str = ""
+    """The package that the catalogue has it of, where that is not installed; its type may then be "", not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +101,9 @@ class Description:
     malformed: Malformed | None = None
     lacks: tuple[str, ...] = ()
     """The packages that it includes and that are not installed here: links, joints and all else may be missing."""
+    catalogued: Catalogued | None = None
+    """The packages that it includes and that are not installed here either, but known from the catalogue: links, joints
+    and interfaces, without shapes and values."""
 
     @property
     def is_whole(self) -> bool:

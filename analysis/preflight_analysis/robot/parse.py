@@ -9,7 +9,7 @@ from functools import lru_cache
 from lxml import etree
 
 from preflight_analysis.documents.reading import SIZE_LIMIT
-from preflight_analysis.evaluation.partial_text import lacks_of
+from preflight_analysis.evaluation.partial_text import catalogued_of, lacks_of, missing_of
 from preflight_analysis.robot.model import (
     ControlJoint,
     ControlSystem,
@@ -54,7 +54,7 @@ def parse_description(text: str) -> Description:
     if _tag(root) != "robot":
         return Description(_tag(root), _get(root, "name"))
     lacks = lacks_of(text)
-    if lacks:
+    if missing_of(text):
         _leave_unknown(root)
     elif _is_raw(root):
         return Description("xacro", _get(root, "name"))
@@ -72,6 +72,7 @@ def parse_description(text: str) -> Description:
         tuple(_plugin(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
         tuple(frame for each, _ in gazebo for sensor in each.iter("sensor") for frame in _sensor_frames(sensor)),
         lacks=lacks,
+        catalogued=catalogued_of(text),
     )
 
 
@@ -79,7 +80,8 @@ def _leave_unknown(root: etree._Element) -> None:
     """Takes out what has a name, or is at a place, that is not known."""
     for element in list(root.iter()):
         above = element.getparent()
-        if above is not None and any("${" in str(value) for value in element.values()):
+        is_named = element.tag != "limit"  # that there is one is what counts
+        if above is not None and is_named and any("${" in str(value) for value in element.values()):
             above.remove(element)
 
 
@@ -124,6 +126,7 @@ def _joint(element: etree._Element) -> Joint:
         ends.get("child", ""),
         (_get(mimic, "joint") or None) if mimic is not None else None,
         element.find("limit") is not None,
+        _get(element, "preflight"),
     )
 
 

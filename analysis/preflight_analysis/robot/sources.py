@@ -31,6 +31,8 @@ _UNKNOWN = re.compile(r"\$\{[^}]*\}|\$\([^)]*\)")
 _CONSTANT = re.compile(r"\$\{ *(\w+) *\}|\$\(arg +(\w+) *\)")
 _CONSTANTS = {"xacro:property": "value", "xacro:arg": "default"}
 """The elements that name constants, each with the attribute that has the value."""
+_XACRO = "xacro:"
+_OF_XACRO = ("xacro:property", "xacro:arg", "xacro:include", "xacro:macro", "xacro:call", "xacro:insert_block")
 _MOST_FILES = 100
 _AROUND = ("ros2_control", "transmission", "gazebo", "group", "group_state")
 """Elements whose parts are other things than those of the robot itself."""
@@ -105,6 +107,18 @@ def place_of(
     most = max((literal for literal, _ in found), default=0)
     best = [place for literal, place in found if literal == most]
     return best[0] if most and len(best) == 1 else None
+
+
+def argument_place(robot: Described, disk: Disk, environment: Environment, value: str) -> Location | None:
+    """Where a value is written as the argument of a macro, of which the element that has it is made; None where that is
+    not known, or several places have it."""
+    found = [
+        file.document.location(each.span)
+        for file in files_of(robot, disk, environment)
+        for each in file.written
+        if each.value == value and each.tag.startswith(_XACRO) and each.tag not in _OF_XACRO
+    ]
+    return found[0] if len(found) == 1 else None
 
 
 def places_of(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
@@ -11,6 +12,7 @@ from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, rename
@@ -39,6 +41,22 @@ def by_catalogue(context: Context, path: str) -> str:
         return ""
     repository, commit, *_ = json.loads(text.text)[0]
     return f" (from the catalogue of {file.distro}, {repository} at {commit[:7]})"
+
+
+def robots_by_catalogue(context: Context) -> bool | None:
+    """Whether robot descriptions have parts from the catalogue that are of the distribution in use; False where some
+    are of another one, None where no description has any."""
+    found = [robot.description.catalogued for robot in robots_of(context.tree)]
+    distros = {each.distro for each in found if each is not None}
+    return all(is_of_distribution(context, distro) for distro in distros) if distros else None
+
+
+def as_known(finding: Finding, *, likely: bool) -> Finding:
+    """A finding that rests on the catalogue: of another distribution it is information."""
+    if likely:
+        return replace(finding, confidence="likely") if finding.confidence == "certain" else finding
+    severity: Severity = "info" if finding.severity in ("error", "warning") else finding.severity
+    return replace(finding, severity=severity, confidence="possible")
 
 
 def slips(rule: Rule, context: Context, node: LaunchNode, kind: str, attribute: str) -> Iterator[Finding]:

@@ -113,5 +113,6 @@ RULE = Rule(
     settings=("knowledge",),
     generations=(1, 2),
     check=_check,
+    of_robot=True,
     every_root=True,
 )

@@ -84,5 +84,6 @@ RULE = Rule(
     settings=("knowledge",),
     generations=(2,),
     check=_check,
+    of_robot=True,
     every_root=True,
 )

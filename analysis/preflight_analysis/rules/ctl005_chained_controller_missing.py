@@ -51,5 +51,6 @@ RULE = Rule(
     settings=("knowledge",),
     generations=(2,),
     check=_check,
+    of_robot=True,
     every_root=True,
 )

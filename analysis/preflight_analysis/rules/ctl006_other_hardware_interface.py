@@ -109,5 +109,6 @@ RULE = Rule(
     references=(ROS_CONTROL_GAZEBO,),
     generations=(1,),
     check=_check,
+    of_robot=True,
     every_root=True,
 )

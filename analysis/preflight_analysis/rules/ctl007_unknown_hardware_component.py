@@ -50,5 +50,6 @@ RULE = Rule(
     references=(CONTROLLER_MANAGER,),
     generations=(2,),
     check=_check,
+    of_robot=True,
     every_root=True,
 )

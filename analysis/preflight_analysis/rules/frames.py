@@ -23,7 +23,7 @@ def _frames(context: Context) -> Frames:
 def place_of_edge(context: Context, edge: Edge) -> Location:
     """Where a transform comes from: the joint in the URDF or xacro file, else the node or parameter that says it."""
     joint = edge.detail.removeprefix("joint ") if edge.how == "urdf" else ""
-    if edge.robot is not None and joint:
+    if edge.robot is not None and joint and not edge.catalogued:
         return place_of(edge.robot, context.disk, context.environment, "joint", "name", joint) or edge.location
     return edge.location
 

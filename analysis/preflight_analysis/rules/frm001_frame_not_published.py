@@ -95,6 +95,7 @@ RULE = Rule(
     instead="amcl:\n  ros__parameters:\n    base_frame_id: base_link",
     references=(TF2, FRAMES),
     check=_check,
+    of_robot=True,
     needs_graph=True,
     every_root=True,
 )

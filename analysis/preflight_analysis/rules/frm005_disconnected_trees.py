@@ -128,6 +128,7 @@ RULE = Rule(
     instead='<node pkg="tf2_ros" exec="static_transform_publisher" args="0 0 0 0 0 0 mast laser"/>',
     references=(TF2, FRAMES),
     check=_check,
+    of_robot=True,
     needs_graph=True,
     every_root=True,
 )

@@ -108,5 +108,6 @@ RULE = Rule(
     references=(MOVEIT_CONTROLLERS,),
     settings=("knowledge",),
     check=_check,
+    of_robot=True,
     every_root=True,
 )

@@ -99,4 +99,5 @@ RULE = Rule(
     instead="manipulator:\n  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin",
     references=(MOVEIT_KINEMATICS,),
     check=_check,
+    of_robot=True,
 )

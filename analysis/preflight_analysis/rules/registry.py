@@ -25,6 +25,7 @@ from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.rules.catalogued import as_known, robots_by_catalogue
 from preflight_analysis.rules.instances import together, with_others
 from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain, numbered_problems
 from preflight_analysis.rules.rule import Context, Rule, in_root
@@ -109,6 +110,7 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[list[Finding], list
     findings: list[Finding] = []
     ran: list[str] = []
     catalogued = any(catalogued_file(path) is not None for path in context.tree.inputs)
+    by_catalogue = robots_by_catalogue(context)
     for rule in rules:
         if context.tree.generation not in rule.generations or (rule.needs_graph and context.graph is None):
             continue
@@ -120,6 +122,8 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[list[Finding], list
             continue
         ran.append(rule.id)
         said = _in_order(rule, found, context) if rule.problems else found
+        if rule.of_robot and by_catalogue is not None:
+            said = [as_known(each, likely=by_catalogue) for each in said]
         findings += filter(None, map(partial(_outside, rule), said)) if catalogued else said
     return findings, ran
 

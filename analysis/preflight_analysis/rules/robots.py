@@ -8,7 +8,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Related
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of
-from preflight_analysis.robot.sources import place_of
+from preflight_analysis.robot.sources import argument_place, place_of
 from preflight_analysis.rules.rule import Context
 
 
@@ -25,10 +25,12 @@ def robots_in_part(context: Context) -> Iterator[Robot]:
 def written(
     context: Context, robot: Described, tag: str, attribute: str, value: str, within: str = ""
 ) -> tuple[Location, tuple[Related, ...]]:
-    """Where an attribute of the description is written, and the parameter that holds the description; that parameter
-    alone where the place is not known."""
+    """Where an attribute of the description is written, else the argument of a macro that it comes from, and the
+    parameter that holds the description; that parameter alone where the place is not known."""
     parameter = robot.param.place
     place = place_of(robot, context.disk, context.environment, tag, attribute, value, within)
+    if place is None:
+        place = argument_place(robot, context.disk, context.environment, value)
     if place is None:
         return parameter, ()
     return place, (Related(f"{names.leaf(robot.param.name)} of this launch", parameter),)

@@ -146,6 +146,8 @@ class Rule(RuleDescription):
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
+    `of_robot`: it speaks of what a robot description has and lacks as a whole: where that has parts from the catalogue
+    it is not certain.
     `left_out` is for the one rule that counts the findings of a file which are too many to be shown.
     `references` are Markdown links (`further_reading.py`), `since` the first version that has the rule, `settings` keys
     of `.ros-preflight.yaml` that change what it finds, beside those of all rules.
@@ -157,6 +159,7 @@ class Rule(RuleDescription):
     every_root: bool = False
     generations: tuple[int, ...] = (1, 2)
     in_branches: bool = False
+    of_robot: bool = False
     references: tuple[str, ...] = ()
     since: str = "0.1.0"
     settings: tuple[str, ...] = ()

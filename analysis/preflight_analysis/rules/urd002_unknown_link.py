@@ -48,5 +48,6 @@ RULE = Rule(
     "</joint>",
     references=(URDF_JOINT,),
     check=_check,
+    of_robot=True,
     in_branches=True,
 )

@@ -44,5 +44,6 @@ RULE = Rule(
     '  <parent link="base_link"/>\n  <child link="lidar_link"/>\n</joint>',
     references=(URDF,),
     check=_check,
+    of_robot=True,
     in_branches=True,
 )

@@ -46,5 +46,6 @@ RULE = Rule(
     instead='<xacro:wheel prefix="left"/>\n<xacro:wheel prefix="right"/>',
     references=(URDF,),
     check=_check,
+    of_robot=True,
     in_branches=True,
 )

@@ -40,5 +40,6 @@ RULE = Rule(
     instead='<mimic joint="finger_joint"/>',
     references=(URDF_JOINT,),
     check=_check,
+    of_robot=True,
     in_branches=True,
 )

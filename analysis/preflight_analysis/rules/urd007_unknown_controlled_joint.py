@@ -88,5 +88,6 @@ RULE = Rule(
     instead='<ros2_control name="arm" type="system">\n  <joint name="shoulder_joint"/>\n</ros2_control>',
     references=(ROS2_CONTROL_URDF,),
     check=_check,
+    of_robot=True,
     in_branches=True,
 )

@@ -20,6 +20,8 @@ _LIMITED = ("revolute", "prismatic")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for robot in robots(context):
         for joint in robot.description.joints:
+            if joint.catalogued:
+                continue  # what its type and limits depend on is not known
             if joint.type not in _TYPES:
                 has = f"has the unknown type '{joint.type}'" if joint.type else "has no type"
                 message = f"joint '{joint.name}' {has}{did_you_mean(nearest(joint.type, _TYPES))}"
@@ -44,5 +46,6 @@ RULE = Rule(
     "</joint>",
     references=(URDF_JOINT,),
     check=_check,
+    of_robot=True,
     in_branches=True,
 )

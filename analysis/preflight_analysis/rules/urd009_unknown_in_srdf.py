@@ -77,4 +77,5 @@ RULE = Rule(
     instead='<group name="arm">\n  <chain base_link="base" tip_link="tool0"/>\n</group>',
     references=(MOVEIT_SRDF,),
     check=_check,
+    of_robot=True,
 )

@@ -21,7 +21,7 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS, distribution
 from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing import interior, ros2_recipe
+from preflight_analysis.tracing import interior, own_xacro, ros2_recipe
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS
 
@@ -50,6 +50,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
         "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
         "own_xacro": _own_xacro(),
+        "descriptions": own_xacro.descriptions_for(environment),
         "assumed": [] if known else sorted(sourced.keys() - environment.variables.keys()),
     }
     data = base64.b64encode(zlib.compress(json.dumps(job, sort_keys=True).encode(errors="surrogatepass"))).decode()

@@ -6,13 +6,16 @@ import json
 import sys
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
+from preflight_analysis.catalogue.descriptions import known_descriptions
+from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.partial_text import lacks_of, named
+from preflight_analysis.evaluation.partial_text import catalogued_of, missing_of, named
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing import ros2_recipe
-from preflight_analysis.tracing.agents.variables import SHARES
+from preflight_analysis.tracing.agents.variables import DESCRIPTIONS, SHARES
 
 _START = (
     "import os, sys; sys.path[0] = os.path.join(os.path.dirname(os.environ['PREFLIGHT_EVENTS']), 'lib'); "
@@ -24,11 +27,22 @@ def make(environment: Environment, args: Iterable[str], cwd: str) -> recipes.Rec
     """The recipe of `xacro` with its arguments."""
     recipe = ros2_recipe.make_command(environment, sys.executable, ("-c", _START, *args), cwd)
     shares = {package.name: package.share for package in environment.packages.values()}
-    return replace(recipe, env={**recipe.env, SHARES: json.dumps(shares)})
+    known = {DESCRIPTIONS: json.dumps(descriptions_for(environment))}
+    stable = {**recipe.stable, **known}
+    return replace(recipe, env={**recipe.env, **known, SHARES: json.dumps(shares)}, stable=stable)
+
+
+def descriptions_for(environment: Environment) -> dict[str, Any]:
+    """What the catalogue has of robot descriptions in packages that are not here."""
+    distro = distribution_of(environment.generation, environment.distro)
+    return known_descriptions(distro, environment.packages)
 
 
 def judged(result: CommandResult) -> CommandResult:
-    """The result of a run; that of one which lacks packages is known in part and does not count as done."""
-    if result.status != "done" or not (lacks := lacks_of(result.output)):
+    """The result of a run; that of one which asks for packages that are not here is no more than a part of it, and does
+    not count as done."""
+    if result.status != "done" or not (missing := missing_of(result.output)):
         return result
-    return CommandResult("not-run", result.output, named(lacks))
+    catalogued = catalogued_of(result.output)
+    known = f"; the catalogue has {catalogued}" if catalogued is not None else ""
+    return CommandResult("not-run", result.output, f"{named(missing)}{known}")

@@ -1,6 +1,7 @@
 """Writes the catalogue of what everybody uses: `make catalogue SOURCES=FOLDER`.
 
-  python tests/tools/catalogue --sources FOLDER [--only OWNER/NAME]... [released] [messages] [interfaces] [launches]...
+  python tests/tools/catalogue --sources FOLDER [--only OWNER/NAME]... [released] [messages] [interfaces] [launches]
+                           [descriptions]...
 
 The folder has snapshots of public repositories, `OWNER+NAME/repo`. What is known of a repository that it lacks, or
 that `--only` does not name, stays as it is. Facts alone are taken from them: names, types,
@@ -15,6 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))  # tests/, as pytest has it
 
+from tools.catalogue.descriptions import write_descriptions
 from tools.catalogue.interfaces import write_interfaces
 from tools.catalogue.launches import write_launches
 from tools.catalogue.messages import write_messages
@@ -25,6 +27,7 @@ PARTS = {
     "messages": write_messages,
     "interfaces": write_interfaces,
     "launches": write_launches,
+    "descriptions": write_descriptions,
 }
 
 

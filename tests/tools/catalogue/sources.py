@@ -145,6 +145,45 @@ SOURCES: Mapping[str, Mapping[str, str]] = {
     "tier4/nebula": {"jazzy": "main"},
 }
 """A branch of another distribution's name is the one that the packages of this are released from, or the nearest."""
+DESCRIPTION_SOURCES: Mapping[str, Mapping[str, str]] = {
+    "UniversalRobots/Universal_Robots_ROS2_Description": {"jazzy": "rolling"},
+    "UniversalRobots/Universal_Robots_ROS2_Driver": {"jazzy": "jazzy"},
+    "ros-industrial/universal_robot": {"noetic": "noetic-devel"},
+    "IntelRealSense/realsense-ros": {"noetic": "ros1-legacy", "jazzy": "ros2-master"},
+    "ToyotaResearchInstitute/velodyne_simulator": {"noetic": "master", "jazzy": "dashing-devel"},
+    "frankarobotics/franka_description": {"jazzy": "main"},
+    "frankaemika/franka_ros": {"noetic": "develop"},
+    "ROBOTIS-GIT/turtlebot3": {"noetic": "noetic", "jazzy": "jazzy"},
+    "ROBOTIS-GIT/open_manipulator": {"noetic": "noetic", "jazzy": "jazzy"},
+    "yujinrobot/kobuki": {"noetic": "melodic"},
+    "kobuki-base/kobuki_ros": {"jazzy": "devel"},
+    "turtlebot/turtlebot": {"noetic": "melodic"},
+    "turtlebot/turtlebot4": {"jazzy": "humble"},
+    "iRobotEducation/create3_sim": {"jazzy": "jazzy"},
+    "AutonomyLab/create_robot": {"noetic": "noetic", "jazzy": "humble"},
+    "xArm-Developer/xarm_ros2": {"jazzy": "jazzy"},
+    "clearpathrobotics/LMS1xx": {"noetic": "noetic-devel", "jazzy": "humble-devel"},
+    "husky/husky": {"noetic": "noetic-devel", "jazzy": "humble-devel"},
+    "jackal/jackal": {"noetic": "noetic-devel"},
+    "PR2/pr2_common": {"noetic": "melodic-devel"},
+    "RethinkRobotics/baxter_common": {"noetic": "master"},
+    "PickNikRobotics/ros2_robotiq_gripper": {"jazzy": "main"},
+    "ros-industrial/robotiq": {"noetic": "kinetic-devel"},
+    "Kinovarobotics/ros2_kortex": {"jazzy": "jazzy"},
+    "LeoRover/leo_common": {"noetic": "master"},
+    "moveit/moveit_resources": {"noetic": "master", "jazzy": "ros2"},
+    "stereolabs/zed-ros-wrapper": {"noetic": "master"},
+    "stereolabs/zed-ros2-wrapper": {"jazzy": "master"},
+    "stereolabs/zed-ros2-description": {"jazzy": "main"},
+    "husarion/ros_components_description": {"noetic": "ros1", "jazzy": "ros2"},
+    "RobotnikAutomation/robotnik_sensors": {"noetic": "noetic-devel"},
+    "fetchrobotics/fetch_ros": {"noetic": "ros1"},
+    "luxonis/depthai-ros": {"noetic": "noetic", "jazzy": "jazzy"},
+    "ethz-asl/rotors_simulator": {"noetic": "master"},
+    "tu-darmstadt-ros-pkg/hector_models": {"noetic": "melodic-devel"},
+}
+"""Where robot descriptions come from that other packages include: the branch that a distribution's packages are
+released from, or the nearest."""
 RUN: Mapping[str, Mapping[str, Mapping[str, str]]] = {
     "jazzy": {
         "gazebo_ros": {"spawn_entity.py": "-entity preflight_first -database preflight_second"},

@@ -9,7 +9,8 @@ import sys
 import types
 
 from . import partial_xacro
-from .variables import SHARES
+from .skeletons import Skeletons
+from .variables import DESCRIPTIONS, SHARES
 
 
 class PackageNotFoundError(KeyError):
@@ -20,12 +21,12 @@ def main() -> None:
     """The program, with its arguments in those of the process."""
     sys.argv[0] = "xacro"
     shares = json.loads(os.environ.get(SHARES, "{}"))
-    lacking = partial_xacro.Lacking()
+    lacking = partial_xacro.Lacking(Skeletons(json.loads(os.environ.get(DESCRIPTIONS, "{}"))))
 
     def get_package_share_directory(package_name: str) -> str:
         if package_name in shares:
             return str(shares[package_name])
-        return lacking.miss(package_name)
+        return lacking.share_of(package_name)
 
     for name in ("ament_index_python", "ament_index_python.packages"):
         module = types.ModuleType(name)

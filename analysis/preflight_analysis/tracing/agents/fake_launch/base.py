@@ -47,6 +47,8 @@ class Recorder:
         self.answers = Answers()
         self.own_xacro = ""
         """The folder of the module that is used where ROS has none."""
+        self.descriptions: dict[str, Any] = {}
+        """What is known of robot descriptions in packages that are not here (`skeletons.Skeletons`)."""
         self.unknown = False
         """Whether something that the file is given is not known."""
         self.reads: Any = None

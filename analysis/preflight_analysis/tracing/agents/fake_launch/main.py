@@ -45,7 +45,7 @@ def main() -> None:
     output = os.dup(1)
     os.dup2(2, 1)
     RECORDER.file, RECORDER.packages, RECORDER.own_xacro = job["file"], job["packages"], job["own_xacro"]
-    RECORDER.assumed = frozenset(job["assumed"])
+    RECORDER.descriptions, RECORDER.assumed = job["descriptions"], frozenset(job["assumed"])
     for name, value in job.get("given", {}).items():
         os.environ.setdefault(name, value)  # what the sandbox sets itself, such as HOME, is so in it
     os.environ.update(job["env"])

@@ -22,6 +22,7 @@ from typing import Any, Callable, Iterator
 from .. import partial_xacro
 from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, readable, unknown_text
 from ..missing_modules import provided_for
+from ..skeletons import Skeletons
 from . import programs, written
 from .base import OURS, RECORDER, is_own
 
@@ -120,7 +121,7 @@ def _guard(module: Any, names: Any) -> None:
     elif module.__name__ == "subprocess":
         programs.install(module)
     elif module.__name__ == "xacro" and partial_xacro.can_install(module):
-        partial_xacro.install(module, partial_xacro.Lacking())
+        partial_xacro.install(module, partial_xacro.Lacking(Skeletons(RECORDER.descriptions)))
     elif module.__name__ == "socket":
         for name in names:
             setattr(module, name, _answered(getattr(module, name)))
