@@ -158,6 +158,24 @@ def test_a_launch_file_that_refuses_an_empty_argument(tmp_path: Path, helper: st
     assert finding.message.endswith("argument 'map_file' is empty") == (severity == "info")
 
 
+@pytest.mark.parametrize(
+    ("text", "said", "message"),
+    [
+        (TEXT, "no camera", "the launch file calls exit(): no camera"),
+        (
+            f"import sys\nWORDS = sys.argv\n{TEXT}",
+            "None",
+            "the launch file calls exit(); it reads arguments from sys.argv, and none are given",
+        ),
+    ],
+)
+def test_a_launch_file_that_ends_itself(tmp_path: Path, text: str, said: str, message: str) -> None:
+    frames = [[str(tmp_path / "a.launch.py"), 4, "generate_launch_description"]]
+    answer = {"error": {"type": "SystemExit", "message": said, "frames": frames}}
+    (finding,) = (each for each in _launched(tmp_path, answer, text=text).findings if each.rule == "LCH032")
+    assert (finding.severity, finding.message, finding.stops_launch) == ("info", message, True)
+
+
 @pytest.mark.parametrize(("path", "severity"), [("/.dockerenv", "info"), ("arm.yaml", "error")])
 def test_a_launch_file_that_refuses_the_machine(tmp_path: Path, path: str, severity: str) -> None:
     helper = f"def made(n): os.path.exists('{path}') or stop()\nraise RuntimeError('no')\n"

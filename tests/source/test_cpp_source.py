@@ -105,6 +105,9 @@ def test_each_kind_of_end(harness: Harness) -> None:
 @pytest.mark.parametrize(
     ("parameter", "type_"),
     [
+        ("const pcl::PCLPointCloud2ConstPtr& m", "sensor_msgs/PointCloud2"),
+        ("const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& m", "sensor_msgs/PointCloud2"),
+        ("const pcl::PolygonMesh& m", None),
         ("const sensor_msgs::ImageConstPtr& m", "sensor_msgs/Image"),
         ("const sensor_msgs::Image::ConstPtr& m", "sensor_msgs/Image"),
         ("sensor_msgs::ImagePtr m", "sensor_msgs/Image"),

@@ -25,6 +25,7 @@ _RAISE = re.compile(r"\s*raise\b")
 _OF_MACHINE = re.compile(
     r"""['"](?:/(?:\.dockerenv|dev|etc|proc|run|sys)\b|git\b)|\bos\.environ\b|\bgetenv\(|\bwhich\(|\bplatform\.|\bgethostname\("""
 )
+_ARGV = re.compile(r"\bsys\.argv\b")
 _BEFORE = 4
 """Lines before a `raise` that say what it is raised for."""
 _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
@@ -69,6 +70,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 elif absent and _is_of_build(context, absent, problem.location.file):
                     severity = "info"
                     message += f"; the build of the package may create '{shown(absent, context)}'"
+                elif error == "SystemExit":
+                    severity, message = "info", _ends_itself(context, frames, said)
                 elif "NoneType" in said and (lack := lack_of_asked(context, problem.location.file)) is not None:
                     message += f"; environment variable '{lack.name}' is not set"
                 elif (name := _empty_argument(context, frames, said)) is not None:
@@ -83,6 +86,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_finding(
             rule, problem, message, severity=severity, confidence=confidence, related=related, lack=lack
         )
+
+
+def _ends_itself(context: Context, frames: tuple[Location, ...], said: str) -> str:
+    """What a program says that ends itself, as it does where it needs what nobody gave it."""
+    document = context.disk.text(frames[-1].file) if frames else None
+    reads = isinstance(document, Document) and _ARGV.search(document.text) is not None
+    message = "the launch file calls exit()" + (f": {said}" if said not in ("", "None", "0") else "")
+    return message + ("; it reads arguments from sys.argv, and none are given" if reads else "")
 
 
 def _is_of_workspace(context: Context, path: str) -> bool:
@@ -175,7 +186,7 @@ RULE = Rule(
     "information if the file itself raises because a program, or a file outside of the workspace, is missing, or "
     "because an argument is empty that its message names. So is one that asks for the machine (a container, a device), "
     "and one that raises because a file is missing which the build of its package may create. The same applies to a "
-    "file of a workspace that is not built, if it looks for `/install/` in the path of a package.",
+    "file that calls `exit()`, and to one that looks for `/install/` in the path of a package that is not built.",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',

@@ -14,7 +14,9 @@ _SUFFIX = re.compile(r"(?<=\w)(?:ConstPtr|Ptr|ConstWeakPtr|_)\Z")
 _HALF = re.compile(r"::(?:Request|Response)\Z|(?<=\w)(?:Request|Response)\Z")
 _TYPE = re.compile(r"(?:::)?([A-Za-z]\w*)::([A-Za-z]\w*)\Z")
 _HEADER = re.compile(r"([A-Za-z]\w*)/([A-Za-z]\w*)\.h\Z")
-_NO_PACKAGES = frozenset({"std", "boost", "ros", "Eigen", "cv", "tf", "tf2"})
+_NO_PACKAGES = frozenset({"std", "boost", "ros", "Eigen", "cv", "tf", "tf2", "pcl"})
+_PCL_CLOUDS = frozenset({"pcl::PointCloud", "pcl::PCLPointCloud2"})
+"""Classes that roscpp sends as clouds, by pcl_ros/point_cloud.h and pcl_conversions/pcl_conversions.h."""
 
 
 class MessageTypes:
@@ -70,7 +72,7 @@ class MessageTypes:
         name = _SUFFIX.sub("", name)
         if name in ANY_MESSAGE:
             return "*"
-        if name == "pcl::PointCloud":
+        if name in _PCL_CLOUDS:
             return "sensor_msgs/PointCloud2"
         found = _TYPE.match(name)
         if found is not None:
