@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from preflight_analysis.catalogue.released import DISTRIBUTIONS
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
@@ -17,10 +16,9 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast,
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.known_arguments import arguments_of
 from preflight_analysis.evaluation.lua_options import assignments, included
-from preflight_analysis.evaluation.meanings import place_of
+from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamValue
-from preflight_analysis.knowledge.load import knowledge_of
-from preflight_analysis.knowledge.model import Entry, Meaning
+from preflight_analysis.knowledge.model import Meaning
 
 _MOST = 1000
 """Values of a file."""
@@ -38,26 +36,20 @@ class _Row(NamedTuple):
 
 
 def params_of_files(
-    found: Collector, nodes: Sequence[LaunchNode], params: Mapping[str, Param] | None, generation: int
+    found: Collector, nodes: Sequence[LaunchNode], params: Mapping[str, Param] | None, known: KnownMeanings
 ) -> Mapping[str, tuple[Param, ...]]:
     """What the files of nodes have, by the full name of the node. `params` are those of ROS 1."""
     made: dict[str, tuple[Param, ...]] = {}
     for node in nodes:
-        entry = _entry(node, generation)
-        files = [each for each in entry.meanings if each.kind == "file"] if entry is not None else []
-        if entry is None or not files:
+        said = known.of_node(node)
+        files = [each for each in said.entry.meanings if each.kind == "file"] if said is not None else []
+        if said is None or not files:
             continue
-        values = {**_values(node, params), **arguments_of(node, entry)}
+        values = {**_values(node, params), **arguments_of(node, said.entry)}
         rows = tuple(param for each in files for param in _of_file(found, each, values))
         if rows:
             made[node.name] = rows
     return made
-
-
-def _entry(node: LaunchNode, generation: int) -> Entry | None:
-    package, kind, name = place_of(node)
-    knowledge = knowledge_of(package)
-    return knowledge.entry(kind, name, None, DISTRIBUTIONS[generation]) if knowledge is not None else None
 
 
 def _values(node: LaunchNode, params: Mapping[str, Param] | None) -> Mapping[str, Any]:

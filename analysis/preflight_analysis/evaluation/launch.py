@@ -15,6 +15,7 @@ from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ROS1
+from preflight_analysis.knowledge.model import Knowledge
 
 
 def evaluate_launch(
@@ -29,18 +30,19 @@ def evaluate_launch(
     assumed: AbstractSet[Location] = frozenset(),
     variables: Mapping[str, str] | None = None,
     *,
+    knowledge: tuple[Knowledge, ...] = (),
     outline: bool = False,
 ) -> LaunchTree:
     """What launching `path` with `name:=value...` would start, where these `variables` of the environment are others;
-    see `evaluate` and `evaluate_ros2`. An `outline` has the includes, the nodes by their names, and what was read: of
+    see `evaluate` and `evaluate_ros2`. `knowledge` is that of the user's own files. An `outline` has the includes, the nodes by their names, and what was read: of
     ROS 1 nothing else is worked out then."""
     found = files.launch_file(path)
     if isinstance(found, Unreadable) or found.generation == ROS1.number:
         environment = with_variables(environment, variables or {})
-        return evaluate(
-            path, args, files, executables, environment, cwd, commands, surroundings, assumed, outline=outline
-        )
+        given = files, executables, environment, cwd, commands, surroundings, assumed
+        return evaluate(path, args, *given, knowledge=knowledge, outline=outline)
     # Who has launch files of ROS 1 alone starts faster without.
     from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2  # noqa: PLC0415
 
-    return evaluate_ros2(path, args, files, executables, environment, cwd, commands, surroundings, assumed, variables)
+    common = files, executables, environment, cwd, commands, surroundings, assumed
+    return evaluate_ros2(path, args, *common, variables, knowledge=knowledge)

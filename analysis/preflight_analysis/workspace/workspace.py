@@ -262,7 +262,8 @@ class Workspace:
     def _unremembered(self, path: str, args: Mapping[str, str], *, outline: bool) -> LaunchTree:
         within = _surroundings(self.sources.db, self, self.environment_of(path))
         executables, environment, commands = within.executables, within.environment, within.commands
-        return evaluate_launch(path, args, self.sources, executables, environment, self.cwd, commands, outline=outline)
+        given = self.sources, executables, environment, self.cwd, commands
+        return evaluate_launch(path, args, *given, knowledge=self.own_knowledge.files, outline=outline)
 
     def look_at_results(self) -> None:
         """Notice results of commands that came, and what executables did elsewhere meanwhile."""
@@ -492,9 +493,9 @@ def _what_if(
     given, variables = arguments_and_variables(dict(args))
     # What is taken against its condition, or with other variables, is not remembered for launches where it is not so.
     parts = None if assumed or variables else within
-    tree = evaluate_launch(
-        path, given, files, executables, environment, within.cwd, within.commands, parts, assumed, variables
-    )
+    own = workspace.own_knowledge.files
+    surroundings = files, executables, environment, within.cwd, within.commands, parts
+    tree = evaluate_launch(path, given, *surroundings, assumed, variables, knowledge=own)
     documents, launch_files = workspace.texts_of(tree)
     index = _executables(db, workspace, environment)
     plugins = _plugins(db, workspace, environment)
@@ -528,7 +529,9 @@ def _evaluated(db: Database, workspace: Workspace, path: str, args: tuple[tuple[
     known: Analysis | None = db.previous
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
-    tree = evaluate_launch(path, dict(args), files, executables, environment, within.cwd, within.commands, within)
+    own = workspace.own_knowledge.files
+    surroundings = files, executables, environment, within.cwd, within.commands, within
+    tree = evaluate_launch(path, dict(args), *surroundings, knowledge=own)
     if known is not None:
         tree = taken_over(tree, known.tree)
     documents, launch_files = workspace.texts_of(tree)

@@ -15,6 +15,7 @@ from preflight_analysis.evaluation.catalogued import in_catalogue
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.known_files import params_of_files
+from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.problems import (
     IncludeCycle,
     MalformedXml,
@@ -58,6 +59,7 @@ from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
 from preflight_analysis.generation import ros
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.knowledge.model import Knowledge
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
@@ -79,6 +81,7 @@ def evaluate(
     surroundings: Surroundings | None = None,
     assumed: AbstractSet[Location] = frozenset(),
     *,
+    knowledge: tuple[Knowledge, ...] = (),
     outline: bool = False,
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
@@ -88,7 +91,7 @@ def evaluate(
     of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With
     `surroundings`, of the same things, includes are remembered. The tags at `assumed` are taken whatever their
     conditions say; give no `surroundings` then. Nor for an `outline`: that lacks what YAML says, where executables are,
-    and what is wrong in the language of the files.
+    and what is wrong in the language of the files. `knowledge` is that of the user's own files.
     """
     state = State(files, executables, environment, cwd, commands, surroundings, assumed=assumed, outline=outline)
     path = os.path.normpath(path)
@@ -104,7 +107,7 @@ def evaluate(
         if (asked_for := names_asked_for(found)) is not None:
             report_undeclared(state, found, args, asked_for)
     note_configs_of_rviz(state, state.nodes)
-    file_params = params_of_files(state, state.nodes, state.params, 1)
+    file_params = params_of_files(state, state.nodes, state.params, KnownMeanings(knowledge, environment.distro, 1))
     _check_machines(state)
     if not outline:
         _check_language(state)

@@ -13,6 +13,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import Commands, NoResults
 from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.known_files import params_of_files
+from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.root_args import report_undeclared
@@ -30,6 +31,7 @@ from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk
 from preflight_analysis.evaluation.rviz import note_configs_of_rviz
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.knowledge.model import Knowledge
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import LanguageProblem
@@ -48,6 +50,8 @@ def evaluate_ros2(
     surroundings: Surroundings | None = None,
     assumed: AbstractSet[Location] = frozenset(),
     variables: Mapping[str, str] | None = None,
+    *,
+    knowledge: tuple[Knowledge, ...] = (),
 ) -> LaunchTree:
     """What `ros2 launch path name:=value...` would start.
 
@@ -55,7 +59,7 @@ def evaluate_ros2(
     starts of processes bring about comes after the rest, then, marked as deferred, what timers and other events do.
     Reads through `files` only; runs nothing. With `surroundings`, of the same things, and within a query, parts are
     remembered. The tags at `assumed` are taken whatever their conditions say, and `variables` of the environment are
-    others; give no `surroundings` then.
+    others; give no `surroundings` then. `knowledge` is that of the user's own files.
     """
     within = surroundings if files.db.is_making else None
     try:
@@ -68,7 +72,7 @@ def evaluate_ros2(
     note_files_of_bridges(state)
     note_files_of_domain_bridges(state)
     note_configs_of_rviz(state, state.nodes)
-    file_params = params_of_files(state, state.nodes, None, 2)
+    file_params = params_of_files(state, state.nodes, None, KnownMeanings(knowledge, environment.distro, 2))
     simulated = simulated_managers(state)
     return LaunchTree(
         os.path.normpath(path),
