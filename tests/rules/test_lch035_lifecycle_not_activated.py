@@ -52,24 +52,37 @@ def test_a_manager_of_components_has_no_lifecycle() -> None:
     """)
 
 
-def test_a_lifecycle_manager_that_has_another_name() -> None:
+@pytest.mark.silent
+def test_the_near_name_of_one_that_is_managed() -> None:
+    """LCH044 says it at the name."""
     check("""
         //- /map.launch.xml
         <launch>
           <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
-          <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
           <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
-            <param name="node_names" value="[map_sever, amcl, planner]"/>
-                         ^^^^^^^^^^ warning[LCH035] '/map_sever' is not a node of this launch; /manager waits for it;
-                         ^^^^^^^^^^ info[LCH035] '/planner' is not a node of this launch; /manager waits for it
+            <param name="node_names" value="[map_sever]"/>
+                         ^^^^^^^^^^ warning[LCH044] '/map_sever' is not a node of this launch; /manager waits
           </node>
         </launch>
         //- /nav2_map_server/package.xml
         <package><name>nav2_map_server</name></package>
-        //- /nav2_amcl/package.xml
-        <package><name>nav2_amcl</name></package>
         //- /nav2_lifecycle_manager/package.xml
         <package><name>nav2_lifecycle_manager</name></package>
+    """)
+
+
+@pytest.mark.silent
+def test_a_command_line_that_activates_it() -> None:
+    check("""
+        //- /map.launch.xml
+        <launch>
+          <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
+          <node pkg="nav2_util" exec="lifecycle_bringup" args="map_server"/>
+        </launch>
+        //- /nav2_map_server/package.xml
+        <package><name>nav2_map_server</name></package>
+        //- /nav2_util/package.xml
+        <package><name>nav2_util</name></package>
     """)
 
 

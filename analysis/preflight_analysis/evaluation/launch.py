@@ -34,8 +34,8 @@ def evaluate_launch(
     outline: bool = False,
 ) -> LaunchTree:
     """What launching `path` with `name:=value...` would start, where these `variables` of the environment are others;
-    see `evaluate` and `evaluate_ros2`. `knowledge` is that of the user's own files. An `outline` has the includes, the nodes by their names, and what was read: of
-    ROS 1 nothing else is worked out then."""
+    see `evaluate` and `evaluate_ros2`. `knowledge` is that of the user's own files. An `outline` has the includes, the
+    nodes by their names, and what was read: of ROS 1 nothing else is worked out then."""
     found = files.launch_file(path)
     if isinstance(found, Unreadable) or found.generation == ROS1.number:
         environment = with_variables(environment, variables or {})

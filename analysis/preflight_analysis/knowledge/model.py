@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from preflight_analysis.dataclass import dataclass
 
-Kind = Literal["topic", "service", "action", "frame", "joint", "plugin", "file", "value"]
+Kind = Literal["topic", "service", "action", "frame", "joint", "plugin", "file", "node", "value"]
 ROLES: Mapping[Kind, tuple[str, ...]] = {
     "topic": ("publisher", "subscriber"),
     "service": ("server", "client"),
@@ -20,9 +20,11 @@ ROLES: Mapping[Kind, tuple[str, ...]] = {
     "joint": ("commanded", "read"),
     "plugin": ("type",),
     "file": ("yaml", "lua"),
+    "node": ("managed", "asked"),
 }
 """What each kind of value is for. A frame that is `used` has to be there, one that is `named` is only written into
-messages. A joint is `commanded` or `read` by a controller. What a file has is parameters below its name. A `value`
+messages. A joint is `commanded` or `read` by a controller. What a file has is parameters below its name. A node
+is `managed` where another one changes the states of its lifecycle, `asked` where it is asked for something. A `value`
 is for nothing by itself; its default counts."""
 EntryKind = Literal["executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins"]
 ENTRY_KINDS: tuple[EntryKind, ...] = (

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from itertools import compress
 
-from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import LIFECYCLE, LIFECYCLE_MANAGER
-from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.named_nodes import managed_by, missing_nodes
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
@@ -30,8 +30,6 @@ _KNOWN = frozenset(
     }
 )
 """Executables that are lifecycle nodes, in every distribution, and wait to be activated."""
-_MAX_TYPOS = 20
-"""So many names are not all misspelt; to compare each with each node would take long."""
 _CHANGE = "lifecycle_msgs/srv/ChangeState"
 _LOAD = "composition_interfaces/srv/LoadNode"
 _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine", "function", "timer"})
@@ -39,36 +37,14 @@ _ACTING = frozenset({"event_handler", "emit_event", "opaque", "opaque_coroutine"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
-    managers = [*filter(None, context.kept.each(_as_manager, nodes))]
     inactive = [*filter(None, context.kept.each(_as_waiting, nodes))]
-    if not managers and not inactive:
+    if not inactive:
         return
-    there = {node.name for node in nodes if node.kind != "process"}
-    managed: dict[str, tuple[LaunchNode, Param]] = {}
-    listed = True
-    for node in managers:
-        param = next((param for param in node.params if param.name == "node_names"), None)
-        if param is None or not isinstance(param.value, list):
-            listed = False
-            continue
-        for name in param.value:
-            managed.setdefault(_full(node, str(name)), (node, param))
-    meant: set[str] = set()
-    missing, unmanaged = managed.keys() - there, there - managed.keys()
-    for name, (manager, param) in managed.items():
-        if name in there:
-            continue
-        near = nearest(name, unmanaged) if len(missing) <= _MAX_TYPOS else None
-        if near is not None or context.tree.complete:
-            meant.update({near} if near is not None else ())
-            yield rule.finding(
-                f"'{name}' is not a node of this launch; {manager.name} waits for it{did_you_mean(near)}",
-                param.place,
-                severity="warning" if near is not None else "info",
-                confidence="likely" if context.tree.complete else "possible",
-                related=(Related(f"{manager.name}", manager.location), *include_chain(param.origin)),
-            )
-    settled = managed.keys() | meant | _without_lifecycle(context)
+    managed = managed_by(context)
+    managers = {manager.name for manager in managed.values()}
+    unknown = [*filter(None, context.kept.each(_as_manager, nodes))]
+    listed = all(node.name in managers for node in unknown)
+    settled = managed.keys() | context.once(missing_nodes).meant | _without_lifecycle(context)
     waiting = [node for node in inactive if node.name not in settled]
     if not waiting or not listed or _others_may_act(context):
         return
@@ -86,6 +62,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _as_manager(node: LaunchNode) -> LaunchNode | None:
+    """The node, if it is a manager by its name, whatever is known of what it manages."""
     return node if node.executable == "lifecycle_manager" or "lifecycle_manager" in node.name else None
 
 
@@ -130,18 +107,13 @@ def _others_may_act(context: Context) -> bool:
     return any(action.kind in _ACTING for root in roots for action in root.walk())
 
 
-def _full(manager: LaunchNode, name: str) -> str:
-    return name if name.startswith("/") else f"{manager.namespace}{name}"
-
-
 RULE = Rule(
     id="LCH035",
     name="lifecycle-not-activated",
     severity="info",
     what="Checks for a lifecycle node, such as a server of Nav2, that no `lifecycle_manager` of the launch has in "
-    "its `node_names`. It also checks for a name in `node_names` that no node of the launch has. The finding is a "
-    "warning if a node has a similar name. It is a warning too if all nodes are known and none can activate "
-    "another. Handlers of events, timers and commands may activate the node: then there is no finding.",
+    "its `node_names`. The finding is a warning if all nodes are known and none can activate another. Handlers of "
+    "events, timers and commands may activate the node: then there is no finding.",
     why="A lifecycle node starts unconfigured. It publishes nothing and serves only its state changes until another "
     "node configures and activates it.",
     example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>',

@@ -1,0 +1,53 @@
+"""LCH044: a parameter or argument names a node that the launch does not start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import LIFECYCLE_MANAGER
+from preflight_analysis.rules.named_nodes import missing_nodes
+from preflight_analysis.rules.nearest import did_you_mean
+from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    complete = context.tree.complete
+    for named, near in context.once(missing_nodes).each:
+        if near is None and not complete:
+            continue
+        node, location, written = named.node, named.location(context), str(named.meant.value)
+        new = None
+        if near is not None:
+            below = f"{named.name[: len(named.name) - len(written)]}" if not written.startswith("/") else ""
+            new = near.removeprefix(below) if near.startswith(below) else near
+        yield rule.finding(
+            f"'{named.name}' is not a node of this launch; {node.name} waits for it{did_you_mean(near)}",
+            location,
+            severity="warning" if near is not None else None,
+            confidence="likely" if complete else "possible",
+            related=(Related(f"{node.name}", node.location), *include_chain(named.origin)),
+            fixes=rename(context, location, written, new) if new is not None else (),
+        )
+
+
+RULE = Rule(
+    id="LCH044",
+    name="named-node-not-found",
+    severity="info",
+    what="Checks for the name of a node in a parameter or argument that no node of the launch has: `node_names` of "
+    "a `lifecycle_manager`, the nodes of `lifecycle_bringup`, the node that `dynparam` sets parameters of. The "
+    "finding is a warning if a node has a similar name. Otherwise all of the launch must be known. "
+    "Files of `knowledge` in the settings say which parameters of other nodes name a node.",
+    why="The node that has the name waits for the services of the other one. A lifecycle manager activates none of its "
+    "nodes then.",
+    example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>\n'
+    '<node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="lifecycle_manager_map">\n'
+    '  <param name="node_names" value="[map_sever]"/>\n</node>',
+    instead='<param name="node_names" value="[map_server]"/>',
+    references=(LIFECYCLE_MANAGER,),
+    settings=("knowledge",),
+    check=_check,
+    every_root=True,
+)
