@@ -30,10 +30,12 @@ def test_nodes_among_arguments() -> None:
         //- /a.launch
         <launch>
           <node pkg="p" type="camera" name="camera"/>
-          <node pkg="dynamic_reconfigure" type="dynparam" name="set" args="set /camra exposure 5"/>
-                                                                           ^^^^^^^^^^^^^^^^^^^^^ warning[LCH044] '/camra' is not a node
-          <node pkg="dynamic_reconfigure" type="dynparam" name="load" args="get -t 5 /other"/>
-                                                                            ^^^^^^^^^^^^^^^ info[LCH044] '/other' is not a node of
+          <node name="a" pkg="dynamic_reconfigure" type="dynparam"
+            args="set /camra exposure 5"/>
+                  ^^^^^^^^^^^^^^^^^^^^^ warning[LCH044] '/camra' is not a node of this launch; /a waits for it; did you
+          <node name="b" pkg="dynamic_reconfigure" type="dynparam"
+            args="get -t 5 /other"/>
+                  ^^^^^^^^^^^^^^^ info[LCH044] '/other' is not a node of this launch; /b waits for it
         </launch>
         //- /p/package.xml
         <package><name>p</name></package>
