@@ -239,3 +239,48 @@ def test_what_was_not_looked_at_is_named() -> None:
     assert looked_at["not_evaluated"] == ["/ws/launch/a.launch"]
     assert looked_at["unknown_nodes"] == [*nodes]
     assert "not looked at" not in to_text(Report.of([], {}, Coverage(1, 1, {"trace": 1})))
+
+
+MANY = """
+    //- /pump.launch.xml
+    <launch>
+      <node pkg="p" exec="pump" name="pump"><param from="/pump.yaml"/></node>
+    </launch>
+    //- /pump.yaml
+    pump:
+      ros__parameters:
+        max_presure: 4.5
+        valve: left
+        colour: red
+        owner: nobody
+        flow: 2.0
+        spare: 1
+        last: true
+    //- interfaces
+    {"/pump": {"params": {"~max_pressure": 6.0}}}
+"""
+
+
+def test_many_findings_that_are_alike_are_one() -> None:
+    report = report_of(MANY)
+    assert len(report.findings) == 7
+    slip, many = to_json(report)["findings"]
+    assert slip["message"].startswith("parameter 'max_presure' is not declared by /pump")
+    assert many["message"] == (
+        "6 parameters are not declared by /pump; their values are ignored: 'valve', 'colour', 'owner', 'flow', 'spare' "
+        "and 1 more"
+    )
+    also = [each["message"] for each in many["related"] if each["file"] == "/pump.yaml"]
+    assert also == [f"'{name}': the same here" for name in ("colour", "owner", "flow", "spare", "last")]
+    text = to_text(report)
+    assert text.count("PRM013") == 2
+    assert "6 parameters are not declared" in text and "/pump.yaml:9:5: 'last': the same here" in text
+
+
+_LEFT_OUT = ("owner", "flow:", "spare", "last:")
+
+
+def test_a_few_of_them_stay_apart() -> None:
+    text = "".join(line for line in MANY.splitlines(keepends=True) if line.strip()[:5] not in _LEFT_OUT)
+    messages = [each["message"] for each in to_json(report_of(text))["findings"]]
+    assert [message.split("'")[1] for message in messages] == ["max_presure", "valve", "colour"]

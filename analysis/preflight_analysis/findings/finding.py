@@ -50,6 +50,15 @@ class EndpointRef(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
+class Alike:
+    """What many findings of one cause have in common. `what` goes on from their number (`parameters are not declared by
+    /n`), `name` is what this one is about."""
+
+    what: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class Finding:
     """Something wrong, where it is, how sure we are and what mends it.
 
@@ -80,3 +89,5 @@ class Finding:
     The finding about the crash has it as well."""
     lack: Lack | None = None
     """What is missing on this machine, where the finding speaks of nothing else."""
+    alike: Alike | None = field(default=None, compare=False)
+    """Of one that says the same of its name as others of its file may of theirs: reports have one for many."""

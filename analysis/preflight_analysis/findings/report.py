@@ -14,6 +14,7 @@ from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.clipping import clipped
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Missing, commands, in_words, missing
@@ -29,6 +30,10 @@ _SHOWN_BEHIND = 400
 _MOST_ALIKE = 5
 """Further places of the same cause that are shown in a text."""
 _SAME = "the same here"
+_MANY = 4
+"""So many findings that are alike in a file are one."""
+_MOST_NAMES = 5
+"""That such a one has in its message."""
 _FEW = 10
 """So many findings are seen at a glance: more are counted by rule."""
 
@@ -85,7 +90,7 @@ def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
             yield first
             continue
         shown = {first.location, *(related.location for related in first.related)}
-        more = [Related(_SAME, each.location) for each in others if each.location not in shown]
+        more = [Related(_same(each), each.location) for each in others if each.location not in shown]
         yield replace(
             first,
             related=(*first.related, *more),
@@ -133,8 +138,11 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False, ho
     for first, *others in _causes(report.findings):
         lines = [*finding_lines(first, report.documents, base, colour=colour, host=host)]
         shown = {related.location for related in first.related}
-        more = [each.location for each in others if each.location not in shown]
-        lines += [f"  {_linked(each, report.documents, base, host)}: {_SAME}" for each in more[:_MOST_ALIKE]]
+        more = [each for each in others if each.location not in shown]
+        lines += [
+            f"  {_linked(each.location, report.documents, base, host)}: {printable(_same(each))}"
+            for each in more[:_MOST_ALIKE]
+        ]
         if len(more) > _MOST_ALIKE:
             lines.append(f"  and in {len(more) - _MOST_ALIKE} more places")
         blocks.append("\n".join(lines))
@@ -195,12 +203,21 @@ _COUNTED = re.compile(r"; \d+ of \d+ nodes not fully analysed")
 """What a message says of the launch, not of the cause."""
 
 
-def _causes(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
-    """Findings that say the same of several places, or of which each points at the other's place, together. What names
-    nothing is of one cause in one file only."""
-    found: dict[tuple[str, Severity, str, str], list[Finding]] = {}
+_Cause = tuple[str, Severity, str, str]
+
+
+def _causes(findings: Iterable[Finding]) -> Iterator[Sequence[Finding]]:
+    """Findings that say the same of several places, or of which each points at the other's place, together, and many
+    that are alike. What names nothing is of one cause in one file only."""
+    findings = [*findings]
+    found: dict[_Cause, list[Finding]] = {}
     pointing: dict[tuple[str, Location, Location], list[Finding]] = {}
+    alike = Counter(_alike(finding) for finding in findings if finding.alike is not None)
     for finding in findings:
+        cause = _alike(finding)
+        if finding.alike is not None and alike[cause] >= _MANY:
+            found.setdefault(cause, []).append(finding)
+            continue
         where = "" if _NAMED.search(finding.message) else finding.location.file
         key = finding.rule, finding.severity, _COUNTED.sub("", finding.message), where
         same = found.get(key)
@@ -212,7 +229,27 @@ def _causes(findings: Iterable[Finding]) -> Iterable[Sequence[Finding]]:
         group.append(finding)
         for there, here in to:
             pointing.setdefault((finding.rule, here, there), group)
-    return found.values()
+    for cause, group in found.items():
+        yield _as_one(group) if alike[cause] >= _MANY else group
+
+
+def _alike(finding: Finding) -> _Cause:
+    what = finding.alike.what if finding.alike is not None else ""
+    return finding.rule, finding.severity, f"{finding.condition} {finding.confidence} {what}", finding.location.file
+
+
+def _as_one(group: Sequence[Finding]) -> Sequence[Finding]:
+    """Findings that are alike, the first of which speaks of all."""
+    first, alike = group[0], [each.alike for each in group if each.alike is not None]
+    names = [f"'{each.name}'" for each in alike]
+    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    message = f"{len(group)} {alike[0].what}: {', '.join(names[:_MOST_NAMES])}{more}"
+    return (replace(first, message=clipped(message)), *group[1:])
+
+
+def _same(finding: Finding) -> str:
+    """What is said at a further place of a cause."""
+    return f"'{finding.alike.name}': {_SAME}" if finding.alike is not None else _SAME
 
 
 def missing_json(report: Report) -> dict[str, Any]:

@@ -36,8 +36,13 @@ def with_others(finding: Finding, others: Iterable[str]) -> Finding:
     more = {node_named(message) for message in others if regardless_of_node(message) == same} - {node}
     if node is None or not more:
         return finding
-    told = _NODE.sub(lambda found: f"{found[0]} and {len(more)} more", finding.message, count=1)
-    return replace(finding, message=told)
+
+    def told(message: str) -> str:
+        return _NODE.sub(lambda found: f"{found[0]} and {len(more)} more", message, count=1)
+
+    alike = finding.alike
+    alike = replace(alike, what=told(alike.what)) if alike is not None else None
+    return replace(finding, message=told(finding.message), alike=alike)
 
 
 def together(findings: Iterable[Finding]) -> list[Finding]:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.findings.finding import Alike, Confidence, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
 from preflight_analysis.rules.missing_params import missing_params
@@ -113,12 +113,14 @@ def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
     param, holder = unread.param, unread.holder
     who = holder.name if holder is not None else "any node"
     until = "in its source" if in_source else "before its event loop"
+    by_whom = f"not read by {who} {until}, nor by any other node"
     return rule.finding(
-        f"unused parameter '{param.name}': not read by {who} {until}, nor by any other node",
+        f"unused parameter '{param.name}': {by_whom}",
         param.place,
         severity="hint",
         confidence="possible",
         related=(*((related_node(holder),) if holder is not None else ()), *include_chain(param.origin)),
+        alike=Alike(f"unused parameters, {by_whom}", param.name),
     )
 
 

@@ -8,7 +8,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Alike, Edit, Finding, Fix, Severity
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parameters import OF_ALL_NODES
@@ -77,6 +77,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 confidence="likely" if in_full or (use is not None and not use.inferred) else "possible",
                 related=(*related, *include_chain(node.origin)),
                 fixes=_rename(context, param, near) if near is not None else (),
+                alike=Alike(f"parameters are not declared by {node.name}; their values are ignored", param.name)
+                if near is None
+                else None,
             )
 
 

@@ -17,7 +17,7 @@ from preflight_analysis.evaluation.files import Executables
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.clipping import SHORT, clipped
-from preflight_analysis.findings.finding import Confidence, EndpointRef, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Alike, Confidence, EndpointRef, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
@@ -179,6 +179,7 @@ class Rule(RuleDescription):
         endpoints: Iterable[EndpointRef] = (),
         lack: Lack | None = None,
         every_root: bool = False,
+        alike: Alike | None = None,
     ) -> Finding:
         """A finding of this rule. What the messages say is clipped: names may be as long as a file.
 
@@ -198,6 +199,7 @@ class Rule(RuleDescription):
             endpoints=tuple(endpoints),
             every_root=every_root,
             lack=lack,
+            alike=alike,
         )
 
 
