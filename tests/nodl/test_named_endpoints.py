@@ -112,3 +112,140 @@ def test_a_transport_is_part_of_the_name(tmp_path: Path, distro: str, given: str
     found = all_ends(tmp_path, node, distro)
     assert ("subscriber", "in/compressed", "sensor_msgs/msg/CompressedImage") in found
     assert ("publisher", "out", "sensor_msgs/msg/Image") in found
+
+
+SERVO = """
+<launch>
+  <node pkg="moveit_servo" exec="{}" name="servo"><param from="$(dirname)/servo.yaml"/></node>
+</launch>
+"""
+SERVO_PARAMS = """servo:
+  ros__parameters:
+    moveit_servo:
+      command_out_topic: /arm_controller/{}
+      command_out_type: {}
+      planning_frame: base_link
+"""
+
+
+def topics_of(analysis: Analysis, role: str) -> dict[str, str | None]:
+    assert analysis.graph is not None
+    return {end.name: end.type for end in analysis.graph.interfaces[0].endpoints if end.role == role}
+
+
+@pytest.mark.parametrize(("executable", "distro"), [("servo_node", "jazzy"), ("servo_node_main", "humble")])
+def test_a_topic_has_its_parameter_in_the_place_of_the_default(tmp_path: Path, executable: str, distro: str) -> None:
+    params = SERVO_PARAMS.format("joint_trajectory", "trajectory_msgs/JointTrajectory")
+    analysis = analysed(tmp_path, SERVO.format(executable), "a.launch.xml", distro, **{"servo.yaml": params})
+    published = topics_of(analysis, "publisher")
+    assert published["/arm_controller/joint_trajectory"] == "trajectory_msgs/msg/JointTrajectory"
+    assert "/panda_arm_controller/joint_trajectory" not in published
+    assert topics_of(analysis, "subscriber")["~/delta_twist_cmds"] == "geometry_msgs/msg/TwistStamped"
+
+
+def test_without_the_parameter_it_is_the_default(tmp_path: Path) -> None:
+    analysis = analysed(tmp_path, SERVO.format("servo_node"), "a.launch.xml", "jazzy", **{"servo.yaml": "servo: {}"})
+    assert "/panda_arm_controller/joint_trajectory" in topics_of(analysis, "publisher")
+
+
+def test_a_type_that_a_parameter_has(tmp_path: Path) -> None:
+    params = SERVO_PARAMS.format("commands", "std_msgs/Float64MultiArray")
+    analysis = analysed(tmp_path, SERVO.format("servo_node"), "a.launch.xml", "jazzy", **{"servo.yaml": params})
+    assert topics_of(analysis, "publisher")["/arm_controller/commands"] == "std_msgs/msg/Float64MultiArray"
+
+
+KEYS = """
+<launch>
+  <node pkg="teleop_twist_keyboard" type="teleop_twist_keyboard.py" name="keys">
+    <param name="stamped" value="{}"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("stamped", "expected"), [("true", "geometry_msgs/TwistStamped"), ("false", "geometry_msgs/Twist")]
+)
+def test_a_type_that_depends_on_a_parameter_counts_before_that_of_the_catalogue(
+    tmp_path: Path, stamped: str, expected: str
+) -> None:
+    analysis = analysed(tmp_path, KEYS.format(stamped), distro="noetic")
+    assert topics_of(analysis, "publisher")["cmd_vel"] == expected
+
+
+def test_arguments_that_name_topics_of_markers(tmp_path: Path) -> None:
+    launch = """
+    <launch>
+      <node pkg="ar_track_alvar" type="individualMarkersNoKinect" name="tags"
+        args="4.4 0.08 0.2 /camera/image_raw /camera/camera_info /base_link"/>
+    </launch>
+    """
+    assert topics_of(analysed(tmp_path, launch, distro="melodic"), "subscriber") == {
+        "/camera/image_raw": "sensor_msgs/Image",
+        "/camera/camera_info": "sensor_msgs/CameraInfo",
+    }
+
+
+CONTROLLED = """
+<launch>
+  <node pkg="controller_manager" exec="ros2_control_node" name="controller_manager">
+    <param from="$(dirname)/controllers.yaml"/>
+  </node>
+  <node pkg="controller_manager" exec="spawner" name="spawner" args="base"/>
+</launch>
+"""
+CONTROLLERS = """controller_manager:
+  ros__parameters:
+    base: {{type: diff_drive_controller/DiffDriveController}}
+base:
+  ros__parameters:
+    left_wheel_names: [left]
+    right_wheel_names: [right]
+    use_stamped_vel: {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("distro", "stamped", "expected"),
+    [
+        ("humble", "true", {"~/cmd_vel": "geometry_msgs/msg/TwistStamped"}),
+        ("humble", "false", {"~/cmd_vel_unstamped": "geometry_msgs/msg/Twist"}),
+        ("jazzy", "false", {"~/cmd_vel": "geometry_msgs/msg/TwistStamped"}),
+    ],
+)
+def test_a_topic_of_velocities_by_distribution(
+    tmp_path: Path, distro: str, stamped: str, expected: dict[str, str]
+) -> None:
+    files = {"controllers.yaml": CONTROLLERS.format(stamped)}
+    analysis = analysed(tmp_path, CONTROLLED, "a.launch.xml", distro, **files)
+    graph = analysis.graph
+    assert graph is not None
+    at = next(at for at, node in enumerate(graph.tree.nodes) if node.name == "/base")
+    ends = graph.interfaces[at].endpoints
+    assert {end.name: end.type for end in ends if end.role == "subscriber" and "cmd_vel" in end.name} == expected
+
+
+FUSED = """
+<launch>
+  <push_ros_namespace namespace="robot"/>
+  <node pkg="robot_localization" exec="ekf_node" name="ekf"><param from="$(dirname)/ekf.yaml"/></node>
+  <node pkg="wheels" exec="driver" name="driver">
+    <!-- <topics><topic name="odom" type="nav_msgs/msg/Odometry" class="pub"/></topics> -->
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(("topic", "found"), [("/odom", 1), ("odom", 0)])
+def test_a_topic_in_a_parameter_is_not_in_the_namespace_of_its_publisher(
+    tmp_path: Path, topic: str, found: int
+) -> None:
+    """As in threads of robot_localization: what a remap would change stands in a parameter."""
+    params = f"/**: {{ros__parameters: {{odom0: {topic}}}}}"
+    analysis = analysed(tmp_path, FUSED, "a.launch.xml", "jazzy", **{"ekf.yaml": params})
+    findings = [each for each in analysis.findings if each.rule == "TOP001" and "odom" in each.message]
+    assert len(findings) == found
+    for each in findings:
+        assert "did you mean '/robot/odom'" in each.message
+        assert analysis.documents[each.location.file].path.endswith("ekf.yaml")
+        assert [edit.text for fix in each.fixes for edit in fix.edits] == ["/robot/odom"]

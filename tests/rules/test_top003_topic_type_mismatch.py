@@ -198,3 +198,37 @@ def test_behaviors_have_the_types_of_their_server(tmp_path: Path) -> None:
     assert {end.endpoint.type for end in analysis.graph.topics["/cmd_vel"].providers} == {
         "geometry_msgs/msg/TwistStamped"
     }
+
+
+_BRIDGED = """
+<launch>
+  <node pkg="ros_gz_bridge" exec="parameter_bridge" name="bridge">
+    <param name="config_file" value="$(dirname)/bridge.yaml"/>
+  </node>
+  <node pkg="teleop_twist_keyboard" exec="teleop_twist_keyboard" name="teleop">{}</node>
+</launch>
+"""
+_BRIDGES = """
+- ros_topic_name: cmd_vel
+  gz_topic_name: cmd_vel
+  ros_type_name: geometry_msgs/msg/{}
+  gz_type_name: gz.msgs.Twist
+  direction: ROS_TO_GZ
+"""
+
+
+def test_a_bridge_for_another_type_than_the_keyboard_sends(tmp_path: Path) -> None:
+    """https://github.com/ROBOTIS-GIT/turtlebot3/issues/1135: the robot stays where it is."""
+    launch = _BRIDGED.format("")
+    files = {"bridge.yaml": _BRIDGES.format("TwistStamped")}
+    analysis = package_elsewhere.analysed(tmp_path, launch, "a.launch.xml", "jazzy", **files)
+    (found,) = [each for each in analysis.findings if each.rule == "TOP003"]
+    assert "/cmd_vel" in found.message and "set 'stamped' of /teleop to true" in found.message
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(("param", "type_"), [("", "Twist"), ('<param name="stamped" value="true"/>', "TwistStamped")])
+def test_a_bridge_for_the_type_that_the_keyboard_sends(tmp_path: Path, param: str, type_: str) -> None:
+    files = {"bridge.yaml": _BRIDGES.format(type_)}
+    analysis = package_elsewhere.analysed(tmp_path, _BRIDGED.format(param), "a.launch.xml", "jazzy", **files)
+    assert not [each for each in analysis.findings if each.rule == "TOP003"]

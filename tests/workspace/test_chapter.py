@@ -89,7 +89,7 @@ BROKEN = [
     ("sub_launch/launch/system", "name", "message", "mesage", "ARG004"),
     ("configurable_chatter/launch/chatter", "default", "slow", "slwo", "ARG009"),
     ("dual_robot/launch/robots", "value", "robot2", "robot3", "PRM002"),
-    ("lifecycle/launch/camera", "@node_names", "camera", "camra", "LCH035"),
+    ("lifecycle/launch/camera", "@node_names", "camera", "camra", "LCH044"),
     ("lifecycle/launch/autostart", "autostart", "true", "0", "LCH035"),
 ]
 

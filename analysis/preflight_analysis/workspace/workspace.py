@@ -405,7 +405,7 @@ class Workspace:
         interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
         interfaces = with_configured(tree, interfaces, documents, kept)
         known = KnownMeanings(self.own_knowledge.files, environment.distro, tree.generation)
-        return with_named_endpoints(tree, with_moveit_clients(tree, interfaces, kept), known, kept)
+        return with_named_endpoints(tree, with_moveit_clients(tree, interfaces, kept), known, documents, kept)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:
