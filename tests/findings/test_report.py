@@ -7,7 +7,7 @@ from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.findings.report import Report, to_json, to_text
+from preflight_analysis.findings.report import Report, by_cause, to_json, to_text
 from preflight_analysis.rules.registry import run_rules
 from support.check import analyse, read_fixture
 from support.locations import location
@@ -264,17 +264,21 @@ MANY = """
 def test_many_findings_that_are_alike_are_one() -> None:
     report = report_of(MANY)
     assert len(report.findings) == 7
-    slip, many = to_json(report)["findings"]
-    assert slip["message"].startswith("parameter 'max_presure' is not declared by /pump")
-    assert many["message"] == (
+    slip, many = by_cause(report.findings)
+    assert slip.message.startswith("parameter 'max_presure' is not declared by /pump")
+    assert many.message == (
         "6 parameters are not declared by /pump; their values are ignored: 'valve', 'colour', 'owner', 'flow', 'spare' "
         "and 1 more"
     )
-    also = [each["message"] for each in many["related"] if each["file"] == "/pump.yaml"]
+    also = [each.message for each in many.related if each.location.file == "/pump.yaml"]
     assert also == [f"'{name}': the same here" for name in ("colour", "owner", "flow", "spare", "last")]
     text = to_text(report)
     assert text.count("PRM013") == 2
     assert "6 parameters are not declared" in text and "/pump.yaml:9:5: 'last': the same here" in text
+
+
+def test_programs_get_each_of_them() -> None:
+    assert len(to_json(report_of(MANY))["findings"]) == 7
 
 
 _LEFT_OUT = ("owner", "flow:", "spare", "last:")
@@ -282,5 +286,5 @@ _LEFT_OUT = ("owner", "flow:", "spare", "last:")
 
 def test_a_few_of_them_stay_apart() -> None:
     text = "".join(line for line in MANY.splitlines(keepends=True) if line.strip()[:5] not in _LEFT_OUT)
-    messages = [each["message"] for each in to_json(report_of(text))["findings"]]
+    messages = [each.message for each in by_cause(report_of(text).findings)]
     assert [message.split("'")[1] for message in messages] == ["max_presure", "valve", "colour"]

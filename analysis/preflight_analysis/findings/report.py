@@ -82,10 +82,11 @@ def _rank(finding: Finding) -> tuple[int, str, Span]:
     return -SEVERITIES.index(finding.severity), finding.location.file, finding.location.span
 
 
-def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
+def by_cause(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Finding]:
     """One finding for each cause: the first of those that say the same of several places, or point at each other's
-    place. The other places are related to it, and it holds in the roots of all of them."""
-    for first, *others in _causes(findings):
+    place. The other places are related to it, and it holds in the roots of all of them. `alike`: also one for many
+    that differ in a name alone."""
+    for first, *others in _causes(findings, alike=alike):
         if not others:
             yield first
             continue
@@ -101,13 +102,13 @@ def by_cause(findings: Iterable[Finding]) -> Iterator[Finding]:
 
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
-    points. `findings` has one for each cause, with a `condition` where it needs other arguments than those of its root;
-    `rules` counts all places. `coverage` is how much was looked at, `sources` there how many nodes are known in which
-    way; `environment` is what is missing."""
+    points. `findings` has one for each cause, but each name of those that are alike, with a `condition` where it needs
+    other arguments than those of its root; `rules` counts all places. `coverage` is how much was looked at, `sources`
+    there how many nodes are known in which way; `environment` is what is missing."""
     coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
-        "findings": [_finding_json(finding, report.documents) for finding in by_cause(report.findings)],
+        "findings": [_finding_json(finding, report.documents) for finding in by_cause(report.findings, alike=False)],
         "rules": {rule: dict(Counter(severities)) for rule, severities in _by_rule(report).items()},
         "environment": {
             "complete": report.complete,
@@ -206,16 +207,16 @@ _COUNTED = re.compile(r"; \d+ of \d+ nodes not fully analysed")
 _Cause = tuple[str, Severity, str, str]
 
 
-def _causes(findings: Iterable[Finding]) -> Iterator[Sequence[Finding]]:
+def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequence[Finding]]:
     """Findings that say the same of several places, or of which each points at the other's place, together, and many
     that are alike. What names nothing is of one cause in one file only."""
     findings = [*findings]
     found: dict[_Cause, list[Finding]] = {}
     pointing: dict[tuple[str, Location, Location], list[Finding]] = {}
-    alike = Counter(_alike(finding) for finding in findings if finding.alike is not None)
+    many = Counter(_alike(finding) for finding in findings if alike and finding.alike is not None)
     for finding in findings:
         cause = _alike(finding)
-        if finding.alike is not None and alike[cause] >= _MANY:
+        if finding.alike is not None and many[cause] >= _MANY:
             found.setdefault(cause, []).append(finding)
             continue
         where = "" if _NAMED.search(finding.message) else finding.location.file
@@ -230,7 +231,7 @@ def _causes(findings: Iterable[Finding]) -> Iterator[Sequence[Finding]]:
         for there, here in to:
             pointing.setdefault((finding.rule, here, there), group)
     for cause, group in found.items():
-        yield _as_one(group) if alike[cause] >= _MANY else group
+        yield _as_one(group) if many[cause] >= _MANY else group
 
 
 def _alike(finding: Finding) -> _Cause:
