@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 from support.editor_harness import ROOT, Harness
+from support.editor_launch_files import create_description
 from support.live_harness import Ros1System, registered
 from support.waiting import until
 
@@ -167,6 +168,16 @@ def test_launch_files_of_ros_2(neovim: Neovim, trusted_harness: Harness, suffix:
     assert seen["after"] == ROS2[f"launch/a.launch.{suffix}"].replace("talkr", "talker").splitlines()
     node = next(line for line in seen["tree"] if "robot/talker" in line)
     assert f"a.launch.{suffix}:" in node
+
+
+def test_a_robot_description_is_checked_as_it_is_typed(neovim: Neovim, untrusted_harness: Harness) -> None:
+    path = create_description(untrusted_harness)
+    text = path.read_text()
+
+    seen = drive(neovim, untrusted_harness, "handed_over", path)
+
+    assert seen == {"filetype": "xml", "covered": "base_lnk"}
+    assert path.read_text() == text
 
 
 ROBOT = """<launch>
@@ -349,7 +360,12 @@ def test_types_of_files(neovim: Neovim, untrusted_harness: Harness) -> None:
         "workspace/launch/j.py": "",
         "workspace/k.py": "import os\n\n\ndef generate_launch_description():\n    pass\n",
         "workspace/params.yaml": "a: 1\n",
+        "workspace/arm.xacro": "<robot/>\n",
+        "workspace/go.xml": '<root>\n<BehaviorTree ID="Go"/>\n</root>\n',
+        "workspace/robot.xml": "<robot name='r'/>\n",
+        "workspace/other.xml": "<robots/>\n",
         "elsewhere/loose.yaml": "a: 1\n",
+        "elsewhere/loose.urdf": "<robot/>\n",
         "elsewhere/i_launch.yaml": "launch: []\n",
     }
     for name, text in files.items():
@@ -374,6 +390,9 @@ def test_types_of_files(neovim: Neovim, untrusted_harness: Harness) -> None:
     assert seen["params.yaml"][:2] == ["yaml", True]
     assert seen["loose.yaml"][:2] == ["yaml", False]
     assert seen["i_launch.yaml"][:2] == ["yaml", True]
+    for name in ("arm.xacro", "go.xml", "robot.xml"):
+        assert seen[name][:2] == ["xml", True]
+    assert seen["other.xml"][:2] == seen["loose.urdf"][:2] == ["xml", False]
 
 
 def test_trust_ends_where_the_trusted_folder_ends(neovim: Neovim, untrusted_harness: Harness) -> None:

@@ -71,7 +71,12 @@ def test_helix_gets_what_the_page_says() -> None:
     assert text == block
     languages = tomllib.loads(text)
     assert languages["language-server"]["ros-preflight"]["args"] == ["lsp"]
-    assert [language["name"] for language in languages["language"]] == ["roslaunch", "yaml", "python"]
+    assert [language["name"] for language in languages["language"]] == [
+        "roslaunch",
+        "robot-description",
+        "yaml",
+        "python",
+    ]
 
 
 def test_the_keys_of_rosdep() -> None:

@@ -91,3 +91,21 @@ def create_formats(harness: Harness) -> Path:
         (folder / name).write_text(text)
     (folder / "third.launch.py").write_text(ROS2_PYTHON)
     return folder
+
+
+DESCRIPTION = """<robot name="arm">
+  <link name="base_link"/>
+  <link name="tool"/>
+  <joint name="tool_joint" type="fixed"><parent link="base_link"/><child link="tool"/></joint>
+</robot>
+"""
+
+
+def create_description(harness: Harness) -> Path:
+    """The robot description of a launch file of the demo's package."""
+    reading = '<launch><param name="robot_description" textfile="$(find preflight_demo)/urdf/arm.urdf"/></launch>'
+    harness.write("arm.launch", reading)
+    path = harness.launch_file.parents[1] / "urdf/arm.urdf"
+    path.parent.mkdir()
+    path.write_text(DESCRIPTION)
+    return path

@@ -373,3 +373,40 @@ def test_without_a_working_sandbox_nothing_runs(harness: Harness, monkeypatch: p
     monkeypatch.setattr(sandbox, "probe", lambda: status)
     assert harness.run("echo 1") == CommandResult("not-run", reason="no sandbox: no permission for namespaces")
     assert harness.starts == 0
+
+
+@pytest.mark.usefixtures("each_backend")
+def test_a_text_of_an_editor_counts_in_the_place_of_a_file_where_the_sandbox_can_do_that(harness: Harness) -> None:
+    path = harness.file("a.txt", "saved\n")
+    line = harness.script("print(open('a.txt').read(), end='')")
+    assert harness.run(line).output == "saved\n"
+    typed = harness.runner.over({str(path): "typed\n"})
+    expected = "typed\n" if sandbox.probe().replaces else "saved\n"
+    assert typed.run(line, threading.Event()).output == expected
+    assert harness.run(line).output == "saved\n"
+    assert path.read_text() == "saved\n"
+
+
+def test_what_was_run_with_a_typed_text_is_known_once_that_is_saved(harness: Harness) -> None:
+    path = harness.file("a.txt", "saved\n")
+    line = harness.script("print(open('a.txt').read(), end='')")
+    typed = harness.runner.over({str(path): "typed\n"})
+    assert typed.lookup(line) is None
+    assert typed.run(line, threading.Event()).output == "typed\n"
+    assert harness.runner.lookup(line) is None
+    path.write_text("typed\n")
+    assert harness.runner.lookup(line) == CommandResult("done", "typed\n")
+    assert harness.runner.over({str(path): "typed\n"}).lookup(line) == CommandResult("done", "typed\n")
+    assert harness.starts == 1
+
+
+def test_a_typed_text_shows_nothing_that_the_sandbox_hides(harness: Harness, tmp_path: Path) -> None:
+    hidden, link = tmp_path / "hidden.txt", harness.folder / "link.txt"
+    hidden.write_text("saved\n")
+    link.symlink_to(harness.file("a.txt", "saved\n"))
+    typed = harness.runner.over({str(hidden): "typed\n", str(link): "by the link\n", str(tmp_path / "gone"): "new\n"})
+    line = harness.script(
+        f"import os\nprint(os.path.exists({str(hidden)!r}), os.path.exists({str(tmp_path / 'gone')!r}))"
+        "\nprint(open('a.txt').read(), open('link.txt').read())"
+    )
+    assert typed.run(line, threading.Event()).output == "False False\nby the link\n by the link\n\n"

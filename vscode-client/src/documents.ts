@@ -1,7 +1,7 @@
 /** A filter on documents, in the form that both the editor and the language client take. */
 interface LanguageFilter {
   readonly scheme: string;
-  readonly language: string;
+  readonly language?: string;
   readonly pattern?: string;
 }
 
@@ -22,5 +22,27 @@ export const launchFiles: readonly LanguageFilter[] = [
   { scheme: "file", language: "python", pattern: "**/launch/**/*.py" },
 ];
 
-/** The documents that the server is told of: launch files, and what may be a parameter file of their nodes. */
-export const servedFiles: readonly LanguageFilter[] = [...launchFiles, { scheme: "file", language: "yaml" }];
+/** Robot descriptions, which start the server too. Extensions call their language `xml`, `xacro` or `urdf`. */
+const robotDescriptions = { scheme: "file", pattern: "**/*.{xacro,urdf,srdf}" };
+
+/**
+ * The documents that the server is told of: launch files, and what they may hand to their nodes. Which YAML is a
+ * parameter file, and which XML a behavior tree, the server knows; all other it leaves alone.
+ */
+export const servedFiles: readonly LanguageFilter[] = [
+  ...launchFiles,
+  robotDescriptions,
+  { scheme: "file", language: "yaml" },
+  { scheme: "file", language: "xml" },
+];
+
+/** What starts the server, beside behavior trees, which only their text tells from other XML. */
+export const startingFiles: readonly LanguageFilter[] = [...launchFiles, robotDescriptions];
+
+const TREE = /<BehaviorTree\b/;
+const TREE_REACH = 20_000;
+
+/** Whether the text of an XML file is a behavior tree: its beginning says so. */
+export function isBehaviorTree(text: string): boolean {
+  return TREE.test(text.slice(0, TREE_REACH));
+}

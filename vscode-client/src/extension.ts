@@ -13,7 +13,7 @@ import {
   workspace,
 } from "vscode";
 import { advice } from "./doctorActions";
-import { launchFiles } from "./documents";
+import { isBehaviorTree, launchFiles, startingFiles } from "./documents";
 import { GraphView } from "./graphView";
 import { type Live, UNWATCHED, watched } from "./live";
 import { choosePython, clearCache, DOCTOR, nodesOf, setServerPath, trace, watch } from "./maintenance";
@@ -122,7 +122,7 @@ export function activate(context: ExtensionContext): void {
     registerUnserved(),
     registerDoctor(server, doctorIsStale, () => begin()),
     followLaunchFiles(),
-    onFirstLaunchFile(() => begin()),
+    onFirstServedFile(() => begin()),
   );
   function begin(): void {
     if (statusBar !== undefined) {
@@ -221,14 +221,20 @@ function followLaunchFiles(): Disposable {
   return Disposable.from(window.onDidChangeActiveTextEditor(notify), workspace.onDidOpenTextDocument(notify));
 }
 
-/** Calls back once, when a launch file is or comes to be open: an XML file of another kind needs no server. */
-function onFirstLaunchFile(callback: () => void): Disposable {
-  if (workspace.textDocuments.some(isLaunchFile)) {
+/** Whether a document is a launch file, or one that launch files hand to nodes: XML of another kind needs no server. */
+function startsServer(document: TextDocument): boolean {
+  const isXml = document.uri.scheme === "file" && document.languageId === "xml";
+  return languages.match(startingFiles, document) > 0 || (isXml && isBehaviorTree(document.getText()));
+}
+
+/** Calls back once, when a file that the server is for is or comes to be open. */
+function onFirstServedFile(callback: () => void): Disposable {
+  if (workspace.textDocuments.some(startsServer)) {
     callback();
     return { dispose: () => undefined };
   }
   const subscription = workspace.onDidOpenTextDocument((document) => {
-    if (isLaunchFile(document)) {
+    if (startsServer(document)) {
       subscription.dispose();
       callback();
     }

@@ -35,6 +35,7 @@ class Part:
     """A file of a tree: the one that a node loads, or one that it includes."""
 
     path: str
+    document: Document
     file: TreeFile
 
 
@@ -183,7 +184,7 @@ class _Files:
                 continue
             self._seen.add(path)
             file = document.once(read_trees)
-            self.parts.append(Part(path, file))
+            self.parts.append(Part(path, document, file))
             for included in file.includes:
                 target = path_of(self._context, included, path)
                 text = self._context.disk.text(target) if target is not None else None

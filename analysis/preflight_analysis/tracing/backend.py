@@ -50,17 +50,19 @@ TEMPORARY_BYTES = 64 << 20
 @dataclass(frozen=True, slots=True)
 class Visible:
     """What of the user's files is shown to a run: paths below the masked folders that it sees nevertheless, and the git
-    folders that it does not see wherever they are (`repositories.py`)."""
+    folders that it does not see wherever they are (`repositories.py`). `texts` are read in the place of files that it
+    sees, by the real paths of these: what an editor has of them. Only a backend that `replaces` does that."""
 
     paths: tuple[str, ...] = ()
     repositories: tuple[str, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
 class View:
     """What a run may see: all that the user may read, without what lies below `masks` and without `secrets`, but with
     `shown`. `home` is the home folder, empty and writable inside. `agents` is our own code. `repositories` are what is
-    hidden of all that, by its real paths."""
+    hidden of all that, by its real paths; `texts` are those of `Visible`."""
 
     masks: tuple[str, ...]
     secrets: tuple[str, ...]
@@ -68,6 +70,15 @@ class View:
     home: str
     agents: Agents
     repositories: tuple[str, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+    def replaced(self) -> dict[str, str]:
+        """The texts by where their files would be seen inside."""
+        if not self.texts:
+            return {}
+        seen = Seen.of(self.shown, self.masks)
+        files = {path: text for path, text in self.texts.items() if os.path.isfile(path)}
+        return {place: text for path, text in files.items() for place in seen.places(path)}
 
     def hidden_repositories(self) -> list[str]:
         """Where `repositories` would be seen inside, without what lies in another of them."""
@@ -109,6 +120,8 @@ class Backend:
     guarantees: tuple[str, ...]
     narrow: bool = False
     """Whether a program may fail in it that would not in the others: what failed so is no finding, and not kept."""
+    replaces: bool = False
+    """Whether a run can have a text in the place of a file."""
 
 
 @contextlib.contextmanager

@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import os
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from preflight_analysis.tracing import mounts, seccomp, sockets
@@ -36,15 +36,25 @@ def isolated(argv: Sequence[str], view: View) -> Iterator[Isolated]:
     program = shutil.which("bwrap")
     if program is None:
         raise FileNotFoundError("bubblewrap is not installed: apt install bubblewrap")
-    options = _options(view)
-    calls = seccomp.open_program()
-    if calls is None:
-        yield Isolated([program, *options, "--", *argv], own_users=True)
-        return
-    try:
-        yield Isolated([program, *options, "--seccomp", str(calls), "--", *argv], (calls,), own_users=True)
-    finally:
-        os.close(calls)
+    with contextlib.ExitStack() as at_end:
+        texts = {path: _handed(text, at_end) for path, text in view.replaced().items()}
+        options, descriptors = _options(view, texts), list(texts.values())
+        calls = seccomp.open_program()
+        if calls is not None:
+            at_end.callback(os.close, calls)
+            options += ["--seccomp", str(calls)]
+            descriptors.append(calls)
+        yield Isolated([program, *options, "--", *argv], tuple(descriptors), own_users=True)
+
+
+def _handed(text: str, at_end: contextlib.ExitStack) -> int:
+    """A descriptor to read a text from."""
+    descriptor = os.memfd_create("text")
+    at_end.callback(os.close, descriptor)
+    with os.fdopen(descriptor, "wb", closefd=False) as file:
+        file.write(text.encode("utf-8", "replace"))
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    return descriptor
 
 
 def _explained(said: str) -> str:
@@ -57,7 +67,7 @@ def _explained(said: str) -> str:
     return f"bubblewrap does not work here ({said}); in a container, user namespaces must be allowed"
 
 
-def _options(view: View) -> list[str]:
+def _options(view: View, texts: Mapping[str, int]) -> list[str]:
     size = str(TEMPORARY_BYTES)
     options = ["--unshare-user", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts"]
     options += ["--unshare-cgroup-try", "--hostname", "localhost", "--clearenv", "--die-with-parent", "--new-session"]
@@ -74,6 +84,8 @@ def _options(view: View) -> list[str]:
         options += ["--ro-bind", "/dev/null", path]
     for path in view.shown:
         options += ["--ro-bind", path, path]
+    for path, descriptor in texts.items():
+        options += ["--ro-bind-data", str(descriptor), path]
     for path in sockets.reachable(view.shown, view.masks):
         options += ["--ro-bind", "/dev/null", path]
     for path in mounts.leading_out(view.shown, view.masks):
@@ -90,4 +102,4 @@ def _options(view: View) -> list[str]:
     return options
 
 
-BACKEND = Backend("bubblewrap", isolated, _explained, ("files read-only, no network, own processes",))
+BACKEND = Backend("bubblewrap", isolated, _explained, ("files read-only, no network, own processes",), replaces=True)

@@ -7,6 +7,7 @@ own folder and environment, an error if it does not end with exit code 0, its st
 from __future__ import annotations
 
 import base64
+import copy
 import functools
 import hashlib
 import json
@@ -18,7 +19,7 @@ import shutil
 import signal
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
@@ -49,7 +50,15 @@ from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.outcome import stderr_tail
 from preflight_analysis.tracing.records import paths
 from preflight_analysis.tracing.repositories import git_paths
-from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, fingerprint, identity
+from preflight_analysis.tracing.store import (
+    MAX_BYTES,
+    Place,
+    Store,
+    any_changed_since,
+    fingerprint,
+    fingerprint_of_text,
+    identity,
+)
 from preflight_analysis.tracing.trace import on_host
 
 _log = logging.getLogger(__name__)
@@ -76,12 +85,12 @@ class CommandCache(Store):
     def __init__(self, folder: Path | None = None, max_bytes: int = MAX_BYTES) -> None:
         super().__init__("commands", SCHEMA, MAX_ENTRY_BYTES, folder, max_bytes)
 
-    def load(self, recipe: recipes.Recipe, packages: str) -> str | None:
-        """What it printed, if no file that it depended on has changed."""
+    def load(self, recipe: recipes.Recipe, packages: str, state: Callable[[str], str] = fingerprint) -> str | None:
+        """What it printed, if no file that it depended on has changed; `state` tells one content from the next."""
         for path, entry in self._entries(self._place(recipe, packages)):
             try:
                 output: str = entry["output"]
-                valid = all(fingerprint(name) == known for name, known in entry["files"].items())
+                valid = all(state(name) == known for name, known in entry["files"].items())
             except (KeyError, TypeError, AttributeError):
                 continue
             if valid and isinstance(output, str):
@@ -90,10 +99,17 @@ class CommandCache(Store):
         return None
 
     def store(
-        self, recipe: recipes.Recipe, packages: str, output: str, files: Iterable[str], *, started: float
+        self,
+        recipe: recipes.Recipe,
+        packages: str,
+        output: str,
+        files: Iterable[str],
+        *,
+        started: float,
+        state: Callable[[str], str] = fingerprint,
     ) -> bool:
         """Keep the output of a run that began at `started`. False if a file has changed since, or the disk refused."""
-        known = {path: fingerprint(path) for path in dict.fromkeys(files)}
+        known = {path: state(path) for path in dict.fromkeys(files)}
         if any_changed_since(known, started):
             return False
         return self._keep(self._place(recipe, packages), known, {"files": known, "output": output})
@@ -146,6 +162,23 @@ class CommandRunner:
         self._disk = disk or Disk()
         self.cwd = cwd
         self.cache = cache
+        self._texts: Mapping[str, str] = {}
+        """What is read in the place of files, by their real paths."""
+
+    def over(self, texts: Mapping[str, str]) -> CommandRunner:
+        """The same, for which texts of an editor count in the place of files, where the sandbox can do that. It reads
+        the files: of those that have the text anyway nothing is to be done."""
+        other = copy.copy(self)
+        real = {os.path.realpath(path): text for path, text in texts.items()}
+        other._texts = {path: text for path, text in real.items() if differs(path, text)}
+        if other._texts and not sandbox.probe().replaces:
+            other._texts = {}
+        return other
+
+    def _state(self, path: str) -> str:
+        """What tells one content of a file from the next, as a run reads it."""
+        text = self._texts.get(os.path.realpath(path)) if self._texts else None
+        return fingerprint(path) if text is None else fingerprint_of_text(text)
 
     def lookup(self, line: str) -> CommandResult | None:
         """The cached result, if it is still valid; nothing is run."""
@@ -168,7 +201,7 @@ class CommandRunner:
             return CommandResult("not-run", reason=f"the run failed: {error}")
 
     def _known(self, job: _Job) -> CommandResult | None:
-        output = self.cache.load(job.recipe, self._packages) if self.cache is not None else None
+        output = self.cache.load(job.recipe, self._packages, self._state) if self.cache is not None else None
         return own_xacro.judged(CommandResult("done", output)) if output is not None else None
 
     @functools.cached_property
@@ -276,7 +309,7 @@ class CommandRunner:
         return self._kept(line, job, done)
 
     def _execute(self, job: _Job, cancel: threading.Event) -> _Done:
-        shown = Visible(tuple(job.visible), self._repositories)
+        shown = Visible(tuple(job.visible), self._repositories, self._texts)
         agents = compiled.copies().of(self._interpreter, shown)
         before = list(map(identity, job.named))
         raw = run.execute_command(job.recipe, shown, self._interpreter, cancel, agents)
@@ -293,7 +326,8 @@ class CommandRunner:
                 return CommandResult("not-run", reason=refused)
         if result.status == "done" and self.cache is not None and done.unchanged:
             files = (*job.named, *on_host(done.ended.files, job.visible))
-            self.cache.store(job.recipe, self._packages, result.output, files, started=done.started)
+            output, started = result.output, done.started
+            self.cache.store(job.recipe, self._packages, output, files, started=started, state=self._state)
         return own_xacro.judged(result)
 
 
@@ -305,6 +339,14 @@ def alike(lines: Iterable[str], most: int) -> list[tuple[str, ...]]:
         request = parse_request(line)
         groups.setdefault((request and launch_files.group(request)) or line, []).append(line)
     return [tuple(group[at : at + most]) for group in groups.values() for at in range(0, len(group), most)]
+
+
+def differs(path: str, text: str) -> bool:
+    """Whether there is a file, and it has another text."""
+    try:
+        return os.path.isfile(path) and Path(path).read_bytes() != text.encode("utf-8", "replace")
+    except OSError:
+        return False
 
 
 def _files_of(words: Iterable[str], cwd: str) -> Iterator[str]:

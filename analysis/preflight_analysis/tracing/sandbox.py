@@ -36,13 +36,14 @@ _SECRET_FILES = ("/etc/shadow", "/etc/shadow-", "/etc/gshadow", "/etc/gshadow-",
 @dataclass(frozen=True, slots=True)
 class SandboxStatus:
     """Whether nodes can be run, and by which `backend`. `reason` is a sentence that says why not and what to do about
-    it, `guarantees` what holds where they can, one sentence each. `narrow` is as in `Backend`."""
+    it, `guarantees` what holds where they can, one sentence each. `narrow` and `replaces` are as in `Backend`."""
 
     works: bool
     reason: str | None = None
     guarantees: tuple[str, ...] = ()
     backend: str | None = None
     narrow: bool = False
+    replaces: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +78,9 @@ def _probed(choice: str) -> SandboxStatus:
     for each in wanted:
         reason = _tried(each)
         if reason is None:
-            return SandboxStatus(True, guarantees=_guarantees(each), backend=each.name, narrow=each.narrow)
+            return SandboxStatus(
+                True, guarantees=_guarantees(each), backend=each.name, narrow=each.narrow, replaces=each.replaces
+            )
         reasons.append(reason)
     return SandboxStatus(False, "; ".join(reasons))
 
@@ -128,6 +131,7 @@ def _prepared(chosen: Backend, argv: Sequence[str], visible: Visible, agents: Ag
         interior.home(),
         agents,
         visible.repositories,
+        visible.texts,
     )
     with chosen.isolated(argv, view) as found, contextlib.ExitStack() as at_end:
         command, place = found.command, cgroup.place()

@@ -216,6 +216,11 @@ def _digest(path: str, *_state: int) -> str:
         return "unreadable"
 
 
+def fingerprint_of_text(text: str) -> str:
+    """That of a file of the user which has just this text."""
+    return hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()
+
+
 def listing(folder: str) -> str:
     """A digest of the names in a folder that an `import` could find."""
     try:

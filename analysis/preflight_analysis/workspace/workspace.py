@@ -46,6 +46,7 @@ from preflight_analysis.nodl.named_endpoints import with_named_endpoints
 from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
 from preflight_analysis.robot.sources import documents_of
+from preflight_analysis.rules.behavior_trees import trees_of
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.rules.rule import Context
@@ -125,6 +126,14 @@ class Analysis:
         context = replace(self.context, documents={**branches.documents, **self.documents})
         found = tuple(finding for finding, text in branches.findings if context.text(finding.location) == text)
         return replace(self, context=replace(context, of_branches=found))
+
+    def document(self, path: str) -> Document | None:
+        """The text of a launch file or of one that is handed over, as the analysis has it; None of any other."""
+        found = self.documents.get(path)
+        if found is None and path.endswith(".xml"):
+            parts = (part for loaded in self.context.once(trees_of) for part in loaded.parts)
+            found = next((part.document for part in parts if part.path == path), None)
+        return found
 
     @property
     def all_documents(self) -> Mapping[str, Document]:

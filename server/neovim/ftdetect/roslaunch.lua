@@ -1,4 +1,4 @@
--- Launch files in XML. Those in YAML and Python keep their types.
+-- Launch files in XML, and robot descriptions, which are XML. Launch files in YAML and Python keep their types.
 
 local function set(bufnr)
   vim.bo[bufnr].filetype = 'roslaunch'
@@ -18,7 +18,7 @@ if vim.fn.has('nvim-0.8') == 1 then
     return is_launch_file(bufnr) and 'roslaunch' or nil
   end
   vim.filetype.add({
-    extension = { launch = 'roslaunch' },
+    extension = { launch = 'roslaunch', xacro = 'xml', urdf = 'xml', srdf = 'xml' },
     pattern = {
       ['.*%.launch%.xml'] = 'roslaunch',
       -- rostest's files, and ROS 2's; others of such names are left alone.
@@ -32,6 +32,13 @@ else
     pattern = { '*.launch', '*.launch.xml' },
     callback = function(args)
       set(args.buf)
+    end,
+  })
+  vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
+    group = 'filetypedetect',
+    pattern = { '*.xacro', '*.urdf', '*.srdf' },
+    callback = function(args)
+      vim.bo[args.buf].filetype = 'xml'
     end,
   })
   vim.api.nvim_create_autocmd('BufRead', {

@@ -110,7 +110,7 @@ class Analyses:
         """Those that reach a file, the one that it is shown in first."""
         for root in dict.fromkeys((*self._session.choice.of(path), Root(path), *self.all)):
             analysis = self.all.get(root)
-            if analysis is not None and path in analysis.documents:
+            if analysis is not None and analysis.document(path) is not None:
                 yield analysis
 
     def is_current(self, analysis: Analysis) -> bool:
@@ -129,7 +129,8 @@ class Analyses:
         for path, root in self._session.choice.shown():
             shown[root] = None
             analysis = self.all.get(root)
-            if analysis is not None and self.is_current(analysis) and path not in analysis.tree.inputs:
+            is_reached = analysis is None or not self.is_current(analysis) or path in analysis.tree.inputs
+            if not is_reached and not self._session.choice.is_handed_over(path):
                 shown[Root(path)] = None
         return list(shown)
 
@@ -146,6 +147,7 @@ class Analyses:
             while True:
                 self._news.clear()
                 workspace = await self._session.workspace()
+                await self._session.choice.find_readers(workspace)
                 shown = self._shown()
                 if not await self._ask(workspace, shown) or shown != self._shown():
                     continue

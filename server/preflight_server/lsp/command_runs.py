@@ -6,15 +6,18 @@ import asyncio
 import threading
 from collections.abc import Callable, Collection, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import TYPE_CHECKING
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.tracing.commands import CommandCache, CommandRunner
+from preflight_analysis.tracing.commands import CommandCache, CommandRunner, differs
 from preflight_analysis.workspace.broken import Broken
 from preflight_analysis.workspace.commands import CommandResults, command_lines, run_commands
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
+from preflight_server.lsp.launch_documents import is_handed_over
 from preflight_server.lsp.markup import counted
 from preflight_server.lsp.progress import Progress
 
@@ -46,6 +49,8 @@ class CommandRuns:
         """Command lines whose result is up to date."""
         self._edition = 0
         """How often files changed: what was found before says nothing of what is there now."""
+        self._last_good: Mapping[str, str] = {}
+        """The last text of each open file that was well-formed XML."""
         self._batch: _Batch | None = None
 
     def set_workspace(self, workspace: Workspace) -> None:
@@ -57,6 +62,13 @@ class CommandRuns:
         """Files changed: look every result up again, but keep it until then."""
         self._current.clear()
         self._edition += 1
+
+    def typed(self, *, stop: bool) -> None:
+        """The user edits a file that commands may read, or has opened or closed one; what runs with the text before an
+        edit is to `stop`."""
+        self.forget()
+        if stop:
+            self.stop()
 
     def clear(self) -> None:
         """Take every result back."""
@@ -103,12 +115,29 @@ class CommandRuns:
         runner, edition = self._runner, self._edition
         old = [line for line in dict.fromkeys(lines) if line not in self._current]
         if runner is not None and old:
+            runner = await self._session.in_pool(partial(self._with_texts, runner, self._open()))
             found = await self._session.in_pool(lambda: {line: runner.lookup(line) for line in old})
             self._take({line: hit for line, hit in found.items() if hit is not None}, edition)
             missing = [line for line, hit in found.items() if hit is None]
             if missing and self._why_not_run() is None:  # trust may have been withdrawn meanwhile
                 self._take(await self._run(runner, missing, pool), edition)
         return self._current.issuperset(old)
+
+    def _open(self) -> dict[str, str]:
+        """The texts that the editor has of files that commands may read."""
+        return {each.path: each.text for each in self._server.texts if each.path and is_handed_over(each)}
+
+    def _with_texts(self, runner: CommandRunner, texts: Mapping[str, str]) -> CommandRunner:
+        """The runner for these texts. Of one that is no XML while it is being typed, the last that was counts, else the
+        file, which counts in any case once it is saved so. Call it in a thread."""
+        good: dict[str, str] = {}
+        for path, text in texts.items():
+            if not parse_xml(path, text).problems:
+                good[path] = text
+            elif path in self._last_good and differs(path, text):
+                good[path] = self._last_good[path]
+        self._last_good = good
+        return runner.over(good)
 
     def _take(self, results: Mapping[str, CommandResult], edition: int) -> None:
         if edition == self._edition:

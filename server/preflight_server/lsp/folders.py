@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from preflight_server.lsp.launch_documents import is_launch_file, may_be_parameter_file
+from preflight_server.lsp.launch_documents import is_served
 from preflight_server.lsp.session import PAUSE_AFTER_TYPING, Session
 from preflight_server.lsp.settings import Settings
 from preflight_server.lsp.text_store import OpenDocument
@@ -69,7 +69,7 @@ class Folders:
         gone = [self._sessions.pop(folder) for folder in left if folder in self._sessions]
         made = self._make(added)
         for document in self._server.texts:
-            if document.path is not None and (is_launch_file(document) or may_be_parameter_file(document)):
+            if document.path is not None and is_served(document):
                 owner = self.of(document.path)
                 for session in self:
                     if session is not owner:

@@ -1,4 +1,4 @@
-"""Which open documents are launch files, or may be read by one: everything else is left alone, whatever the editor
+"""Which open documents are launch files, or what these hand over: everything else is left alone, whatever the editor
 calls it."""
 
 from __future__ import annotations
@@ -14,7 +14,11 @@ _LIKE_OTHER_XML = "_launch.xml"
 """Usual in ROS 2, but no name that only a launch file can have."""
 _BLANKS = re.compile(r"\s*")
 _DOCTYPE = re.compile(r"<!DOCTYPE[^<>]*>")
-_LAUNCH_TAG = re.compile(r"<launch(?=[\s/>]|\Z)")
+_TAG = re.compile(r"<([\w:.-]+)(?=[\s/>]|\Z)")
+_XML = ("xml", "urdf", "xacro", "srdf")
+"""What editors call the languages of XML."""
+_ROBOTS = (".xacro", ".urdf", ".srdf")
+_TREE = re.compile(r"<BehaviorTree\b|\b(?:BTCPP_format|main_tree_to_execute)\s*=")
 
 
 def is_launch_file(document: OpenDocument) -> bool:
@@ -26,11 +30,11 @@ def is_launch_file(document: OpenDocument) -> bool:
     says_so = document.path.endswith(LAUNCH_SUFFIXES) and not document.path.endswith(_LIKE_OTHER_XML)
     if document.language_id == "roslaunch" or says_so:
         return document.language_id != "python"
-    return document.language_id == "xml" and _is_launch(document.text)
+    return document.language_id == "xml" and _first_tag(document.text) == "launch"
 
 
-def _is_launch(text: str) -> bool:
-    """Whether `<launch` is the first tag, behind declarations and comments."""
+def _first_tag(text: str) -> str:
+    """The first tag, behind declarations and comments; "" where there is none."""
     at = 1 if text.startswith("\ufeff") else 0
     while True:
         blanks = _BLANKS.match(text, at)
@@ -39,12 +43,13 @@ def _is_launch(text: str) -> bool:
             closing = "?>" if text.startswith("<?", at) else "-->"
             close = text.find(closing, at + 2)
             if close < 0:
-                return False
+                return ""
             at = close + len(closing)
         elif doctype := _DOCTYPE.match(text, at):
             at = doctype.end()
         else:
-            return _LAUNCH_TAG.match(text, at) is not None
+            found = _TAG.match(text, at)
+            return found[1] if found is not None else ""
 
 
 def is_python_launch_file(document: OpenDocument) -> bool:
@@ -59,3 +64,26 @@ def is_python_launch_file(document: OpenDocument) -> bool:
 def may_be_parameter_file(document: OpenDocument) -> bool:
     """By its name: whether it is one, the launch files say."""
     return document.path is not None and is_yaml(document.path) and not is_launch_file(document)
+
+
+def is_handed_over(document: OpenDocument) -> bool:
+    """Whether it is a robot description (URDF, xacro, SRDF) or a behavior tree: by its name, or, for other XML, by what
+    is in it."""
+    path = document.path
+    if path is None or is_launch_file(document) or not is_xml(document):
+        return False
+    if path.endswith(_ROBOTS):
+        return True
+    tag = _first_tag(document.text)
+    return tag == "robot" or (tag == "root" and _TREE.search(document.text) is not None)
+
+
+def is_served(document: OpenDocument) -> bool:
+    """Whether what is found in it is shown."""
+    return is_launch_file(document) or may_be_parameter_file(document) or is_handed_over(document)
+
+
+def is_xml(document: OpenDocument) -> bool:
+    """Whether it is XML of any kind. Editors without a mode for it may call it text."""
+    path = document.path or ""
+    return document.language_id in _XML or path.endswith((".xml", *_ROBOTS))

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
-from preflight_analysis.workspace.index import Root
+from preflight_analysis.workspace.handed_over import roots_naming
+from preflight_analysis.workspace.index import Root, WorkspaceIndex
+from preflight_analysis.workspace.workspace import Workspace
 
-from preflight_server.lsp.launch_documents import may_be_parameter_file
+from preflight_server.lsp.launch_documents import is_handed_over, may_be_parameter_file
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -24,10 +27,12 @@ class RootChoice:
         self._server = server
         self._session = session
         self.open: list[str] = []
-        """Paths of open launch files, and of what may be a parameter file, the one that was last opened or edited
+        """Paths of open launch files, and of what these may hand over, the one that was last opened or edited
         first."""
         self.selected: dict[str, Root] = {}
         """The root that the user chose for a file to be shown in."""
+        self._naming: dict[str, tuple[WorkspaceIndex, tuple[Root, ...]]] = {}
+        """Of files that no analysed launch is known to hand over: the roots that seem to, by an index."""
 
     def to_front(self, path: str) -> None:
         """A file was opened or edited."""
@@ -36,15 +41,40 @@ class RootChoice:
     def leave(self, path: str) -> None:
         """A file is not open any more, or none that is shown."""
         self.open = [p for p in self.open if p != path]
+        self._naming.pop(path, None)
 
     def of(self, path: str) -> list[Root]:
-        """The roots that reach a launch file or read a parameter file, the one that it is shown in first. None reads a
-        YAML file that is something else."""
+        """The roots that reach a launch file, or to which another file is handed over, the one that it is shown in
+        first. None reads a file that is something else."""
         chosen = [self.selected[path]] if path in self.selected else []
         document, index = self._server.texts.by_path(path), self._session.indexing.index
-        is_read_only = document is not None and may_be_parameter_file(document)
-        found = index.roots_reading(path) if is_read_only else index.roots_of(path)
+        if self.is_handed_over(path):
+            found = self._analysed(path) or (*index.roots_reading(path), *self._naming.get(path, (index, ()))[1])
+        else:
+            is_read_only = document is not None and may_be_parameter_file(document)
+            found = index.roots_reading(path) if is_read_only else index.roots_of(path)
         return [*dict.fromkeys((*chosen, *found))]
+
+    def is_handed_over(self, path: str) -> bool:
+        """Whether an open file is one that launches hand over: it is never launched itself."""
+        document = self._server.texts.by_path(path)
+        return document is not None and is_handed_over(document)
+
+    def _analysed(self, path: str) -> tuple[Root, ...]:
+        """The roots that are analysed and read the file."""
+        return tuple(root for root, each in self._session.analyses.all.items() if each.document(path) is not None)
+
+    async def find_readers(self, workspace: Workspace) -> None:
+        """Look for roots of the open files that no analysed launch reads."""
+        index, sources = self._session.indexing.index, workspace.sources
+        for path in self.open:
+            known = self._naming.get(path)
+            if not index.complete or (known is not None and known[0] is index):
+                continue
+            if self.is_handed_over(path) and not self._analysed(path):
+                environment = workspace.environment
+                found = await self._session.in_pool(partial(roots_naming, index, sources, environment, path))
+                self._naming[path] = (index, found)
 
     def shown(self) -> Iterator[tuple[str, Root]]:
         """The open files, each with the root that it is shown in."""

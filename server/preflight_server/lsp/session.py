@@ -29,7 +29,13 @@ from preflight_server.lsp.analyses import Analyses
 from preflight_server.lsp.buffers import Buffers
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
-from preflight_server.lsp.launch_documents import is_launch_file, is_python_launch_file, may_be_parameter_file
+from preflight_server.lsp.launch_documents import (
+    is_handed_over,
+    is_launch_file,
+    is_python_launch_file,
+    is_served,
+    is_xml,
+)
 from preflight_server.lsp.root_choice import RootChoice
 from preflight_server.lsp.runs import Runs
 from preflight_server.lsp.settings import Settings, as_mapping
@@ -115,23 +121,28 @@ class Session:
         seconds. `own`: it belongs to this folder, and is shown in the context of its roots."""
         if document.path is None:
             return
+        if is_handed_over(document):
+            self.runs.commands.typed(stop=quiet > 0)
         if not own:
             self._touch(document.path, None, quiet=quiet)
             return
-        if is_launch_file(document) or may_be_parameter_file(document):
+        if is_served(document):
             self.choice.to_front(document.path)
-            if self.folder is None and is_launch_file(document):
+            if self.folder is None and (is_launch_file(document) or is_handed_over(document)):
                 # An editor that opened a file and no folder: the workspace is the one around the file.
                 self.folder = workspace_of(document.path)
                 self._forget_workspace()
                 self.indexing.changed(None)
-        else:
+        elif self.shows(document.path) or not is_xml(document) or self.depends_on(document.path):
             self.choice.leave(document.path)
+        else:
+            return  # XML that has nothing to do with any launch
         self._touch(document.path, document.path, quiet=quiet)
 
     def closed(self, path: str) -> None:
         """A document that this folder depends on was closed."""
         self.choice.leave(path)
+        self.runs.commands.typed(stop=False)
         self._touch(path, None, quiet=0)
 
     def released(self, path: str) -> None:
@@ -145,7 +156,8 @@ class Session:
 
     def depends_on(self, path: str) -> bool:
         """Whether some launch of this folder reads the file."""
-        analysed = any(path in analysis.tree.inputs for analysis in self.analyses.all.values())
+        analyses = self.analyses.all.values()
+        analysed = any(path in each.tree.inputs or each.document(path) is not None for each in analyses)
         return analysed or any(path in entry.inputs for entry in self.indexing.index.entries.values())
 
     def files_changed(self, paths: Iterable[str]) -> None:
@@ -218,7 +230,7 @@ class Session:
         if is_python_launch_file(document) and not python:
             return None
         analyses = tuple(self.analyses.of(document.path))
-        parsed = analyses[0].documents.get(document.path) if analyses else None
+        parsed = analyses[0].document(document.path) if analyses else None
         if parsed is None or parsed.text != document.text:
             return None
         findings = self.analyses.findings.get(document.path, ())

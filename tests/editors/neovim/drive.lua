@@ -478,6 +478,17 @@ function scenarios.watch()
   return result
 end
 
+-- A robot description: what is wrong in it as it is typed.
+function scenarios.handed_over()
+  local result = { filetype = vim.bo.filetype }
+  edit('<parent link="base_link"', '<parent link="base_lnk"')
+  local found = wait_for('what is wrong in the text that is not saved', function()
+    return diagnostics_with('base_lnk')[1]
+  end)
+  result.covered = covered_text(found)
+  return result
+end
+
 -- The types of files, and which of them the server is told of.
 function scenarios.files()
   local found = {}

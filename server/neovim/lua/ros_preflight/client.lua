@@ -13,10 +13,13 @@ local HOW_TO_INSTALL =
 local M = {}
 
 M.NAME = 'ros_preflight'
-M.FILETYPES = { 'roslaunch', 'yaml', 'python' } -- YAML: ROS 2's launch files and parameter files
+-- YAML: ROS 2's launch files and parameter files. XML: robot descriptions and behavior trees.
+M.FILETYPES = { 'roslaunch', 'yaml', 'python', 'xml', 'xacro', 'urdf', 'srdf' }
 
 -- Our commands that the server may put into code lenses.
 local CLIENT_COMMANDS = { 'rosPreflight.selectRoot', 'rosPreflight.showReferences' }
+
+local HEAD = 200 -- lines that tell a behavior tree from other XML
 
 local status_of = {} -- what each client's server told of itself
 
@@ -33,8 +36,21 @@ local function makes_launch_description(bufnr, name)
   return false
 end
 
--- Whether the server is told of a buffer, and the root of its file. Of Python it gets launch files alone; a YAML file
--- outside of any workspace is nobody's parameter file.
+-- Whether an XML file is a robot description or a behavior tree.
+local function is_handed_over(bufnr, name)
+  if name:find('%.xacro$') or name:find('%.urdf$') or name:find('%.srdf$') then
+    return true
+  end
+  for _, line in ipairs(vim.api.nvim_buf_get_lines(bufnr, 0, HEAD, false)) do
+    if line:find('<BehaviorTree%f[^%w]') or line:find('<robot%f[^%w]') then
+      return true
+    end
+  end
+  return false
+end
+
+-- Whether the server is told of a buffer, and the root of its file. Of Python it gets launch files alone, of XML what
+-- launch files hand to nodes; outside of any workspace nobody hands over a file.
 function M.served(bufnr)
   local filetype = vim.bo[bufnr].filetype
   if vim.bo[bufnr].buftype ~= '' or not vim.tbl_contains(M.FILETYPES, filetype) then
@@ -42,10 +58,13 @@ function M.served(bufnr)
   end
   local name = vim.api.nvim_buf_get_name(bufnr)
   local is_launch = filetype == 'roslaunch'
-    or name:find('[._]launch%.[^.]+$') ~= nil
+    or (filetype == 'yaml' or filetype == 'python') and name:find('[._]launch%.[^.]+$') ~= nil
     or (filetype == 'python' and makes_launch_description(bufnr, name))
   local root = workspace.root_of(name)
-  return is_launch or (filetype == 'yaml' and root ~= nil), root
+  if is_launch or filetype == 'python' or root == nil then
+    return is_launch, root
+  end
+  return filetype == 'yaml' or is_handed_over(bufnr, name), root
 end
 
 -- Whether the server's program is there; says so once where it is not.

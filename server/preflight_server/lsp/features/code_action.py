@@ -154,7 +154,7 @@ class _Actions:
             yield self._quick_fix("Manage workspace trust", untrusted, command=MANAGE_TRUST)
 
     def _suppressions(self, rule: str, finding: Finding) -> Iterator[types.CodeAction]:
-        document = self._view.analysis.documents.get(self._view.path)
+        document = self._view.analysis.document(self._view.path)
         edit = suppress_on_line(document, finding) if document is not None else None
         if edit is not None:
             yield self._quick_fix(f"Suppress {rule} on this line", finding, edit=self._edit([edit]))
