@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from lsprotocol import types
 from support.editor_harness import Harness
-from support.lsp_client import editing
+from support.lsp_client import Editor, editing
 from support.xacro_package import create_robot
 
 pytestmark = pytest.mark.ros
@@ -196,3 +196,50 @@ async def test_other_xml_is_left_alone(harness: Harness, text: str) -> None:
         assert await editor.hover(other, types.Position(0, 1)) is None
         assert editor.analysed == analysed
         assert not editor.diagnostics(other)
+
+
+async def hovered(editor: Editor, path: Path, where: types.Position) -> str:
+    found = await editor.hover(path, where)
+    return str(getattr(found.contents, "value", "")) if found is not None else ""
+
+
+async def test_a_link_of_a_xacro_file(harness: Harness, robot: Path) -> None:
+    arm, macros = robot.parents[1] / "urdf/arm.xacro", robot.parents[1] / "urdf/macros.xacro"
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
+        editor.open(robot)
+        editor.open(arm, language="xml")
+        link = editor.at(arm, '<parent link="base_link"', 15)
+        text = await editor.once(lambda: hovered(editor, arm, link), lambda found: "Children" in found)
+        assert text.startswith("link `base_link`\n\nRoot of its tree\n\nChildren: `tool`, `left_lidar`")
+        (target,) = await editor.definition(arm, link)
+        assert target.target_range.start == editor.at(arm, '<link name="base_link"', 12)
+        assert len(await editor.references(arm, link)) == 2
+        labels = [item.label for item in await editor.completion(arm, link)]
+        assert labels == ["base_link", "tool", "left_lidar"]
+        (macro,) = await editor.definition(arm, editor.at(arm, "<xacro:lidar", 8))
+        assert macro.target_uri == macros.as_uri()
+        assert [each.target for each in await editor.links(arm)] == [macros.as_uri()]
+
+
+async def test_what_is_for_launch_files_alone_says_nothing(harness: Harness, robot: Path) -> None:
+    arm = robot.parents[1] / "urdf/arm.xacro"
+    async with editing(harness, trusted=True, folder=harness.home / "robots") as editor:
+        editor.open(arm, language="xml")
+        link = editor.at(arm, '<parent link="base_link"', 15)
+        await editor.once(lambda: hovered(editor, arm, link), bool)
+        assert await editor.prepare_rename(arm, link) is None
+        assert await editor.symbols(arm) == await editor.lenses(arm) == await editor.folds(arm) == []
+        assert await editor.hierarchy(arm, link) == []
+        assert await editor.signature(arm, link) is None
+        assert await editor.completion(arm, editor.at(arm, "<xacro:include", 1)) == []
+
+
+async def test_a_node_of_a_behavior_tree(harness: Harness, navigation: Path) -> None:
+    async with editing(harness, folder=navigation.parents[1]) as editor:
+        editor.open(navigation, language="xml")
+        spin = editor.at(navigation, "<Spin", 2)
+        text = await editor.once(lambda: hovered(editor, navigation, spin), bool)
+        assert text.startswith("behavior tree node `Spin` of Nav2")
+        assert "`spin_dist`" in text
+        labels = [item.label for item in await editor.completion(navigation, spin)]
+        assert {"Spin", "RecoveryNode", "Sequence"} <= set(labels)

@@ -74,9 +74,11 @@ def create_workspace(
     analysed: int = 8,
     build_type: str | None = None,
     runs: bool = False,
+    root: str = "",
 ) -> TestWorkspace:
-    """Write the files and analyse what the cursor's file needs. `build_type` is that of the package `p`, of ROS 2 where
-    it is an ament one; `runs`: Python launch files are run."""
+    """Write the files and analyse what the cursor's file needs, or `root` where that is a file which is handed over.
+    `build_type` is that of the package `p`, of ROS 2 where it is an ament one; `runs`: commands and Python launch files
+    are run."""
     cursor: tuple[str, int] | None = None
     files: dict[str, str] = {}
     name = "main.launch"
@@ -105,11 +107,12 @@ def create_workspace(
     assert index is not None
     path = str(folder / cursor[0])
     analyses = []
-    for root in (index.roots_reading(path) or index.roots_of(path))[:analysed]:
+    roots = (Root(str(folder / root)),) if root else index.roots_reading(path) or index.roots_of(path)
+    for each in roots[:analysed]:
         if runs:
             runner = CommandRunner(environment, str(folder), CommandCache(folder / ".cache"))
-            resolve_commands(workspace, root.path, dict(root.args), results, runner, threading.Event())
-        analysis = workspace.static(root.path, dict(root.args))
+            resolve_commands(workspace, each.path, dict(each.args), results, runner, threading.Event())
+        analysis = workspace.static(each.path, dict(each.args))
         if interfaces:
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]
             analysis = workspace.with_interfaces(analysis, given, None)

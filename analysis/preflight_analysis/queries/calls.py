@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.queries.handed_over import is_handed_over
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import symbol_at
 from preflight_analysis.workspace.index import Inclusion
@@ -32,7 +33,9 @@ class Call:
 
 
 def items_at(context: QueryContext, offset: int) -> tuple[Item, ...]:
-    """The files that the include at `offset` leads to; anywhere else the file itself."""
+    """The files that the include at `offset` leads to; anywhere else the file itself, where it is a launch file."""
+    if is_handed_over(context.analyses, context.path):
+        return ()
     symbol = symbol_at(context, offset)
     here = context.current.included_from(context.path)
     targets = [i.target for i in here if i.tag.span.contains(offset)]

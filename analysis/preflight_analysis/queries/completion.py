@@ -15,11 +15,13 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import is_yaml
 from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.queries.completion_annotation import annotation_place, complete_annotation
+from preflight_analysis.queries.completion_handed_over import complete_handed_over
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_python import complete_python
 from preflight_analysis.queries.completion_values import Asked, complete_value
 from preflight_analysis.queries.completion_writing import Writing, XmlWriting, YamlWriting
 from preflight_analysis.queries.cursor import Place, is_closed
+from preflight_analysis.queries.handed_over import is_handed_over
 from preflight_analysis.queries.language import Language, language_of, place_in
 from preflight_analysis.queries.param_file_completion import complete_param_file
 from preflight_analysis.queries.param_files import is_param_file
@@ -62,6 +64,8 @@ def _completed(
     ahead_of_runs: Callable[[Analysis], Analysis],
     trigger: str | None,
 ) -> Completion | None:
+    if is_handed_over([analysis], launch_file.path):
+        return complete_handed_over(analysis, launch_file.document, offset, trigger)
     annotation = annotation_place(launch_file, offset)
     if annotation is not None:
         return complete_annotation(ahead_of_runs(analysis), launch_file, annotation, trigger)

@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, published_at
+from preflight_analysis.queries.handed_over import is_handed_over, targets_in
 from preflight_analysis.queries.param_files import from_param_file, is_param_file
 from preflight_analysis.queries.places import action_at, remaps_of, use_at
 from preflight_analysis.queries.query_context import QueryContext
@@ -35,6 +36,9 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     that reads a parameter; from a remap to the other ends, in the nodes' sources where they are known, and from the
     name that it replaces to the node's own; from a finding to its related places."""
     analysis, file = context.analyses[0], context.path
+    if is_handed_over(context.analyses, file):
+        found = targets_in(context.analyses, file, offset)
+        return _targets(found[1], context.location(file, found[0])) if found is not None else ()
     if (frame := frame_at(context.analyses, file, offset)) is not None:
         return _targets(published_at(context, frame), context.location(file, frame.span))
     if is_param_file(analysis, file):

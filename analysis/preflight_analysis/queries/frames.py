@@ -112,12 +112,16 @@ def frame_hover(analyses: Sequence[Analysis], file: str, offset: int) -> Hover |
     symbol = frame_at(analyses, file, offset)
     if symbol is None:
         return None
-    frames = frames_of(symbol.analysis.context)
     topic = f" on {code(f'{symbol.space}/tf')}" if symbol.space else ""
-    lines = [f"frame {code(symbol.frame)}{topic}", ""]
-    lines += _publishers(symbol, frames)
-    lines += _users(symbol, frames)
+    lines = [f"frame {code(symbol.frame)}{topic}", "", *frame_lines(symbol)]
     return Hover("\n".join(lines).rstrip(), symbol.span)
+
+
+def frame_lines(symbol: FrameSymbol) -> Iterator[str]:
+    """What is known of a frame, as lines of Markdown: its path to the root, its children, who publishes and uses it."""
+    frames = frames_of(symbol.analysis.context)
+    yield from _publishers(symbol, frames)
+    yield from _users(symbol, frames)
 
 
 def _publishers(symbol: FrameSymbol, frames: Frames) -> Iterator[str]:

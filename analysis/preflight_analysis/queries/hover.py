@@ -15,6 +15,7 @@ from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.bridges import bridge_hover
 from preflight_analysis.queries.frames import frame_hover
+from preflight_analysis.queries.handed_over import hover_in, is_handed_over
 from preflight_analysis.queries.hover_symbols import argument_notes, symbol_hover
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.language import described
@@ -90,6 +91,8 @@ def hover(
     None where there is nothing to say. `unseen` is how many more roots there are that reach the file. With a `context`
     what other files say of a parameter, a package or an argument is there too.
     """
+    if is_handed_over(analyses, file):
+        return hover_in(analyses, file, offset)
     if (frame := frame_hover(analyses, file, offset)) is not None:
         return frame
     if (bridge := bridge_hover(analyses, file, offset)) is not None:

@@ -7,6 +7,7 @@ from preflight_analysis.documents.python_text import LAUNCH_FUNCTION
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.queries.handed_over import is_handed_over
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.index import Root
 
@@ -26,7 +27,9 @@ class Lenses:
 
 
 def lenses(context: QueryContext) -> Lenses | None:
-    """What to show; None in an empty file."""
+    """What to show; None in an empty file, and in one that is no launch file."""
+    if is_handed_over(context.analyses, context.path):
+        return None
     launch_file, analysis = context.launch_file(context.path), context.analyses[0]
     if launch_file is None or (launch_file.root is None and not launch_file.document.text.strip()):
         return None

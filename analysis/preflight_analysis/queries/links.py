@@ -13,6 +13,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.launch.model import LaunchFile, Value
 from preflight_analysis.queries.arguments import argument_values, resolved
 from preflight_analysis.queries.cursor_python import written_paths
+from preflight_analysis.queries.handed_over import is_handed_over, links_in
 from preflight_analysis.workspace.workspace import Analysis
 
 _NAMED_FILES = ("include", "file")
@@ -32,6 +33,8 @@ def links(analysis: Analysis, file: str, exists: Callable[[str], bool] = os.path
     """The files that the evaluation read by name, and what looks like a path in any other value and names a file. In
     Python, where a path is put together in many ways, it is the last piece of it that leads there."""
     exists = functools.cache(exists)
+    if is_handed_over([analysis], file):
+        return tuple(Link(span, path) for span, path in links_in([analysis], file) if exists(path))
     document = analysis.documents.get(file)
     if is_python(file, document.text if document is not None else ""):
         return tuple(_of_python(analysis, file, document.text, exists)) if document is not None else ()

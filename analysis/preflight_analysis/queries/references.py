@@ -12,6 +12,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, named_at, published_at
+from preflight_analysis.queries.handed_over import is_handed_over, references_in
 from preflight_analysis.queries.node_names import mentions_of, tags_of
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import Kind, NamedSymbol, annotated, own_parameter, settings_of, symbol_at
@@ -31,7 +32,9 @@ def references(context: QueryContext, offset: int) -> tuple[Reference, ...]:
     """All places in the workspace, and in the sources of its nodes as far as they are known, that name what is at
     `offset`, a frame within one launch: those of the file itself first, then by path."""
     found: dict[Location, bool] = {}
-    if (frame := frame_at(context.analyses, context.path, offset)) is not None:
+    if is_handed_over(context.analyses, context.path):
+        found = references_in(context.analyses, context.path, offset)
+    elif (frame := frame_at(context.analyses, context.path, offset)) is not None:
         found = {**dict.fromkeys(named_at(frame), False), **dict.fromkeys(published_at(context, frame), True)}
     elif (symbol := symbol_at(context, offset)) is not None:
         for reference in _FINDERS[symbol.kind](context, symbol):

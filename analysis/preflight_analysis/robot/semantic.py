@@ -32,6 +32,15 @@ _OWN: Mapping[str, tuple[_Attributes, _Attributes, _Attributes]] = {
 """What stands within an element: the attributes that name links, joints and groups, by tags."""
 
 
+def _tags(own: _Attributes, index: int) -> frozenset[tuple[str, str]]:
+    by_tag = (own, *(inside[index] for inside in _OWN.values()))
+    return frozenset((tag, attribute) for each in by_tag for tag, found in each.items() for attribute in found)
+
+
+NAMING_LINKS, NAMING_JOINTS, NAMING_GROUPS = _tags(_LINKS, 0), _tags(_JOINTS, 1), _tags(_GROUPS, 2)
+"""The attributes that name links, joints and groups, each with its tag."""
+
+
 @dataclass(frozen=True, slots=True)
 class Named:
     """A name in an attribute. `owner` is the tag of the element that it is in or within, `whose` the name of that, for

@@ -34,7 +34,7 @@ _CONSTANTS = {"xacro:property": "value", "xacro:arg": "default"}
 _XACRO = "xacro:"
 _OF_XACRO = ("xacro:property", "xacro:arg", "xacro:include", "xacro:macro", "xacro:call", "xacro:insert_block")
 _MOST_FILES = 100
-_AROUND = ("ros2_control", "transmission", "gazebo", "group", "group_state")
+AROUND = ("ros2_control", "transmission", "gazebo", "group", "group_state")
 """Elements whose parts are other things than those of the robot itself."""
 _FOLDERS = ("", "urdf", "robots", "robot", "description", "model", "models", "config", "srdf")
 """Where packages keep descriptions that no xacro makes."""
@@ -227,7 +227,7 @@ def source_file(db: Database, path: str) -> SourceFile | None:
             for each in element.attributes
             if ":" not in each.name
         )
-        inside = within or (tag if tag in _AROUND else "")
+        inside = within or (tag if tag in AROUND else "")
         waiting += ((child, inside) for child in reversed(list(element.elements)))
     return SourceFile(document, tuple(written), tuple(includes), constants)
 
@@ -235,7 +235,16 @@ def source_file(db: Database, path: str) -> SourceFile | None:
 def _included(
     disk: Disk, environment: Environment, path: str, written: str, constants: Mapping[str, str]
 ) -> str | None:
-    """The file that an include names; None where that is computed of more than constants, or it is not there."""
+    """The file that an include names; None where that is not known, or it is no text that is there."""
+    found = named_file(disk, environment, path, written, constants)
+    return found if found is not None and _is_text(disk, found) else None
+
+
+def named_file(
+    disk: Disk, environment: Environment, path: str, written: str, constants: Mapping[str, str]
+) -> str | None:
+    """The path that the name of an include or a mesh in the file `path` leads to; None where that is computed of more
+    than constants."""
 
     def constant(match: re.Match[str]) -> str:
         return constants.get(match[1] or match[2], match[0])
@@ -244,12 +253,10 @@ def _included(
         package = environment.packages.get(match[1] or match[2])
         return package.share if package is not None else match[0]
 
-    name = _FIND.sub(share, _CONSTANT.sub(constant, written.strip()))
+    name = _FIND.sub(share, _CONSTANT.sub(constant, written.strip())).removeprefix("file://")
     if "$" in name or "://" in name or not name:
         return None
-    found = os.path.normpath(os.path.join(os.path.dirname(path), name))
-    found = located(disk, environment, found)
-    return found if _is_text(disk, found) else None
+    return located(disk, environment, os.path.normpath(os.path.join(os.path.dirname(path), name)))
 
 
 def _is_text(disk: Disk, path: str) -> bool:

@@ -141,7 +141,7 @@ def is_version_4(context: Context, loaded: Loaded) -> bool:
 def here(context: Context, path: str) -> str:
     """The file on this machine that a path leads to: of one that another machine has, that of the package which it
     names. Itself where there is none."""
-    path = located(context.disk, context.environment, path)
+    path = located(context.disk, context.environment, os.path.normpath(path))
     if context.disk.exists(path):
         return path
     parts = path.split("/")

@@ -30,7 +30,8 @@ def roots_naming(index: WorkspaceIndex, sources: Sources, environment: Environme
     found = [
         root
         for root, entry in index.entries.items()
-        if any(naming.search(text) for text in _texts(sources, (*entry.files, *entry.inputs)))
+        if path not in entry.files
+        and any(naming.search(text) for text in _texts(sources, (*entry.files, *entry.inputs)))
     ]
     found.sort(key=lambda root: (own is None or not root.path.startswith(own.share.rstrip("/") + "/"), root))
     return tuple(found[:_MOST_ROOTS])

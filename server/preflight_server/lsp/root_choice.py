@@ -61,8 +61,9 @@ class RootChoice:
         return document is not None and is_handed_over(document)
 
     def _analysed(self, path: str) -> tuple[Root, ...]:
-        """The roots that are analysed and read the file."""
-        return tuple(root for root, each in self._session.analyses.all.items() if each.document(path) is not None)
+        """The roots that are analysed and to which the file is handed over."""
+        analyses = self._session.analyses.all.items()
+        return tuple(root for root, each in analyses if path not in each.tree.files and each.document(path) is not None)
 
     async def find_readers(self, workspace: Workspace) -> None:
         """Look for roots of the open files that no analysed launch reads."""
