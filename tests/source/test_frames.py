@@ -149,6 +149,45 @@ def test_a_condition_that_is_not_known(tmp_path: Path) -> None:
     assert [(frame.child, frame.conditional) for frame in found.frames][2:3] == [("base_link", True)]
 
 
+_FLAG = """
+#include <ros/ros.h>
+#include <tf/transform_broadcaster.h>
+bool ready = false;
+std::deque<nav_msgs::Odometry> buffer;
+void heard(const nav_msgs::Odometry& odom) {{ ready = true; buffer.push_back(odom); }}
+bool waiting() {{ return buffer.empty(); }}
+int main(int argc, char** argv) {{
+  ros::init(argc, argv, "n");
+  ros::NodeHandle nh("~");
+  ros::Subscriber sub = nh.subscribe("odom", 1, heard);
+  bool publish_tf = true;
+  nh.getParam("publish_tf", publish_tf);
+  tf::TransformBroadcaster br;
+  while (ros::ok()) {{
+    {}
+    br.sendTransform(tf::StampedTransform(t, ros::Time::now(), "odom", "base_link"));
+  }}
+}}
+"""
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        "if (ready)",
+        "if (publish_tf && ready)",
+        "if (!ready) { ros::spinOnce(); continue; }",
+        "if (waiting()) continue;",
+    ],
+)
+def test_a_flag_that_a_callback_sets(tmp_path: Path, condition: str) -> None:
+    files = {**_ROS1, "src/t.cpp": _FLAG.format(condition)}
+    found = _read(tmp_path, files, "main.launch", "")
+    assert [(frame.parent, frame.child, frame.conditional) for frame in found.frames] == [("odom", "base_link", True)]
+    off = _read(tmp_path, files, "main.launch", '<param name="publish_tf" value="false"/>')
+    assert bool(off.frames) is ("publish_tf" not in condition)
+
+
 @pytest.mark.parametrize(
     ("body", "expected"),
     [

@@ -60,7 +60,8 @@ class Expressions(CallExpressions):
             case "this":
                 return scope.this if scope.this is not None else UNKNOWN
             case "identifier" | "qualified_identifier" | "template_function" | "type_identifier":
-                return self._named(path_of(node), scope)
+                path = path_of(node)
+                return UNKNOWN if self._open_flags and path and path[-1] in self._flags else self._named(path, scope)
             case "field_expression":
                 return self._field(node, scope)
             case "call_expression":
@@ -107,7 +108,7 @@ class Expressions(CallExpressions):
         owner = self._value(node.child_by_field_name("argument"), scope)
         name = text_of(node.child_by_field_name("field"))
         if isinstance(owner, Instance):
-            return owner.names.get(name, UNKNOWN)
+            return UNKNOWN if self._open_flags and name in self._flags else owner.names.get(name, UNKNOWN)
         return owner.inner(name) if isinstance(owner, Message) else UNKNOWN
 
     def _binary(self, node: Node, scope: Scope) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 from tree_sitter import Node
 
 from preflight_analysis.source.branches import Branches, same
+from preflight_analysis.source.cpp_frames import BROADCAST
 from preflight_analysis.source.cpp_names import Names
 from preflight_analysis.source.cpp_program import CppProgram, words_in
 from preflight_analysis.source.cpp_text import FunctionText, Parameter, parameters_of
@@ -33,6 +34,12 @@ class Functions(Names):
         self._depth = 0
         self._leading = program.leading_to(calls.words)
         self._known_leading: dict[int, bool] = {}
+        self._broadcasting = program.leading_to(frozenset({BROADCAST}))
+        self._flags = program.flags() if len(self._broadcasting) > 1 else frozenset[str]()
+        self._open_flags = False
+        """Whether flags that callbacks change are not known: in a condition of a function that leads to a broadcast."""
+        self._known_broadcasting: dict[int, bool] = {}
+        self._leads_to_broadcast = False
         self._late = False
         """Whether only callbacks are left: what leads to no call of a library is left out then."""
 
@@ -90,10 +97,20 @@ class Functions(Names):
     def _body(self, body: Node, scope: Scope) -> None:
         self._call_counts[body.id] = self._call_counts.get(body.id, 0) + 1
         caught, self._branches.caught = self._branches.caught, False
+        before = self._leads_to_broadcast
+        self._leads_to_broadcast = self._is_broadcasting(body)
         try:
             self._statement(body, scope)
         finally:
             self._branches.caught = caught
+            self._leads_to_broadcast = before
+
+    def _is_broadcasting(self, body: Node) -> bool:
+        if not self._flags:
+            return False
+        if body.id not in self._known_broadcasting:
+            self._known_broadcasting[body.id] = not self._broadcasting.isdisjoint(words_in(body))
+        return self._known_broadcasting[body.id]
 
     def _leads(self, body: Node) -> bool:
         """Whether something of a library may be called in it."""

@@ -265,6 +265,11 @@ class _Interpreter(Expressions):
         then, other = node.child_by_field_name("consequence"), node.child_by_field_name("alternative")
         if known is not None:
             way, left = (then, other) if known else (other, then)
+            if self._is_open(condition, scope):
+                other_ends = False
+                if left is not None:
+                    other_ends, _ = self._branches.try_out(lambda: self._statement(left, scope))
+                return way is not None and self._statement(way, scope) and other_ends
             if left is not None:
                 self._dead_code([left], scope)
             return way is not None and self._statement(way, scope)
@@ -274,6 +279,23 @@ class _Interpreter(Expressions):
         )
 
     def _condition(self, node: Node | None, scope: Scope) -> Any:
+        before, self._open_flags = self._open_flags, False
+        try:
+            return self._condition_value(node, scope)
+        finally:
+            self._open_flags = before
+
+    def _is_open(self, condition: Node | None, scope: Scope) -> bool:
+        """Whether a condition that is known hangs on what callbacks change, in a function that leads to a broadcast."""
+        if not self._leads_to_broadcast and not self._open_flags:
+            return False
+        before, self._open_flags = self._open_flags, True
+        try:
+            return truth(self._condition_value(condition, scope)) is None
+        finally:
+            self._open_flags = before
+
+    def _condition_value(self, node: Node | None, scope: Scope) -> Any:
         if node is None:
             return UNKNOWN
         if node.type == "condition_clause":
@@ -281,7 +303,7 @@ class _Interpreter(Expressions):
             if first is not None:
                 for child in first.named_children:
                     self._statement(child, scope)
-            return self._condition(node.child_by_field_name("value"), scope)
+            return self._condition_value(node.child_by_field_name("value"), scope)
         if node.type == "declaration":
             self._declaration(node, scope)
             return UNKNOWN
@@ -340,6 +362,8 @@ class _Interpreter(Expressions):
         literal = text_of(condition) in _FOREVER
         for _ in range(1 if literal else self._most_iterations(body)):
             known = True if first else truth(self._condition(condition, scope))
+            if known is False and not done and self._is_open(condition, scope):
+                known = None
             first = False
             if known is None and not done:
                 self._once(body, scope)

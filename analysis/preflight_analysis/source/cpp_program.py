@@ -25,6 +25,11 @@ _T = TypeVar("_T")
 MAX_DEPTH = 12
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _MAX_ARGUMENTS = 16
+_CHANGED = re.compile(
+    r"[;{})]\s*(?:this->)?(\w+)\s*=\s*(?:true|false|-?\d[\d.]*f?)\s*;"
+    r"|(\w+)\s*(?:\.|->)\s*(?:push_back|push_front|push|emplace_back|emplace|insert)\s*\("
+)
+_OF_PARAMETERS = re.compile(r"[^;{}]*[pP]aram[^;{}]*;")
 
 
 class CppProgram:
@@ -141,6 +146,18 @@ class CppProgram:
             if not more:
                 return frozenset(found)
             found |= more
+
+    def flags(self) -> frozenset[str]:
+        """The variables that callbacks change from what they are at first: they get a literal or an item in a function
+        that is neither a constructor nor `main`, and no parameter."""
+        found, given = set[str](), set[str]()
+        for each in (each for functions in self.functions.values() for each in functions if each.body is not None):
+            text = text_of(each.body)
+            for statement in _OF_PARAMETERS.findall(text):
+                given.update(_WORD.findall(statement))
+            if each.name != "main" and each.name not in each.scope[-1:]:
+                found.update(match[1] or match[2] for match in _CHANGED.finditer(text))
+        return frozenset(found - given)
 
     def class_of(self, type_: CppType) -> ClassText | None:
         """The class of the program that a type is."""
