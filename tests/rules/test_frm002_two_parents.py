@@ -80,10 +80,25 @@ def test_one_tag_for_two_robots() -> None:
     assert found.confidence == "possible"
 
 
+def test_a_joint_that_moves_and_a_static_transform() -> None:
+    """As in blue_bringup: nobody publishes the state of the joints."""
+    node = static("again", "base", "thruster")
+    said = "info[FRM002] frame 'thruster' has two publishers: /rsp (joint j0) and /again"
+    moving = robot(("base", "thruster")).replace("type=&quot;fixed", "type=&quot;continuous")
+    (found,) = check(fixture(f"{moving}\n{node}\n{below(0, len(node.partition('>')[0]) + 1, said)}"))
+    assert found.confidence == "possible"
+
+
+@pytest.mark.silent
+def test_a_floating_joint_is_published_by_others() -> None:
+    floating = robot(("odom", "base_link")).replace("type=&quot;fixed", "type=&quot;floating")
+    check(fixture(f"{floating}\n{_EKF}\n{_BASE}"))
+
+
 @pytest.mark.parametrize(
-    ("params", "severity"), [("/p/a.yaml", "warning"), ("$(find-pkg-share missing)/a.yaml", "info")]
+    ("params", "severities"), [("/p/a.yaml", ["warning"]), ("$(find-pkg-share missing)/a.yaml", [])]
 )
-def test_a_node_whose_parameter_file_is_not_known(params: str, severity: str) -> None:
+def test_a_node_whose_parameter_file_is_not_known(params: str, severities: list[str]) -> None:
     """It may tell the node not to broadcast."""
     found = findings_of(f"""
         //- /a.launch.xml
@@ -97,4 +112,4 @@ def test_a_node_whose_parameter_file_is_not_known(params: str, severity: str) ->
           ros__parameters:
             odom_frame: odom
     """)
-    assert [each.severity for each in found if each.rule == "FRM002"] == [severity]
+    assert [each.severity for each in found if each.rule == "FRM002"] == severities

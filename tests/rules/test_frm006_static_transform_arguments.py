@@ -97,6 +97,7 @@ def test_ros_2(args: str, expected: str) -> None:
         ("tf2_ros", "0 0 1 0 0 0 base laser", 2),
         ("tf2_ros", f"--x -1 {_NEW} --ros-args -p use_sim_time:=true", 2),
         ("tf2_ros", "--help", 2),
+        ("tf2_ros", "0 . 1 m a p", 2),  # of a text that is no list
         ("p", "1", 2),
     ],
 )

@@ -39,9 +39,8 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else (None,) * len(nodes)
     known = known_of_nodes(tree, meanings, kept)
     params = params_of_nodes(tree, known, kept)
-    prefixed, lacking = _has_prefix(tree), kept.each(_lacks_params, nodes)
-    unsure = [prefixed or lacks for lacks in lacking]
-    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params, unsure), generation)
+    prefixed, lacking = [_has_prefix(tree)] * len(nodes), kept.each(_lacks_params, nodes)
+    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params, prefixed, lacking), generation)
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)

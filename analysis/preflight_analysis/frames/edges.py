@@ -57,7 +57,8 @@ def edges_of_node(
     interface: Interface | None,
     known: Known | None,
     given: Sequence[Param],
-    unsure: bool,
+    prefixed: bool,
+    lacks_params: bool,
     generation: int,
 ) -> tuple[Edge, ...]:
     """What a node broadcasts beside the frames of a robot description: by its arguments, its run, its parameters.
@@ -78,8 +79,10 @@ def edges_of_node(
         if not frame.inferred:
             parent, child = plain(frame.parent), plain(frame.child)
             add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
+    # A controller has parameters in any case.
+    guessed = lacks_params or (known is not None and "controllers" in known.entry.names and not given)
     for edge in _of_knowledge(node, known, given, space):
-        add(replace(edge, sure=False) if unsure else edge)
+        add(replace(edge, sure=False, guessed=guessed) if guessed or prefixed else edge)
     # What is known of it otherwise is more than its text tells.
     for frame in frames if not found else ():
         add(_of_source(frame, node, space))
@@ -97,7 +100,7 @@ def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
         node.location,
         space,
         False,
-        f"{os.path.basename(frame.source_file)}:{frame.source_line}",
+        detail=f"{os.path.basename(frame.source_file)}:{frame.source_line}",
         conditional=frame.conditional,
         source_file=frame.source_file,
         source_line=frame.source_line,
@@ -127,7 +130,7 @@ def _of_knowledge(node: LaunchNode, known: Known | None, given: Sequence[Param],
         params = (_param(settings, name) for name in (each.child, each.parent))
         place = next((param.place for param in params if param is not None), node.location)
         detail = " -> ".join(name for name in (each.parent, each.child) if not name.startswith(_FIXED))
-        yield Edge(parent, child, each.static, "knowledge", node, place, space, known.is_used, detail)
+        yield Edge(parent, child, each.static, "knowledge", node, place, space, known.is_used, detail=detail)
 
 
 def _param(settings: Settings, name: str) -> Param | None:
@@ -160,13 +163,14 @@ def edges_of_robot(
             robot.param.place,
             space,
             publisher is not None and not joint.catalogued,
-            f"joint {joint.name}",
-            robot,
+            detail=f"joint {joint.name}",
+            robot=robot,
             likely=catalogued is not None and bool(joint.catalogued) and catalogued.distro == distro,
             catalogued=f"{joint.catalogued} of {catalogued.distro}" if catalogued and joint.catalogued else "",
         )
         for joint in robot.description.joints
-        if joint.parent in links and joint.child in links
+        # robot_state_publisher leaves floating joints to others.
+        if joint.parent in links and joint.child in links and joint.type != "floating"
     )
 
 
@@ -180,7 +184,9 @@ def edges_of_plugins(robot: Robot, node: LaunchNode | None, space: str) -> Itera
         parent, child = _first(plugin, _ODOMETRY), _first(plugin, _BASE)
         if parent and child:
             place = robot.param.place
-            yield Edge(plain(parent), plain(child), False, "gazebo", node, place, space, False, plugin.name, robot)
+            yield Edge(
+                plain(parent), plain(child), False, "gazebo", node, place, space, False, detail=plugin.name, robot=robot
+            )
 
 
 def _first(plugin: GazeboPlugin, tags: Sequence[str]) -> str:

@@ -32,6 +32,8 @@ class Edge:
     location: Location
     space: str = ""
     sure: bool = True
+    guessed: bool = False
+    """It is known by defaults alone: the file with the parameters of the node is not known."""
     detail: str = ""
     """The joint, the parameters, the plugin or the words in which it is known."""
     robot: Robot | None = None

@@ -150,6 +150,8 @@ def _of_ros2(words: Sequence[str], distro: str | None) -> _Fault | None:
 
 def _of_options(given: Mapping[str, str], rest: Sequence[str]) -> _Fault | None:
     if rest and not given:
+        if all(len(word) == 1 for word in rest):
+            return None  # a text where a list belongs, LCH041 reports it
         return _Fault(f"exits: static_transform_publisher gets {len(rest)} arguments; expected {_WHOLE_FORM}")
     if rest:
         near = nearest(rest[0], _OPTIONS) if rest[0].startswith("-") and rest[0] != "--" else None
