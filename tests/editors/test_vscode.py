@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from support.editor_harness import ROOT, Harness
-from support.editor_launch_files import create_formats, create_robot
+from support.editor_launch_files import create_description, create_formats, create_robot
 from support.live_harness import Ros1System, registered
 from support.waiting import until
 
@@ -103,6 +103,16 @@ def test_tree_leads_to_the_files_and_names_are_renamed_across_them(trusted_harne
     robot = (folder / "robot.launch").read_text()
     assert robot.count('name="frequency"') == 2
     assert '<topic name="chatter" type="std_msgs/String" class="pub"/>' in robot
+
+
+def test_a_robot_description_is_served_alone(trusted_harness: Harness) -> None:
+    path = create_description(trusted_harness)
+    text = path.read_text()
+
+    seen = drive(trusted_harness, "handedOver")
+
+    assert "Path" in seen["hover"] or "Root of its tree" in seen["hover"]
+    assert path.read_text() == text
 
 
 def test_each_format_of_ros_2_shows_its_finding(trusted_harness: Harness) -> None:

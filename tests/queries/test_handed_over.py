@@ -119,8 +119,13 @@ def test_a_joint(tmp_path: Path) -> None:
 
 def test_names_that_a_macro_computes(tmp_path: Path) -> None:
     workspace = at(tmp_path, '<child link="${side}_lidar$0"/>')
-    assert told(workspace) == "link `${side}_lidar`\n\nIt is `left_lidar`, `right_lidar`."
+    assert told(workspace) == "link `${side}_lidar`\n\nIt may be `left_lidar`, `right_lidar`."
     assert targets(workspace) == ["p/urdf/macros.xacro:3 ${side}_lidar"]
+
+
+def test_a_name_that_may_be_any(tmp_path: Path) -> None:
+    workspace = at(tmp_path, '<parent link="$0${parent}"/>')
+    assert (told(workspace), targets(workspace)) == ("", [])
 
 
 def test_the_group_of_moveit(tmp_path: Path) -> None:

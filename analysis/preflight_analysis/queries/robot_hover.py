@@ -21,17 +21,15 @@ _HOW = {"commands": "Commanded by", "reads": "Read by", "uses": "Used by"}
 def robot_hover(analyses: Sequence[Analysis], file: str, offset: int) -> Hover | None:
     """The hover of the name at `offset` of a file of a robot description; None where none is named."""
     name = name_at(analyses, file, offset)
-    if name is None:
+    if name is None or not name.names:
         return None
     blocks = [_block(name, each) for each in name.names[:_SHOWN]] if len(name.names) == 1 else [_several(name)]
     return Hover("\n\n".join(blocks), name.span)
 
 
 def _several(name: RobotName) -> str:
-    if not name.names:
-        return f"{name.kind} {code(name.written.value)}\n\nThe robot description of this launch has none of this name."
     more = f", … and {len(name.names) - _SHOWN} more" if len(name.names) > _SHOWN else ""
-    return f"{name.kind} {code(name.written.value)}\n\nIt is {', '.join(map(code, name.names[:_SHOWN]))}{more}."
+    return f"{name.kind} {code(name.written.value)}\n\nIt may be {', '.join(map(code, name.names[:_SHOWN]))}{more}."
 
 
 def _block(name: RobotName, value: str) -> str:

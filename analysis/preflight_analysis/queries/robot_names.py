@@ -32,6 +32,8 @@ _NAMING: dict[Kind, frozenset[tuple[str, str]]] = {
 _REFERENCE = ("gazebo", "reference")
 """What names a link or a joint."""
 _FILES = ("mesh", "include")
+_LEAST = 2
+"""Characters of a computed name that have to be literal: of any other it may be each name of the robot."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +54,8 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class RobotName:
-    """A name at `span` of a file. `names` are the ones of the robot that the value comes to: several in a macro that is
-    called several times, none where it is not known what it comes to."""
+    """A name at `span` of a file. `names` are what it may be of the robot: several in a macro that is
+    called several times, none where that is not known, as of `${name}`."""
 
     kind: Kind
     names: tuple[str, ...]
@@ -114,7 +116,8 @@ def _kind(written: Written, robot: Robot | None) -> Kind | None:
         return None  # Gazebo's own
     if at == _REFERENCE:
         joints = robot.description.joints if robot is not None else ()
-        return "joint" if any(written.may_be(joint.name) for joint in joints) else "link"
+        is_joint = any(written.may_be(joint.name) for joint in joints)
+        return "joint" if is_joint and (written.is_literal or written.literal >= _LEAST) else "link"
     return next((kind for kind, naming in _NAMING.items() if at in naming), None)
 
 
@@ -122,10 +125,14 @@ def _names(kind: Kind, written: Written, source: Source) -> tuple[str, ...]:
     if written.is_literal:
         return (written.value.strip(),)
     description = source.robot.description if source.robot is not None else None
-    if description is None or kind == "group":
+    if description is None or kind == "group" or written.literal < _LEAST:
         return ()
     known = description.links if kind == "link" else (joint.name for joint in description.joints)
-    return tuple(dict.fromkeys(name for name in known if written.may_be(name)))
+    found = dict.fromkeys(name for name in known if written.may_be(name))
+    if _declares(kind, written):  # what another element has literally is not this one's
+        literal = {each.value for file in source.files for each in file.written if _declares(kind, each)}
+        found = {name: None for name in found if name not in literal}
+    return tuple(found)
 
 
 def declared_at(name: RobotName) -> tuple[Location, ...]:

@@ -101,7 +101,8 @@ def ports_at(source: TreeSource, name: str) -> frozenset[str] | None:
     """The ports of a node that the file may have; None where they are not known."""
     own = source.own
     if name in own.nodes:
-        return own.nodes[name].ports
+        ports = own.nodes[name].ports
+        return frozenset(ports) if ports is not None else None
     if own.has(name) or not (source.loaded.is_navigator or name in BUILT_IN):
         return None
     distro = source.analysis.environment.distro

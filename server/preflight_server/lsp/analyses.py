@@ -147,7 +147,7 @@ class Analyses:
             while True:
                 self._news.clear()
                 workspace = await self._session.workspace()
-                await self._session.choice.find_readers(workspace)
+                self._session.choice.find_readers(workspace)
                 shown = self._shown()
                 if not await self._ask(workspace, shown) or shown != self._shown():
                     continue

@@ -65,17 +65,22 @@ class RootChoice:
         analyses = self._session.analyses.all.items()
         return tuple(root for root, each in analyses if path not in each.tree.files and each.document(path) is not None)
 
-    async def find_readers(self, workspace: Workspace) -> None:
-        """Look for roots of the open files that no analysed launch reads."""
-        index, sources = self._session.indexing.index, workspace.sources
-        for path in self.open:
+    def find_readers(self, workspace: Workspace) -> None:
+        """Look in the background for roots of the open files that no analysed launch reads."""
+        index = self._session.indexing.index
+        for path in self.open if index.complete else ():
             known = self._naming.get(path)
-            if not index.complete or (known is not None and known[0] is index):
-                continue
-            if self.is_handed_over(path) and not self._analysed(path):
-                environment = workspace.environment
-                found = await self._session.in_pool(partial(roots_naming, index, sources, environment, path))
-                self._naming[path] = (index, found)
+            if (known is None or known[0] is not index) and self.is_handed_over(path) and not self._analysed(path):
+                self._naming[path] = (index, known[1] if known is not None else ())
+                self._server.spawn(self._find(workspace, index, path))
+
+    async def _find(self, workspace: Workspace, index: WorkspaceIndex, path: str) -> None:
+        sources, environment = workspace.sources, workspace.environment
+        found = await self._session.in_pool(partial(roots_naming, index, sources, environment, path))
+        known = self._naming.get(path)
+        if known is not None and known[0] is index and known[1] != found:
+            self._naming[path] = (index, found)
+            self._session.analyses.ask_again()
 
     def shown(self) -> Iterator[tuple[str, Root]]:
         """The open files, each with the root that it is shown in."""

@@ -481,6 +481,9 @@ end
 -- A robot description: what is wrong in it as it is typed.
 function scenarios.handed_over()
   local result = { filetype = vim.bo.filetype }
+  wait_for('the server', function()
+    return #require('ros_preflight.client').clients(0) > 0
+  end)
   edit('<parent link="base_link"', '<parent link="base_lnk"')
   local found = wait_for('what is wrong in the text that is not saved', function()
     return diagnostics_with('base_lnk')[1]

@@ -182,6 +182,25 @@ const scenarios = {
     });
   },
 
+  // A robot description starts the server: what is wrong in it as it is typed, and the hover of a link.
+  async handedOver() {
+    await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
+    await step("open the description", () => workbench.openFile("arm.urdf"));
+    seen.hover = await step("hover on a link", () =>
+      workbench.hover("base_link", 'parent link="base_link"', "Children"),
+    );
+    await step("edit", async () => {
+      await workbench.parkMouse();
+      await workbench.putCursorOn('child link="tool"');
+      await workbench.page.keyboard.type("x");
+    });
+    await step("squiggle", () => workbench.page.locator(".squiggly-error").first().waitFor());
+    await step("undo", async () => {
+      await workbench.page.keyboard.press("Control+z");
+      await workbench.page.locator(".squiggly-error").first().waitFor({ state: "detached" });
+    });
+  },
+
   // Each format of ROS 2 shows its finding.
   async formats() {
     await step("open the workspace", () => workbench.open(["--disable-workspace-trust"]));
