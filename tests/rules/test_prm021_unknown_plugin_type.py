@@ -1,6 +1,11 @@
 """PRM021: a type of controller or plugin that its package does not have."""
 
+from pathlib import Path
+
 import pytest
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.registry import run_rules
+from support import package_elsewhere
 from support.check import check
 
 FIXTURE = """
@@ -144,3 +149,71 @@ def test_a_slip_of_what_a_package_of_the_workspace_has() -> None:
 )
 def test_what_a_package_of_the_workspace_has_or_may_have(type_: str) -> None:
     check(FIXTURE.format(type_) + OWN)
+
+
+_SERVER = """<launch><node pkg="nav2_planner" exec="planner_server" name="planner_server">
+<param from="$(dirname)/nav2.yaml"/></node></launch>"""
+
+
+def _of_distribution(folder: Path, distro: str | None, type_: str, **files: str) -> list[Finding]:
+    params = f"planner_server:\n  ros__parameters:\n    GridBased:\n      plugin: {type_}\n"
+    analysis = package_elsewhere.analysed(folder, _SERVER, "a.launch.xml", distro, **{"nav2.yaml": params, **files})
+    return [each for each in run_rules(analysis.context) if each.rule == "PRM021"]
+
+
+@pytest.mark.parametrize(
+    ("distro", "type_", "message"),
+    [
+        # space-ros/demos, issue 133
+        (
+            "jazzy",
+            "nav2_navfn_planner/NavfnPlanner",
+            "unknown plugin 'nav2_navfn_planner/NavfnPlanner': Nav2 does not have it in jazzy; "
+            "did you mean 'nav2_navfn_planner::NavfnPlanner'?",
+        ),
+        # ros-navigation/navigation2, issue 4571
+        (
+            "humble",
+            "nav2_smac_planner::SmacPlannerHybrid",
+            "unknown plugin 'nav2_smac_planner::SmacPlannerHybrid': Nav2 does not have it in humble; "
+            "did you mean 'nav2_smac_planner/SmacPlannerHybrid'?",
+        ),
+        (
+            "humble",
+            "nav2_recoveries/Spin",
+            "unknown plugin 'nav2_recoveries/Spin': Nav2 does not have it in humble; "
+            "did you mean 'nav2_behaviors/Spin'?",
+        ),
+        (
+            "humble",
+            "nav2_costmap_2d::PluginContainerLayer",
+            "unknown plugin 'nav2_costmap_2d::PluginContainerLayer': Nav2 does not have it in humble, but in jazzy, "
+            "kilted, lyrical",
+        ),
+    ],
+)
+def test_a_plugin_of_nav2_that_another_distribution_has(tmp_path: Path, distro: str, type_: str, message: str) -> None:
+    (found,) = _of_distribution(tmp_path, distro, type_)
+    assert (found.message, found.severity, found.confidence) == (message, "warning", "likely")
+    assert bool(found.fixes) == ("did you mean" in message)
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("distro", "type_"),
+    [
+        ("jazzy", "nav2_navfn_planner::NavfnPlanner"),
+        ("humble", "nav2_navfn_planner/NavfnPlanner"),
+        ("galactic", "nav2_recoveries/Spin"),
+        (None, "nav2_navfn_planner/NavfnPlanner"),
+        ("jazzy", "nav2_own_planner/NavfnPlanner"),
+    ],
+)
+def test_a_plugin_that_the_distribution_has(tmp_path: Path, distro: str | None, type_: str) -> None:
+    assert not _of_distribution(tmp_path, distro, type_)
+
+
+@pytest.mark.silent
+def test_a_package_of_nav2_in_the_workspace(tmp_path: Path) -> None:
+    own = {"../nav2_navfn_planner/package.xml": "<package><name>nav2_navfn_planner</name></package>"}
+    assert not _of_distribution(tmp_path, "jazzy", "nav2_navfn_planner/NavfnPlanner", **own)

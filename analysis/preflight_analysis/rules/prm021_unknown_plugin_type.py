@@ -12,12 +12,13 @@ from itertools import chain
 from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
+from preflight_analysis.catalogue.plugin_names import distributions_with, is_known, name_there
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
-from preflight_analysis.rules.nearest import is_slip
+from preflight_analysis.rules.nearest import did_you_mean, is_slip
 from preflight_analysis.rules.places import getters_of
 from preflight_analysis.rules.problems import rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -50,6 +51,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, getter in getters.items():
         document = context.documents.get(path)
         for named in document.once(_types_in) if document is not None else ():
+            of_nav = _of_nav(context, named)
+            if of_nav is not None:
+                message, near = of_nav
+                place = context.location(path, named.span)
+                yield rule.finding(
+                    message + did_you_mean(near),
+                    place,
+                    confidence="likely",
+                    related=(getter,),
+                    fixes=rename(context, place, named.type, near) if near is not None else (),
+                )
+                continue
             known, own = context.plugins.names(named.package), context.plugins.exported(named.package)
             meant = _meant(named, known or own, is_own=bool(own))
             abridged = _unabridged(named, known) if meant is None and not own else None
@@ -68,6 +81,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=(getter,),
                 fixes=rename(context, place, named.type, meant),
             )
+
+
+def _of_nav(context: Context, named: _Named) -> tuple[str, str | None] | None:
+    """What is wrong with a plugin of Nav2 that the distribution has by another name or not at all, and what it has."""
+    distro, own = context.environment.distro, context.environment.packages.get(named.package)
+    if distro is None or not is_known(distro) or (own is not None and own.is_within(context.environment.workspace)):
+        return None
+    elsewhere, near = distributions_with(named.type), name_there(named.type, distro)
+    if distro in elsewhere or not (elsewhere or near):
+        return None
+    has_it = f", but in {', '.join(elsewhere)}" if near is None else ""
+    return f"unknown {named.kind} '{named.type}': Nav2 does not have it in {distro}{has_it}", near
 
 
 def _types_in(document: Document) -> tuple[_Named, ...]:
@@ -121,7 +146,8 @@ RULE = Rule(
     name="unknown-plugin-type",
     severity="warning",
     what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, "
-    "if the package has one of a similar name. The catalogue lists the types of common packages. For packages of "
+    "if the package has one of a similar name. The catalogue lists the types of common packages, and the plugins "
+    "of Nav2 by distribution: `nav2_behaviors/Spin` of Humble is `nav2_behaviors::Spin` since Jazzy. For packages of "
     "the workspace the plugin descriptions list them, and only typos are reported. It is information if the type is "
     "that of the only controller of the package without some of its words, and the catalogue is of another "
     "distribution.",
