@@ -44,6 +44,107 @@ def test_below_another_name() -> None:
     """)
 
 
+_NAV = """//- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="e" name="local_costmap" namespace="local_costmap"><param from="/p/nav2.yaml"/></node>
+          <node pkg="p" exec="e" name="global_costmap" namespace="global_costmap"><param from="/p/nav2.yaml"/></node>
+          <node pkg="p" exec="e" name="controller_server"><param from="/p/nav2.yaml"/></node>
+        </launch>
+        //- /p/nav2.yaml
+        /**:
+          ros__parameters:
+            rate: 1.0"""
+
+
+def test_a_layer_of_one_costmap_that_only_the_other_one_has_a_type_of() -> None:
+    """ros-navigation/navigation2, issue 2325."""
+    check(f"""
+        {_NAV}
+        local_costmap:
+          local_costmap:
+            ros__parameters:
+              plugins: ["static_layer", "voxel_layer", "inflation_layer"]
+                         ^^^^^^^^^^^^ warning[PRM018] 'static_layer' in 'plugins' has no parameter 'static_layer.plugin'
+              static_layer:
+                map_subscribe_transient_local: True
+              voxel_layer:
+                plugin: "nav2_costmap_2d::VoxelLayer"
+              inflation_layer:
+                plugin: "nav2_costmap_2d::InflationLayer"
+        global_costmap:
+          global_costmap:
+            ros__parameters:
+              plugins: ["static_layer", "inflation_layer"]
+              static_layer:
+                plugin: "nav2_costmap_2d::StaticLayer"
+              inflation_layer:
+                plugin: "nav2_costmap_2d::InflationLayer"
+    """)
+
+
+def test_a_layer_without_a_list() -> None:
+    """ros-navigation/navigation2, issue 757."""
+    (found,) = check(f"""
+        {_NAV}
+        global_costmap:
+          global_costmap:
+            ros__parameters:
+              voxel_layer:
+                plugin: "nav2_costmap_2d::VoxelLayer"
+                ^^^^^^ warning[PRM018] 'voxel_layer' is configured, but 'plugins' is not set
+              inflation_layer:
+                plugin: "nav2_costmap_2d::InflationLayer"
+    """)
+    assert found.message.endswith("nav2 loads 'static_layer', 'obstacle_layer' and 'inflation_layer'")
+
+
+def test_a_list_of_which_no_item_has_a_type() -> None:
+    check(f"""
+        {_NAV}
+        local_costmap:
+          local_costmap:
+            ros__parameters:
+              plugins: ["obstacle_layer", "inflation_layer"]
+                         ^^^^^^^^^^^^^^ warning[PRM018] 'obstacle_layer' in 'plugins' has no parameter
+                                           ^^^^^^^^^^^^^^^ warning[PRM018] 'inflation_layer' in 'plugins' has no
+              obstacle_layer:
+                observation_sources: scan
+        controller_server:
+          ros__parameters:
+            controller_plugins: ["Follow"]
+                                  ^^^^^^ warning[PRM018] 'Follow' in 'controller_plugins' has no parameter
+            FollowPath:
+              plugin: "dwb_core::DWBLocalPlanner"
+    """)
+
+
+@pytest.mark.silent
+def test_lists_of_nav2_that_need_no_types() -> None:
+    check(f"""
+        {_NAV}
+        local_costmap:
+          local_costmap:
+            ros__parameters:
+              plugins: ["static_layer", "obstacle_layer", "inflation_layer"]
+              obstacle_layer:
+                observation_sources: scan
+        global_costmap:
+          global_costmap:
+            ros__parameters:
+              filters: ["keepout_filter"]
+              obstacle_layer:
+                plugin: "nav2_costmap_2d::ObstacleLayer"
+              keepout_filter:
+                plugin: "nav2_costmap_2d::KeepoutFilter"
+        controller_server:
+          ros__parameters:
+            controller_plugins: ["FollowPath"]
+            FollowPath:
+              max_vel_x: 0.5
+            goal_checker_plugins: ["somewhere_else"]
+    """)
+
+
 @pytest.mark.silent
 def test_what_is_configured_elsewhere_or_needs_nothing() -> None:
     check(f"""

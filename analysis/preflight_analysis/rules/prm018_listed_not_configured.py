@@ -7,7 +7,7 @@ https://docs.nav2.org/configuration/packages/configuring-costmaps.html#plugin-pa
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import NamedTuple
 
@@ -38,9 +38,27 @@ _WITH_DEFAULTS = frozenset(
 """The lists that nav2 has where none is given: it knows the plugins of these, and of no other list."""
 
 
+_COSTMAP = {"plugins": ("static_layer", "obstacle_layer", "inflation_layer")}
+_OF_NAV: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "local_costmap": _COSTMAP,
+    "global_costmap": _COSTMAP,
+    "planner_server": {"planner_plugins": ("GridBased",)},
+    "smoother_server": {"smoother_plugins": ("simple_smoother",)},
+    "behavior_server": {"behavior_plugins": ("spin", "backup", "drive_on_heading", "wait")},
+    "controller_server": {
+        "controller_plugins": ("FollowPath",),
+        "goal_checker_plugins": ("goal_checker",),
+        "progress_checker_plugins": ("progress_checker",),
+    },
+}
+"""By node of nav2: its lists of plugins, and what each has where it is not set. Each item needs `NAME.plugin` unless
+the list is that one: `get_plugin_type_param` in nav2_util/include/nav2_util/node_utils.hpp, navigation2."""
+
+
 class Missing(NamedTuple):
     """An item of a list without the parameter that says what it is. `ready`: plugins beside it that no list has. It is
-    in a section for the nodes of `pattern`, with so many parameters."""
+    in a section for the nodes of `pattern`, with so many parameters. `instead`: it is the list that is missing, and
+    those are loaded, but not `name`."""
 
     name: str
     parameter: str
@@ -49,10 +67,13 @@ class Missing(NamedTuple):
     ready: tuple[tuple[str, Span], ...]
     pattern: str
     size: int
+    instead: tuple[str, ...] = ()
 
     @property
     def message(self) -> str:
         """What is wrong with it."""
+        if self.instead:
+            return f"'{self.name}' is configured, but '{self.listed_in}' is not set: nav2 loads {quoted(self.instead)}"
         ready = [name for name, _ in self.ready]
         hint = f"; {quoted(ready)} is configured but not listed" if len(ready) == 1 else ""
         return (
@@ -72,14 +93,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found += ((path, each) for each in document.once(missing_in)) if isinstance(document, Document) else ()
     if not found:
         return
-    given = {
-        param.name
-        for node in context.tree.nodes_and_simulated
-        for source in node.param_sources
-        for param in source.params
-    }
+    given: dict[str, set[str]] = {}
+    for node in context.tree.nodes_and_simulated:
+        given.setdefault(node.name, set()).update(
+            param.name for source in node.param_sources for param in source.params
+        )
+    anywhere = set().union(*given.values())
     for path, missing in found:
-        if missing.parameter in given:
+        if missing.parameter in given.get(missing.pattern, anywhere) or (
+            missing.instead and _is_listed(context, getters, missing)
+        ):
             continue
         yield rule.finding(
             missing.message,
@@ -90,6 +113,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 getters[path],
             ),
         )
+
+
+def _is_listed(context: Context, paths: Iterable[str], missing: Missing) -> bool:
+    """Whether another file has the list for the same node."""
+    documents = (context.documents.get(path) for path in paths)
+    return any(
+        section.pattern == missing.pattern and any(param.name == missing.listed_in for param in section.params)
+        for document in documents
+        if isinstance(document, Document)
+        for section in read_param_file(document).sections
+    )
 
 
 def _of_moveit(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -115,23 +149,51 @@ def _of_moveit(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def missing_in(document: Document) -> tuple[Missing, ...]:
     """Those of a parameter file."""
-    return tuple(found for section in read_param_file(document).sections for found in _missing(document.text, section))
+    sections = read_param_file(document).sections
+    return tuple(
+        found for section in sections for found in (*_missing(document.text, section), *_without_list(section))
+    )
+
+
+def _without_list(section: Section) -> Iterator[Missing]:
+    """Plugins of a node of nav2 whose only list is not set, so that it loads others."""
+    lists = _of_nav(section)
+    spans = {param.name: param.name_span for param in section.params}
+    if len(lists) != 1 or any(name in spans for name in lists):
+        return
+    listed = {name for param in section.params if isinstance(param.value, list) for name in map(str, param.value)}
+    for name, default in lists.items():
+        for plugin, span in _ready(spans, "", "plugin", listed.union(default)):
+            yield Missing(plugin, name, name, span, (), section.pattern, len(section.params), default)
+
+
+def _of_nav(section: Section) -> Mapping[str, tuple[str, ...]]:
+    return _OF_NAV.get(section.pattern.rpartition("/")[2], {})
 
 
 def _missing(text: str, section: Section) -> Iterator[Missing]:
     spans = {param.name: param.name_span for param in section.params}
-    lists = {p.name: p.value for p in section.params if isinstance(p.value, list) and _are_names(p.value)}
+    of_nav = _of_nav(section)
+    lists = {
+        p.name: p.value
+        for p in section.params
+        if isinstance(p.value, list) and _are_names(p.value, fewest=1 if p.name in of_nav else 2)
+    }
     listed = {name for names in lists.values() for name in names}
     for param in section.params:
         items = lists.get(param.name)
-        if items is None or frozenset(items) in _WITH_DEFAULTS:
+        if items is None or frozenset(items) in _WITH_DEFAULTS or of_nav.get(param.name) == tuple(items):
             continue
         above, dot, _ = param.name.rpartition(".")
         for kind in _KINDS:
             lacking = [name for name in items if f"{above}{dot}{name}.{kind}" not in spans]
-            if not lacking or len(lacking) == len(items):
+            if not lacking:
                 continue
             ready = tuple(_ready(spans, f"{above}{dot}", kind, listed))
+            if len(lacking) == len(items) and not (
+                kind == "plugin" and param.name in of_nav and (ready or any(_has_more(spans, name) for name in items))
+            ):
+                continue
             for name in lacking:
                 at = re.search(
                     rf"(?<![\w.]){re.escape(name)}(?![\w.])", text[param.value_span.start : param.value_span.end]
@@ -142,8 +204,13 @@ def _missing(text: str, section: Section) -> Iterator[Missing]:
                 yield Missing(name, parameter, param.name, at_name, ready, section.pattern, size)
 
 
-def _are_names(items: Sequence[object]) -> bool:
-    return len(items) > 1 and all(isinstance(item, str) and re.fullmatch(r"\w+", item) for item in items)
+def _has_more(names: Iterable[str], plugin: str) -> bool:
+    """Whether something else is set of the plugin."""
+    return any(name.startswith(f"{plugin}.") for name in names)
+
+
+def _are_names(items: Sequence[object], *, fewest: int) -> bool:
+    return len(items) >= fewest and all(isinstance(item, str) and re.fullmatch(r"\w+", item) for item in items)
 
 
 def _ready(spans: Mapping[str, Span], prefix: str, kind: str, listed: set[str]) -> Iterator[tuple[str, Span]]:
@@ -160,9 +227,10 @@ RULE = Rule(
     name="listed-not-configured",
     severity="warning",
     what="Checks for a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, "
-    "...) without a `NAME.plugin` or `NAME.type`. Another name of the list has one. The default lists of Nav2 are "
-    "not checked, because Nav2 knows their plugins. Parameter files of the package that no node of the launch gets "
-    "are checked too. It also checks for a name in `controller_names` of MoveIt without a section.",
+    "...) without a `NAME.plugin` or `NAME.type`. Another name of the list has one, or the list is one of Nav2. It "
+    "also checks for a plugin of Nav2 in a section without the list, for which Nav2 loads its default list. Nav2 knows "
+    "the plugins of its default lists. Parameter files of the package that no node of the launch gets are checked too. "
+    "It also checks for a name in `controller_names` of MoveIt without a section.",
     why="The node requests that parameter for each name of the list and does not start without it. Often the list "
     "and the section differ in the name.",
     example='plugins: ["voxel_layer", "inflation_layer"]\n'
