@@ -143,9 +143,16 @@ def test_a_slip_of_what_a_package_of_the_workspace_has() -> None:
     assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["own_controllers/StateBroadcaster"]
 
 
+def test_the_other_mark_than_that_of_the_packages_own_description() -> None:
+    """As in MonashNovaRover/nova, 84bb3169."""
+    type_ = "own_controllers::StateBroadcaster"
+    (finding,) = check(FIXTURE.format(type_) + f"                {'^' * len(type_)} warning[PRM021] unknown\n" + OWN)
+    assert [edit.text for fix in finding.fixes for edit in fix.edits] == ["own_controllers/StateBroadcaster"]
+
+
 @pytest.mark.silent
 @pytest.mark.parametrize(
-    "type_", ["own_controllers/StateBroadcaster", "own_controllers::Left", "own_controllers/Right", "other/Lefft"]
+    "type_", ["own_controllers/StateBroadcaster", "own_controllers/Left", "own_controllers/Right", "other/Lefft"]
 )
 def test_what_a_package_of_the_workspace_has_or_may_have(type_: str) -> None:
     check(FIXTURE.format(type_) + OWN)
@@ -207,6 +214,7 @@ def test_a_plugin_of_nav2_that_another_distribution_has(tmp_path: Path, distro: 
         ("galactic", "nav2_recoveries/Spin"),
         (None, "nav2_navfn_planner/NavfnPlanner"),
         ("jazzy", "nav2_own_planner/NavfnPlanner"),
+        ("humble", "nav2_bt_navigator::NavigateToPoseNavigator"),
     ],
 )
 def test_a_plugin_that_the_distribution_has(tmp_path: Path, distro: str | None, type_: str) -> None:

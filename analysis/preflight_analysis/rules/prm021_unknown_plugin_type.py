@@ -7,12 +7,12 @@ https://docs.nav2.org/plugins/
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
-from preflight_analysis.catalogue.plugin_names import distributions_with, is_known, name_there
+from preflight_analysis.catalogue.plugin_names import distributions_with, is_known, name_there, names_of
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
@@ -30,6 +30,7 @@ _FEWEST = 2
 """Words of a name that is another one without some of its words; one alone is `Controller`."""
 
 _KINDS = {".type": "controller", ".plugin": "plugin"}
+_MARK = re.compile(r"/|::")
 _OF_PACKAGE = re.compile(r"(\w+)(?:/|::)\w+\Z")
 
 
@@ -89,7 +90,8 @@ def _of_nav(context: Context, named: _Named) -> tuple[str, str | None] | None:
     if distro is None or not is_known(distro) or (own is not None and own.is_within(context.environment.workspace)):
         return None
     elsewhere, near = distributions_with(named.type), name_there(named.type, distro)
-    if distro in elsewhere or not (elsewhere or near):
+    # Of a package without plugins there nothing is loaded, such as the navigators of Humble.
+    if distro in elsewhere or not (near or (elsewhere and names_of(named.package, distro))):
         return None
     has_it = f", but in {', '.join(elsewhere)}" if near is None else ""
     return f"unknown {named.kind} '{named.type}': Nav2 does not have it in {distro}{has_it}", near
@@ -105,17 +107,23 @@ def _types_in(document: Document) -> tuple[_Named, ...]:
     return tuple(found)
 
 
-def _meant(named: _Named, known: Iterable[str], *, is_own: bool) -> str | None:
+def _meant(named: _Named, known: Collection[str], *, is_own: bool) -> str | None:
     """The only one that is a slip away, or of controllers has most of the words: what a package has had in other
     versions is called otherwise altogether. `is_own`: descriptions that a build writes are not among those of the
     workspace, so that only a slip counts."""
     others = _written_alike(named, known)
     if named.type in others:
-        return None
+        return _exact(named.type, known) if is_own else None
     near = [each for each in others if is_slip(named.type, each)]
     if not near and named.kind == "controller" and not is_own:
         near = [each for each in others if _share_most(named.type, each)]
     return near[0] if len(near) == 1 else None
+
+
+def _exact(type_: str, known: Collection[str]) -> str | None:
+    """What a description calls a type that has the other mark: pluginlib looks for the name itself."""
+    same = (each for each in known if _MARK.sub("/", each) == _MARK.sub("/", type_))
+    return next(same, None) if type_ not in known else None
 
 
 def _unabridged(named: _Named, known: Iterable[str]) -> str | None:
