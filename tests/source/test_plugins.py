@@ -117,7 +117,7 @@ def _analysis(folder: Path, files: Mapping[str, str]) -> SourceAnalysis:
 
 
 def test_those_that_can_be_read(analysis: SourceAnalysis) -> None:
-    assert analysis.plugins("nav") == ("nav/Planner", "nav/Obstacles", "nav/Critic")
+    assert analysis.plugins("nav") == ("nav::Planner", "nav::Obstacles", "nav/Critic")
     assert analysis.plugins("nobody") == ()
 
 

@@ -142,7 +142,7 @@ class CppFiles:
                 for cls in library.iter("class"):
                     base = cls.get("base_class_type")
                     if base is not None and (bases is None or base in bases) and (type_ := cls.get("type")):
-                        yield library.get("path") or "", type_, cls.get("name") or type_.replace("::", "/"), base
+                        yield library.get("path") or "", type_, cls.get("name") or type_, base
 
     def _program(self, package: str, target: Target) -> CppProgram:
         found: dict[str, FileText] = {}
