@@ -211,10 +211,12 @@ base:
         ("humble", "true", {"~/cmd_vel": "geometry_msgs/msg/TwistStamped"}),
         ("humble", "false", {"~/cmd_vel_unstamped": "geometry_msgs/msg/Twist"}),
         ("jazzy", "false", {"~/cmd_vel": "geometry_msgs/msg/TwistStamped"}),
+        # Nothing says which distribution it is, but Humble's alone has the parameter.
+        (None, "false", {"~/cmd_vel_unstamped": "geometry_msgs/msg/Twist"}),
     ],
 )
 def test_a_topic_of_velocities_by_distribution(
-    tmp_path: Path, distro: str, stamped: str, expected: dict[str, str]
+    tmp_path: Path, distro: str | None, stamped: str, expected: dict[str, str]
 ) -> None:
     files = {"controllers.yaml": CONTROLLERS.format(stamped)}
     analysis = analysed(tmp_path, CONTROLLED, "a.launch.xml", distro, **files)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from bisect import bisect_left
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import compress
 from operator import attrgetter
@@ -63,7 +63,7 @@ class KnownMeanings:
     def of_node(self, node: LaunchNode) -> Known | None:
         """What is known of a node; None where nothing is. What had another name then is not sure to be the same."""
         package, kind, name = place_of(node)
-        found = self.of(package, kind, name)
+        found = self.of(package, kind, name, _names_of(node.params))
         if found is not None:
             return found
         others = other_names(package, kind, name, distribution_of(self.generation, self.distro))
@@ -75,29 +75,30 @@ class KnownMeanings:
         type the other one has as a parameter."""
         type_ = next((p.value for p in process.params if p.name == f"{names.leaf(node.name)}.type"), None)
         if isinstance(type_, str):
-            return self.plugin(type_, "controllers")
+            return self.plugin(type_, "controllers", _names_of(node.params))
         outer = self.of_node(process)
         below = node.name.removeprefix(names.parent(process.name))
         class_ = outer.entry.within.get(below) if outer is not None else None
         return self.plugin(class_, "components") if class_ is not None else None
 
-    def plugin(self, type_: str, kind: EntryKind = "plugins") -> Known | None:
+    def plugin(self, type_: str, kind: EntryKind = "plugins", given: Collection[str] = ()) -> Known | None:
         """What is known of a plugin, a controller or a component, by its type: `package::Name` or `package/Name`."""
         package = _PACKAGE.match(type_)
-        return self.of(package[1], kind, type_) or self._other_spelling(package[1], kind, type_) if package else None
+        if package is None:
+            return None
+        other_spelling = type_.replace("/", "::") if "/" in type_ else type_.replace("::", "/")
+        return self.of(package[1], kind, type_, given) or self.of(package[1], kind, other_spelling, given)
 
-    def _other_spelling(self, package: str, kind: EntryKind, type_: str) -> Known | None:
-        return self.of(package, kind, type_.replace("/", "::") if "/" in type_ else type_.replace("::", "/"))
-
-    def of(self, package: str, kind: EntryKind, name: str) -> Known | None:
-        """What is known of an executable, a component, ... of a package."""
+    def of(self, package: str, kind: EntryKind, name: str, given: Collection[str] = ()) -> Known | None:
+        """What is known of an executable, a component, ... of a package. The `given` parameters tell which distribution
+        it is of, where nothing else does."""
         distributions = DISTRIBUTIONS[self.generation]
         for said in self.own:
-            entry = said.entry(kind, name, self.distro, distributions) if said.package == package else None
+            entry = said.entry(kind, name, self.distro, distributions, given) if said.package == package else None
             if entry is not None:
                 return Known(entry, package, said.evidence(self.distro), True)
         common = knowledge_of(package)
-        entry = common.entry(kind, name, self.distro, distributions) if common is not None else None
+        entry = common.entry(kind, name, self.distro, distributions, given) if common is not None else None
         if common is None or entry is None or distributions.keys().isdisjoint(entry.distributions):
             return None
         return Known(entry, package, common.evidence(self.distro), self._is_used(entry))
@@ -108,6 +109,10 @@ class KnownMeanings:
         # What several distributions have alike is likely so in the one that is not known; of ROS 1 that is the last.
         known = DISTRIBUTIONS[self.generation].keys() & set(entry.distributions)
         return len(known) > 1 or "noetic" in known
+
+
+def _names_of(params: Sequence[Param]) -> frozenset[str]:
+    return frozenset(param.name for param in params)
 
 
 def place_of(node: LaunchNode) -> tuple[str, EntryKind, str]:

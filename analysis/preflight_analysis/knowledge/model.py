@@ -131,9 +131,20 @@ class Knowledge:
             repository, commit = other, of_other
         return f"what is known of {self.package} ({repository} at {commit[:7]})"
 
-    def entry(self, kind: EntryKind, name: str, distro: str | None, others: Collection[str] = ()) -> Entry | None:
+    def entry(
+        self,
+        kind: EntryKind,
+        name: str,
+        distro: str | None,
+        others: Collection[str] = (),
+        given: Collection[str] = (),
+    ) -> Entry | None:
         """What is known of an executable, component, ... as that distribution has it, else as one of `others` has it;
-        of what names no distribution in any case."""
+        of what names no distribution in any case. Of several others the one that knows most of the `given`
+        parameters."""
         found = [each for each in self.entries if name in each.names.get(kind, ())]
-        of_others = (each for each in found if not each.distributions or not set(others).isdisjoint(each.distributions))
-        return next((each for each in found if distro in each.distributions), None) or next(of_others, None)
+        of_distro = next((each for each in found if distro in each.distributions), None)
+        if of_distro is not None:
+            return of_distro
+        found = [each for each in found if not each.distributions or not set(others).isdisjoint(each.distributions)]
+        return max(found, key=lambda each: sum(of.pattern in given for of in each.meanings), default=None)
