@@ -181,3 +181,25 @@ def test_images_of_gazebo(tmp_path: Path) -> None:
     assert ends_of(tmp_path / "1", ros1, "a.launch") == {("publisher", "/front", image), ("publisher", "/rear", image)}
     ros2 = '<node pkg="ros_gz_image" exec="image_bridge" name="n" args="/front"/>'
     assert ("publisher", "/front", "sensor_msgs/msg/Image") in ends_of(tmp_path / "2", ros2, "a.launch.xml")
+
+
+MISSPELT = """
+<launch>
+  <node pkg="ros_gz_bridge" exec="parameter_bridge" name="bridge">
+    <param name="config_file" value="$(dirname)/bridge.yaml"/>
+  </node>
+  <node pkg="arm" exec="driver" name="driver">
+    <!-- <topics><topic name="/odom" type="nav_msgs/msg/Odometry" class="sub"/></topics> -->
+  </node>
+</launch>
+"""
+
+
+def test_a_finding_about_a_bridged_topic_is_at_its_entry(tmp_path: Path) -> None:
+    config = "- {topic_name: /odmo, ros_type_name: nav_msgs/msg/Odometry, direction: GZ_TO_ROS}"
+    analysis = package_elsewhere.analysed(tmp_path, MISSPELT, "a.launch.xml", "jazzy", **{"bridge.yaml": config})
+    found = next(each for each in analysis.findings if each.rule.startswith("TOP") and "/odmo" in each.message)
+    text = analysis.documents[found.location.file].text
+    assert (found.location.file.rpartition("/")[2], text[slice(*found.location.span)]) == ("bridge.yaml", "topic_name")
+    (edit,) = found.fixes[0].edits
+    assert (text[slice(*edit.location.span)], edit.text) == ("/odmo", "/odom")

@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.ros2.bridges import Argument, arguments_of, is_bridge
-from preflight_analysis.evaluation.ros2.types import loaded
+from preflight_analysis.evaluation.ros2.bridges import Argument, arguments_of, is_bridge, rows_of
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.tracing.interface import Endpoint, Role
+from preflight_analysis.tracing.interface import Endpoint, NamedBy, Role
 
 _TYPE = re.compile(r"\w+/(?:msg/)?\w+\Z")
 _ROLES: dict[str, tuple[Role, ...]] = {
@@ -27,7 +24,6 @@ _ROLES: dict[str, tuple[Role, ...]] = {
     "GZ_TO_ROS": ("publisher",),
     "ROS_TO_GZ": ("subscriber",),
 }
-_NAMES = ("ros_topic_name", "topic_name", "gz_topic_name", "ign_topic_name")
 
 
 def bridged(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> Iterator[Endpoint]:
@@ -35,32 +31,22 @@ def bridged(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> 
     that ROS writes `package/msg/Name` for `package/Name`."""
     if not is_bridge(node):
         return
-    rows = [(each.topic, each.ros, each.direction) for each in arguments_of(node) if _is_topic(each)]
-    for name, type_, direction in (*rows, *_configured(config)):
+    rows = [(each.topic, each.ros, each.direction, None) for each in arguments_of(node) if _is_topic(each)]
+    for name, type_, direction, named_by in (*rows, *_configured(config)):
         package, _, rest = type_.partition("/")
         kind = "msg/" if kinds_in_types else ""
         for role in _ROLES.get(direction, ()) if names.is_legal(name) else ():
-            yield Endpoint(role, name, f"{package}/{kind}{rest.removeprefix('msg/')}")
+            yield Endpoint(role, name, f"{package}/{kind}{rest.removeprefix('msg/')}", named_by=named_by)
 
 
 def _is_topic(given: Argument) -> bool:
     return not given.refused and _TYPE.match(given.ros) is not None
 
 
-def _configured(config: Document | None) -> Iterator[tuple[str, str, str]]:
-    """Name, type and direction of each bridge of a file."""
-    found = config.once(_data) if config is not None else None
-    for row in found if isinstance(found, list) else ():
-        if not isinstance(row, dict):
-            continue
-        name = next((row[key] for key in _NAMES if isinstance(row.get(key), str)), None)
-        type_, direction = row.get("ros_type_name"), row.get("direction", "BIDIRECTIONAL")
-        if name is not None and isinstance(type_, str) and _TYPE.match(type_) and isinstance(direction, str):
-            yield name, type_, direction
-
-
-def _data(document: Document) -> Any:
-    try:
-        return loaded(document.text)
-    except CONSTRUCTION_ERRORS:
-        return None
+def _configured(config: Document | None) -> Iterator[tuple[str, str, str, NamedBy]]:
+    """Name, type and direction of each bridge of a file, and where its name is written."""
+    for row in config.once(rows_of) if config is not None else ():
+        key, (type_, _) = row.ros_topic, row.values.get("ros_type_name", ("", None))
+        direction, _ = row.values.get("direction", ("BIDIRECTIONAL", None))
+        if config is not None and key is not None and _TYPE.match(type_):
+            yield row.values[key][0], type_, direction, NamedBy(key, config.location(row.keys[key]))

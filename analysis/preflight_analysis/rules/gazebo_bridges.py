@@ -9,9 +9,9 @@ import yaml
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
+from preflight_analysis.documents.yaml import span_of
 from preflight_analysis.environment.installed_paths import located
-from preflight_analysis.evaluation.ros2.bridges import arguments_of, config_file_of, is_bridge
+from preflight_analysis.evaluation.ros2.bridges import arguments_of, config_file_of, is_bridge, root_of, rows_of
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.rules.places import argument_location
 from preflight_analysis.rules.rule import Context
@@ -37,16 +37,9 @@ class Entry:
     values: Mapping[str, tuple[str, Location]]
     keys: Mapping[str, Location]
     place: Location
-    is_map: bool = True
-
-    @property
-    def ros_topic(self) -> tuple[str, Location] | None:
-        """The name on the side of ROS, as the bridge takes it."""
-        found = (self.values.get(key) for key in _ROS_NAMES)
-        return next((each for each in found if each is not None and each[0]), None)
-
-
-_ROS_NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ign_topic_name")
+    is_map: bool
+    ros_topic: tuple[str, Location] | None
+    """The name on the side of ROS, as the bridge takes it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,25 +110,18 @@ def entries(context: Context) -> tuple[Entry, ...]:
     """The entries of the files of all bridges, those of one file once. Ask through `context.once`."""
     found = []
     for path, node, document in _files(context):
-        root = document.once(_root)
-        for row in root.value if isinstance(root, yaml.SequenceNode) else ():
-            pairs = row.value if isinstance(row, yaml.MappingNode) else ()
-            named = [(key, value) for key, value in pairs if isinstance(key, yaml.ScalarNode)]
-            values = {
-                key.value: (value.value, context.location(path, span_of(value)))
-                for key, value in named
-                if isinstance(value, yaml.ScalarNode)
-            }
-            keys = {key.value: context.location(path, span_of(key)) for key, _ in named}
-            place = context.location(path, span_of(pairs[0][0] if pairs else row))
-            found.append(Entry(node, values, keys, place, isinstance(row, yaml.MappingNode)))
+        for row in document.once(rows_of):
+            values = {key: (value, context.location(path, span)) for key, (value, span) in row.values.items()}
+            keys = {key: context.location(path, span) for key, span in row.keys.items()}
+            topic = values[row.ros_topic] if row.ros_topic is not None else None
+            found.append(Entry(node, values, keys, context.location(path, row.span), row.is_map, topic))
     return tuple(found)
 
 
 def not_listed(context: Context) -> Iterator[tuple[LaunchNode, Location]]:
     """The bridges whose file has something else than a list, and where."""
     for path, node, document in _files(context):
-        root = document.once(_root)
+        root = document.once(root_of)
         if root is not None and not isinstance(root, yaml.SequenceNode):
             first = root.value[0][0] if isinstance(root, yaml.MappingNode) and root.value else root
             yield node, context.location(path, span_of(first))
@@ -148,10 +134,3 @@ def _files(context: Context) -> Iterator[tuple[str, LaunchNode, Document]]:
         document = context.documents.get(path)
         if document is not None:
             yield path, node, document
-
-
-def _root(document: Document) -> yaml.Node | None:
-    try:
-        return compose_fast(document.text)
-    except CONSTRUCTION_ERRORS:
-        return None

@@ -6,10 +6,15 @@ src/parameter_bridge.cpp of gazebosim/ros_gz, the same in humble 5cc92f80, jazzy
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+import yaml
+
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.words import beside_ros, words_of
@@ -42,6 +47,47 @@ class Argument:
     def is_service(self) -> bool:
         """Whether it names a service instead of a topic."""
         return "/srv/" in self.ros
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One entry of a bridge's file: its scalars by their keys with their places, and the places of all keys. `is_map`:
+    whether it has keys at all."""
+
+    values: Mapping[str, tuple[str, Span]]
+    keys: Mapping[str, Span]
+    span: Span
+    is_map: bool = True
+
+    @property
+    def ros_topic(self) -> str | None:
+        """The key that has the name on the side of ROS, as the bridge takes it."""
+        return next((key for key in _ROS_NAMES if key in self.values and self.values[key][0]), None)
+
+
+_ROS_NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ign_topic_name")
+
+
+def rows_of(document: Document) -> tuple[Row, ...]:
+    """The entries of a file of a bridge; ask through `document.once`."""
+    root = root_of(document)
+    return tuple(map(_row, root.value)) if isinstance(root, yaml.SequenceNode) else ()
+
+
+def _row(node: yaml.Node) -> Row:
+    pairs = node.value if isinstance(node, yaml.MappingNode) else ()
+    named = [(key, value) for key, value in pairs if isinstance(key, yaml.ScalarNode)]
+    values = {key.value: (value.value, span_of(value)) for key, value in named if isinstance(value, yaml.ScalarNode)}
+    keys = {key.value: span_of(key) for key, _ in named}
+    return Row(values, keys, span_of(pairs[0][0] if pairs else node), isinstance(node, yaml.MappingNode))
+
+
+def root_of(document: Document) -> yaml.Node | None:
+    """What a file of a bridge has; None where that is nothing, or no YAML."""
+    try:
+        return compose_fast(document.text)
+    except CONSTRUCTION_ERRORS:
+        return None
 
 
 def arguments_of(node: LaunchNode) -> Iterator[Argument]:
