@@ -3,7 +3,13 @@
 import json
 
 import pytest
-from preflight_analysis.environment.own_programs import own_arguments, own_prefix, own_program, without_own_prefix
+from preflight_analysis.environment.own_programs import (
+    OLD_XACRO,
+    own_arguments,
+    own_prefix,
+    own_program,
+    without_own_prefix,
+)
 from support.check import analyse, read_fixture
 
 
@@ -11,7 +17,7 @@ from support.check import analyse, read_fixture
     ("text", "found"),
     [
         ("$(find xacro)/xacro a.xacro", "xacro a.xacro"),
-        ("$(find xacro)/xacro.py 'a.xacro' b:=c", None),
+        ("$(find xacro)/xacro.py 'a.xacro' b:=c", f"{OLD_XACRO} 'a.xacro' b:=c"),
         ("\n  $(find xacro)/xacro\n a.xacro", "xacro\n a.xacro"),
         ("$(find arm)/scripts/env_run e.sh $(find xacro)/xacro a.xacro", None),
         ("$(find xacro)/xacro2 a.xacro", None),
@@ -67,6 +73,8 @@ def test_a_launch_file_of_ros_2_that_calls_it(program: str) -> None:
         ("/opt/ros/jazzy/lib/other/xacro a", None),
         ("/home/me/xacro a", None),
         ("ros2 run p xacro a", None),
+        (f"{OLD_XACRO} a", ["a"]),
+        ("xacro.py a", None),
         ("cat a", None),
     ],
 )

@@ -9,18 +9,18 @@ OWN_PROGRAMS = frozenset({"xacro"})
 """By the names that launch files call them."""
 _INSTALLED = re.compile(r"/opt/ros/\w+/(?:bin|lib/(\w+))/(\w+)\Z")
 _NOWHERE = "preflight-not-installed"
+OLD_XACRO = f"/{_NOWHERE}/xacro/xacro.py"
+"""Our own one in the place of `xacro.py` of ROS Melodic and before, which reads tags without the prefix `xacro:` too."""
 _BELOW_PREFIX = re.compile(rf"\A\s*/{_NOWHERE}/(\w+)/(?:bin|lib/\1)/\1(?=[\s'\"]|\Z)")
 
 
 def own_program(text: str, find: str, package: str) -> str | None:
     """A command line that begins with `$(find package)/program`, of a package that is not here, as it calls our own
-    program, which has the name of its package. None for anything else: `xacro.py` of before Noetic reads files that the
-    xacro of today refuses."""
+    program, which has the name of its package, or that and `.py` (`OLD_XACRO`). None for anything else."""
     if package not in OWN_PROGRAMS:
         return None
-    program = re.compile(rf"\s*{re.escape(find)}/{package}(?=[\s'\"]|$)")
-    found, count = program.subn(package, text, count=1) if program.match(text) else (text, 0)
-    return found if count else None
+    program = re.match(rf"\s*{re.escape(find)}/{package}(\.py)?(?=[\s'\"]|$)", text)
+    return (OLD_XACRO if program[1] else package) + text[program.end() :] if program is not None else None
 
 
 def own_prefix(package: str) -> str:
@@ -40,6 +40,8 @@ def own_arguments(words: Sequence[str]) -> Sequence[str] | None:
     a`, `/opt/ros/jazzy/bin/xacro a`. None where it calls another one."""
     match words:
         case ["ros2", "run", package, name, *arguments] if package == name and name in OWN_PROGRAMS:
+            return arguments
+        case [program, *arguments] if program == OLD_XACRO:
             return arguments
         case [program, *arguments]:
             installed = _INSTALLED.match(program)

@@ -29,7 +29,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.environment.own_programs import own_arguments
+from preflight_analysis.environment.own_programs import OLD_XACRO, own_arguments
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.ros2 import expressions
@@ -244,7 +244,8 @@ class CommandRunner:
         if executable is None and (arguments := own_arguments(words)) is not None:
             files = tuple(_files_of(arguments, self.cwd))
             means = meaning(self.environment, meant_by(self.environment, files[0])) if files else self.environment
-            return self._asked(own_xacro.make(means, arguments, self.cwd), *files)
+            old = words[0] == OLD_XACRO
+            return self._asked(own_xacro.make(means, arguments, self.cwd, old=old), *files)
         if executable is None:
             return CommandResult("missing", reason=f"there is no program {words[0]}")
         python = self.environment.interpreter(self.environment.generation)

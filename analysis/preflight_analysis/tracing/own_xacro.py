@@ -19,13 +19,14 @@ from preflight_analysis.tracing.agents.variables import DESCRIPTIONS, SHARES
 
 _START = (
     "import os, sys; sys.path[0] = os.path.join(os.path.dirname(os.environ['PREFLIGHT_EVENTS']), 'lib'); "
-    "from preflight_agents.own_xacro import main; del sys.path[0]; main()"
+    "from preflight_agents.own_xacro import main; del sys.path[0]; main({})"
 )
 
 
-def make(environment: Environment, args: Iterable[str], cwd: str) -> recipes.Recipe:
-    """The recipe of `xacro` with its arguments."""
-    recipe = ros2_recipe.make_command(environment, sys.executable, ("-c", _START, *args), cwd)
+def make(environment: Environment, args: Iterable[str], cwd: str, *, old: bool = False) -> recipes.Recipe:
+    """The recipe of `xacro` with its arguments; of `xacro.py` if it is the `old` one."""
+    start = _START.format("old=True" if old else "")
+    recipe = ros2_recipe.make_command(environment, sys.executable, ("-c", start, *args), cwd)
     shares = {package.name: package.share for package in environment.packages.values()}
     known = {DESCRIPTIONS: json.dumps(descriptions_for(environment))}
     stable = {**recipe.stable, **known}

@@ -8,7 +8,7 @@ import os
 import sys
 import types
 
-from . import partial_xacro
+from . import old_xacro, partial_xacro
 from .skeletons import Skeletons
 from .variables import DESCRIPTIONS, SHARES
 
@@ -17,8 +17,9 @@ class PackageNotFoundError(KeyError):
     """As that of `ament_index_python`."""
 
 
-def main() -> None:
-    """The program, with its arguments in those of the process."""
+def main(*, old: bool = False) -> None:
+    """The program, with its arguments in those of the process. The `old` one reads tags as before ROS Jade; what it
+    makes of a file that this fails at is not known."""
     sys.argv[0] = "xacro"
     shares = json.loads(os.environ.get(SHARES, "{}"))
     lacking = partial_xacro.Lacking(Skeletons(json.loads(os.environ.get(DESCRIPTIONS, "{}"))))
@@ -39,4 +40,13 @@ def main() -> None:
     xacro = importlib.import_module("xacro")
     if partial_xacro.can_install(xacro):
         partial_xacro.install(xacro, lacking)
-    xacro.main()
+    if not old:
+        xacro.main()
+        return
+    old_xacro.install(xacro)
+    try:
+        xacro.main()
+    except SystemExit as end:
+        if not end.code:
+            raise
+        print(f"<!--{partial_xacro.INCOMPLETE}xacro --><robot/>")
