@@ -6,6 +6,7 @@ import threading
 from pathlib import Path
 
 import pytest
+from preflight_analysis.catalogue.descriptions import folder_of
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.robot.parse import parse_description
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
@@ -153,3 +154,14 @@ def test_the_catalogue_has_the_structure_of_a_common_package(tmp_path: Path) -> 
         "package 'velodyne_description' is not installed here; the catalogue has velodyne_description of jazzy"
     )
     assert parse_description(found.output).links == ("base", "lidar_base_link", "lidar")
+
+
+@pytest.mark.parametrize(("name", "known"), [("ur", True), ("newer", False)])
+def test_a_description_of_a_package_that_is_not_here(tmp_path: Path, name: str, known: bool) -> None:
+    environment = detect_environment(str(tmp_path), {"ROS_VERSION": "2"}, (str(tmp_path),), root=str(tmp_path))
+    runner = CommandRunner(environment, str(tmp_path), None)
+    path = f"{folder_of('ur_description', 'jazzy')}/urdf/{name}.urdf.xacro"
+    found = runner.run(f"xacro {path} name:=ur ur_type:=ur5e tf_prefix:=one_", threading.Event())
+    description = parse_description(found.output)
+    assert (found.status, description.is_whole, "one_tool0" in description.links) == ("not-run", known, known)
+    assert description.lacks == (() if known else ("ur_description",))

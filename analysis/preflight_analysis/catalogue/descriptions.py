@@ -23,6 +23,23 @@ def known_descriptions(distro: str, installed: Collection[str]) -> dict[str, Any
     return {"folder": str(DESCRIPTIONS / distro), "distro": distro, "packages": packages}
 
 
+def folder_of(package: str, distro: str) -> str | None:
+    """What stands for the share folder of a package in the command lines of our own xacro; None where nothing is known
+    of it."""
+    return str(DESCRIPTIONS / distro / package) if package in _described(distro) else None
+
+
+def is_described(path: str) -> bool:
+    """Whether a path is below such a folder."""
+    return distribution_of(path) is not None
+
+
+def distribution_of(path: str) -> str | None:
+    """The distribution of a path below such a folder; None for any other path."""
+    folder = f"{DESCRIPTIONS}{os.sep}"
+    return path.removeprefix(folder).partition(os.sep)[0] if path.startswith(folder) else None
+
+
 @lru_cache(maxsize=4)
 def _described(distro: str) -> tuple[str, ...]:
     """The packages of a distribution of which descriptions are known, sorted."""

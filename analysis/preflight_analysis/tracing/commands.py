@@ -24,7 +24,7 @@ from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
-from preflight_analysis.catalogue.descriptions import DESCRIPTIONS
+from preflight_analysis.catalogue.descriptions import DESCRIPTIONS, is_described
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import source_folders
@@ -240,7 +240,8 @@ class CommandRunner:
             return CommandResult("failed", reason="it is empty")
         program = os.path.join(self.cwd, words[0]) if "/" in words[0] else words[0]
         path = _VARIABLES[self.environment.generation](self.environment, ())["PATH"]
-        executable = shutil.which(program, path=path)
+        is_ours = any(map(is_described, words))
+        executable = shutil.which(program, path=path) if not is_ours else None
         if executable is None and (arguments := own_arguments(words)) is not None:
             files = tuple(_files_of(arguments, self.cwd))
             means = meaning(self.environment, meant_by(self.environment, files[0])) if files else self.environment

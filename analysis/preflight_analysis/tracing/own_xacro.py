@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from preflight_analysis.catalogue.descriptions import known_descriptions
+from preflight_analysis.catalogue import descriptions
 from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
@@ -23,20 +23,22 @@ _START = (
 )
 
 
-def make(environment: Environment, args: Iterable[str], cwd: str, *, old: bool = False) -> recipes.Recipe:
+def make(environment: Environment, args: Sequence[str], cwd: str, *, old: bool = False) -> recipes.Recipe:
     """The recipe of `xacro` with its arguments; of `xacro.py` if it is the `old` one."""
     start = _START.format("old=True" if old else "")
     recipe = ros2_recipe.make_command(environment, sys.executable, ("-c", start, *args), cwd)
     shares = {package.name: package.share for package in environment.packages.values()}
-    known = {DESCRIPTIONS: json.dumps(descriptions_for(environment))}
+    known = {DESCRIPTIONS: json.dumps(descriptions_for(environment, *args))}
     stable = {**recipe.stable, **known}
     return replace(recipe, env={**recipe.env, **known, SHARES: json.dumps(shares)}, stable=stable)
 
 
-def descriptions_for(environment: Environment) -> dict[str, Any]:
-    """What the catalogue has of robot descriptions in packages that are not here."""
-    distro = distribution_of(environment.generation, environment.distro)
-    return known_descriptions(distro, environment.packages)
+def descriptions_for(environment: Environment, *paths: str) -> dict[str, Any]:
+    """What the catalogue has of robot descriptions in packages that are not here: of the distribution that the paths
+    are of, or else of that which the environment has."""
+    distro = next(filter(None, map(descriptions.distribution_of, paths)), None)
+    distro = distro or distribution_of(environment.generation, environment.distro)
+    return descriptions.known_descriptions(distro, environment.packages)
 
 
 def judged(result: CommandResult) -> CommandResult:

@@ -13,6 +13,7 @@ from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation import names, values
+from preflight_analysis.evaluation.catalogued import with_described_shares
 from preflight_analysis.evaluation.problems import (
     BadYaml,
     CommandFailed,
@@ -23,6 +24,7 @@ from preflight_analysis.evaluation.problems import (
     UnreadableParameterFile,
     YamlKeyTwice,
 )
+from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.attributes import Attributes, applies
 from preflight_analysis.evaluation.ros1.parts import remembered, within_parameters
 from preflight_analysis.evaluation.ros1.scope import Scope
@@ -73,6 +75,9 @@ class _NoValue:
 
 def _value(state: State, scope: Scope, action: Action, attributes: Attributes, source: str, param: str) -> Any:
     given = attributes.get(source)
+    if given is not None and not given.known and source == "command":
+        line = with_described_shares(given.text, state.environment.generation, state.environment)
+        given = Resolved(line) if line is not None else None
     if given is None or not given.known:
         return _NoValue("its value is not known")
     type_attribute = action.value("type")

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import re
-
 from preflight_analysis.catalogue.launches import CataloguedFile
 from preflight_analysis.evaluation.catalogued import folder_of_missing, in_catalogue
 from preflight_analysis.evaluation.ros2.context import Context
 from preflight_analysis.evaluation.ros2.place import Place
 from preflight_analysis.evaluation.ros2.state import State
-from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.substitute import SHARE, Performer
 from preflight_analysis.launch.model import Substitution, Value
-
-_FOLDER = re.compile(r"\$\((?:find-pkg-share|unknown the share folder of) ([\w-]+)\)")
 
 
 def named_in_catalogue(state: State, context: Context, place: Place, value: Value) -> CataloguedFile | None:
@@ -31,5 +27,5 @@ class _Performer(Performer):
         if part.command == "var":
             found = self.context.get(part.arguments)
             text = found.value.text if found is not None else ""
-        folders = _FOLDER.sub(lambda match: folder_of_missing(match[1]), text)
+        folders = SHARE.sub(lambda match: folder_of_missing(match[1]), text)
         return folders if folders != text and "$(" not in folders.replace("$(find ", "") else None

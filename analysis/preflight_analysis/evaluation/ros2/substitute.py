@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import shlex
 from collections.abc import Callable, Sequence
 
+from preflight_analysis.catalogue.descriptions import is_described
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
-from preflight_analysis.environment.own_programs import OWN_PROGRAMS, own_prefix, without_own_prefix
+from preflight_analysis.environment.own_programs import OWN_PROGRAMS, own_arguments, own_prefix, without_own_prefix
 from preflight_analysis.evaluation import expression
+from preflight_analysis.evaluation.catalogued import described_share
 from preflight_analysis.evaluation.problems import (
     CommandFailed,
     CommandMissing,
@@ -39,6 +42,9 @@ from preflight_analysis.launch.problems import BadSubstitution, ProblemKind
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, parse_value_ros2
 
 Parts = tuple[Literal | Substitution, ...]
+
+SHARE = re.compile(r"\$\((?:find-pkg-share|unknown the share folder of) ([\w-]+)\)")
+"""The share folder of a package that is not here, as XML and YAML have it and as a Python file that was run."""
 
 
 class _Failure(Exception):  # noqa: N818 - not an error: a problem on its way to the list
@@ -88,7 +94,17 @@ class Performer:
 
     def instead(self, part: Substitution) -> str | None:
         """What is taken for a substitution that has no value; None: nothing, and the whole is not known."""
-        return None
+        if not self._in_command:
+            return None
+        if part.command == "find-pkg-share":
+            name = self.parts(part.words[0])
+            return described_share(name.text, 2, self.state.environment) if name.known else None
+        text = part.text
+        if part.command == "var":
+            found = self.context.get(part.arguments)
+            text = found.value.text if found is not None else ""
+        shares = SHARE.sub(lambda match: described_share(match[1], 2, self.state.environment) or match[0], text)
+        return shares if "$(" not in shares and shares != text else None
 
     def _one(self, part: Substitution) -> str | None:
         target: Location | None = None
@@ -252,6 +268,8 @@ class Performer:
             words = shlex.split(line)
         except ValueError as error:
             raise _Failure(MalformedCommand(str(error))) from error
+        if any(map(is_described, words)) and own_arguments(words) is None:
+            raise _Failure  # the catalogue has nothing for other programs
         for word in words:
             # What the package will install elsewhere is read where it is now.
             if word.startswith("/"):

@@ -18,8 +18,8 @@ class PackageNotFoundError(KeyError):
 
 
 def main(*, old: bool = False) -> None:
-    """The program, with its arguments in those of the process. The `old` one reads tags as before ROS Jade; what it
-    makes of a file that this fails at is not known."""
+    """The program, with its arguments in those of the process. The `old` one reads tags as before ROS Jade.
+    What it makes of a file that this fails at is not known, nor what is made of a file that only the catalogue has."""
     sys.argv[0] = "xacro"
     shares = json.loads(os.environ.get(SHARES, "{}"))
     lacking = partial_xacro.Lacking(Skeletons(json.loads(os.environ.get(DESCRIPTIONS, "{}"))))
@@ -40,13 +40,12 @@ def main(*, old: bool = False) -> None:
     xacro = importlib.import_module("xacro")
     if partial_xacro.can_install(xacro):
         partial_xacro.install(xacro, lacking)
-    if not old:
-        xacro.main()
-        return
-    old_xacro.install(xacro)
+    if old:
+        old_xacro.install(xacro)
+    packages = ["xacro"] if old else list(filter(None, map(lacking.skeletons.package_of, sys.argv[1:])))
     try:
         xacro.main()
     except SystemExit as end:
-        if not end.code:
+        if not (end.code and packages):
             raise
-        print(f"<!--{partial_xacro.INCOMPLETE}xacro --><robot/>")
+        print(f"<!--{partial_xacro.INCOMPLETE}{packages[0]} --><robot/>")

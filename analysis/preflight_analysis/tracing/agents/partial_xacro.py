@@ -196,6 +196,8 @@ def install(xacro: Any, lacking: Lacking) -> None:
 
     def process_doc(doc: Any, mappings: Any = None, **kwargs: Any) -> None:
         lacking.clear()
+        if package := lacking.skeletons.package_of(str((xacro.filestack or [""])[0])):
+            lacking.share_of(package)
         before, given = doc.documentElement.cloneNode(deep=True), dict(mappings or {})
         try:
             process(doc, mappings, **kwargs)

@@ -14,18 +14,20 @@ import importlib.util
 import io
 import os
 import pathlib
+import re
 import shutil
 import sys
 import xml.dom.minidom
 from typing import Any, Callable, Iterator
 
 from .. import partial_xacro
-from ..anything import BEGIN, Anything, UnknownText, asked, is_unknown, marked, readable, unknown_text
+from ..anything import BEGIN, END, Anything, UnknownText, asked, is_unknown, marked, readable, unknown_text
 from ..missing_modules import provided_for
 from ..skeletons import Skeletons
 from . import programs, written
 from .base import OURS, RECORDER, is_own
 
+_SHARE = re.compile(f"{BEGIN}the share folder of ([^{END}]*){END}")
 _PARSERS = {
     "ast": ("literal_eval",),
     "json": ("load", "loads"),
@@ -146,6 +148,8 @@ def _guarded(function: Any, name: str) -> Any:
             return function(*args, **kwargs)  # its own functions are guarded as a whole
         if name.startswith("re.") and not is_own(frame):
             return function(*args, **kwargs)
+        if name.startswith("xacro."):
+            args = tuple(map(_as_described, args))
         if any(map(_is_of_unknown, args)) or any(map(_is_of_unknown, kwargs.values())):
             return unknown()
         line = args[0] if args else kwargs.get("args")
@@ -164,6 +168,14 @@ def _guarded(function: Any, name: str) -> Any:
             return unknown()  # it reads other files, which may be in a folder that is not known
 
     return called
+
+
+def _as_described(path: Any) -> Any:
+    """A path in a package that is not here, as xacro finds it where the catalogue has the package's descriptions."""
+    if not isinstance(path, (str, os.PathLike)):
+        return path
+    skeletons = Skeletons(RECORDER.descriptions)
+    return _SHARE.sub(lambda found: skeletons.folder_of(found[1]) or found[0], str(path))
 
 
 def _as_json(default: Any) -> Any:
