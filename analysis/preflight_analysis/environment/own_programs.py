@@ -9,7 +9,7 @@ OWN_PROGRAMS = frozenset({"xacro"})
 """By the names that launch files call them."""
 _INSTALLED = re.compile(r"/opt/ros/\w+/(?:bin|lib/(\w+))/(\w+)\Z")
 _NOWHERE = "preflight-not-installed"
-OLD_XACRO = f"/{_NOWHERE}/xacro/xacro.py"
+OLD_XACRO = "preflight-xacro.py"
 """Our own one in the place of `xacro.py` of ROS Melodic and before, which reads tags without `xacro:` too."""
 _BELOW_PREFIX = re.compile(rf"\A\s*/{_NOWHERE}/(\w+)/(?:bin|lib/\1)/\1(?=[\s'\"]|\Z)")
 
