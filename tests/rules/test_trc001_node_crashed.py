@@ -97,6 +97,26 @@ def test_a_crash_for_want_of_a_command_that_was_not_run_is_our_doing() -> None:
     """)
 
 
+@pytest.mark.parametrize("ros", [1, 2])
+def test_a_description_of_which_only_the_structure_is_known_is_not_given_to_a_run(ros: int) -> None:
+    text = "<!-- from the catalogue of ros-preflight for noetic, parts --><robot><link name='a'/></robot>"
+    if ros == 1:
+        launch = """<launch>
+          <param name="robot_description" command="xacro r"/>
+          <node pkg="p" type="t" name="n"/></launch>"""
+    else:
+        launch = """//- /main.launch.xml
+        <launch><node pkg="p" exec="t" name="n">
+          <param name="robot_description" type="str" value="$(command 'xacro r')"/></node></launch>"""
+    told = "Could not find parameter robot_description on parameter server"
+    interfaces = {"/n": {"status": "crashed", "exit_code": 1, "params": {}, "stderr": [told]}}
+    commands = {"xacro r": {"status": "not-run", "reason": "package 'parts' is not installed here", "output": text}}
+    found = findings_of(f"{launch}\n//- interfaces\n{json.dumps(interfaces)}\n//- commands\n{json.dumps(commands)}")
+    (crash,) = (each for each in found if each.rule == "TRC001")
+    assert (crash.severity, crash.confidence) == ("info", "possible")
+    assert "robot_description', which is unresolved" in crash.message
+
+
 @pytest.mark.parametrize(
     "setting",
     [

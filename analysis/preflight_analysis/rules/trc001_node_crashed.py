@@ -7,8 +7,9 @@ from itertools import compress
 
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
@@ -144,8 +145,11 @@ def _empty_param(node: LaunchNode, told: str) -> str | None:
 
 def _unresolved_param(node: LaunchNode, told: str) -> str | None:
     """`'x', which is unresolved` of a parameter in the node's own tag that has no value here, as nobody gave the
-    argument that it is made of, and which the node names before it ends."""
+    argument that it is made of, or only a part of it is known, and which the node names before it ends."""
     words, known = set(_WORD.findall(told)), {names.leaf(param.name) for param in node.params}
+    for param in node.params:
+        if param.name in words and not is_whole(param.value):
+            return f"'{param.name}', which is unresolved"
     pending = [*node.action.children]
     while pending:
         action = pending.pop()
@@ -208,7 +212,7 @@ class _LostParams:
     def __init__(self, context: Context) -> None:
         tree = context.tree
         self._reasons = {u.param.rstrip("/"): u.reason for u in tree.unknowns if u.param is not None}
-        self._commands = {p.name for p in tree.params.values() if isinstance(p.value, CommandValue)}
+        self._commands = {p.name for p in tree.params.values() if not is_whole(p.value)}
         self._commands |= {c.param for c in tree.commands if c.result is None}
         self._set = tree.params.keys() - self._commands
         self._leaves = {names.leaf(name) for name in tree.params}
