@@ -213,6 +213,12 @@ ROBOT = b"""<robot><gazebo><plugin filename="gz_ros2_control-system" name="gz_ro
 BEHAVIOR_TREE = b"""<root BTCPP_format="4" main_tree_to_execute="A"><include path="b.xml"/><BehaviorTree ID="A"><Control
 ID="Sequence"><Action ID="Wait"/><SubTree ID="B"/><Spin angle="{a}" _skipIf="a &lt; 1"/></Control></BehaviorTree></root>
 """
+WORLD = b"""<sdf version="1.9"><world name="w"><plugin filename="gz-sim-imu-system" name="i"/>
+<include><uri>model://m</uri><name>n</name><plugin filename="p"/></include>
+<model name="a"><link name="l"><sensor name="s" type="camera"><topic>t</topic><camera>
+<camera_info_topic>i</camera_info_topic></camera></sensor></link>
+<joint name="j"><sensor name="f" type="force_torque"/></joint><model name="b"/></model></world></sdf>
+"""
 SRDF = b"""<robot name="r"><virtual_joint name="world" type="fixed" parent_frame="world" child_link="base"/>
 <group name="arm"><chain base_link="base" tip_link="tool"/><joint name="${prefix}elbow"/><group name="hand"/></group>
 <group_state name="home" group="arm"><joint name="elbow" value="0"/></group_state><passive_joint name="elbow"/>

@@ -67,7 +67,9 @@ from preflight_analysis.queries.rename import RenameRefusedError, prepare, renam
 from preflight_analysis.queries.signature import signature
 from preflight_analysis.queries.symbols import symbols
 from preflight_analysis.queries.tokens import tokens
+from preflight_analysis.robot.model import Simulated
 from preflight_analysis.robot.parse import parse_description
+from preflight_analysis.robot.sdf import parse_sdf
 from preflight_analysis.robot.semantic import parse_semantic
 from preflight_analysis.robot.sources import source_file
 from preflight_analysis.rules.registry import all_rules
@@ -479,6 +481,17 @@ def robot_description(data: bytes) -> None:
         assert written.may_be(written.value) or not written.is_literal
 
 
+def simulated_world(data: bytes) -> None:
+    """The worlds and models that it has, as far as they are in each other."""
+
+    def depth(each: Simulated) -> int:
+        return 1 + max(map(depth, each.models), default=0)
+
+    for found in parse_sdf(text_of(data)) or ():
+        assert found.kind in ("world", "model")
+        assert depth(found) < 20
+
+
 def semantic_description(data: bytes) -> None:
     """What it says of the groups of a robot."""
     found = parse_semantic(text_of(data))
@@ -736,6 +749,7 @@ TARGETS = (
     Target("gazebo-bridges", gazebo_bridges, lambda: [seeds.BRIDGES], seeds.YAML),
     Target("behavior-tree", behavior_tree, lambda: [seeds.BEHAVIOR_TREE], seeds.XML),
     Target("semantic-description", semantic_description, lambda: [seeds.SRDF], seeds.XML),
+    Target("simulated-world", simulated_world, lambda: [seeds.WORLD], seeds.XML),
     Target("robot-description", robot_description, lambda: [seeds.ROBOT, seeds.ROBOT_IN_PART], seeds.XML),
     Target("settings", settings, lambda: [seeds.SETTINGS], seeds.YAML),
     Target("cache-entries", cache_entries, _entries, seeds.JSON),

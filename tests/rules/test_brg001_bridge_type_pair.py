@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import run_rules
-from support import package_elsewhere
+from support import gazebo_launch, package_elsewhere
 
 _NODE = '<launch><node pkg="ros_gz_bridge" exec="parameter_bridge" args="{}"/></launch>'
 
@@ -64,3 +64,35 @@ def test_a_slip_of_a_type(tmp_path: Path) -> None:
 )
 def test_types_that_go_together(tmp_path: Path, args: str) -> None:
     assert not found_in(tmp_path, args)
+
+
+def test_the_type_that_gazebo_has(tmp_path: Path) -> None:
+    points = "<topic>scan</topic>"
+    rows = gazebo_launch.row("/scan/points", "sensor_msgs/msg/LaserScan LaserScan", "GZ_TO_ROS")
+    (found,) = gazebo_launch.findings(tmp_path / "a", "BRG001", rows, gazebo_launch.sensor("gpu_lidar", points))
+    assert found.message == (
+        "the bridge expects 'gz.msgs.LaserScan' on '/scan/points', but the sensor 's' has 'gz.msgs.PointCloudPacked'"
+    )
+    assert (found.severity, found.confidence) == ("warning", "likely")
+    rows = gazebo_launch.row("/scan/points", "sensor_msgs/msg/PointCloud2 PointCloudPacked", "GZ_TO_ROS")
+    assert not gazebo_launch.findings(tmp_path / "b", "BRG001", rows, gazebo_launch.sensor("gpu_lidar", points))
+
+
+def test_a_topic_of_several_plugins(tmp_path: Path) -> None:
+    lights = '<plugin filename="gz-sim-thruster-system"><namespace>bot</namespace><topic>cmd_vel</topic></plugin>'
+    model = gazebo_launch.DRIVE.format("<topic>/bot/cmd_vel</topic>") + lights
+    rows = gazebo_launch.row("/bot/cmd_vel", "std_msgs/msg/Float64 Double", "ROS_TO_GZ")
+    assert not gazebo_launch.findings(tmp_path, "BRG001", rows, model)
+
+
+@pytest.mark.parametrize(
+    "types",
+    [
+        "sensor_msgs/msg/Range LaserScan",
+        "ros_gz_interfaces/msg/WorldStatistics WorldStatistics",
+        "ros_gz_interfaces/msg/AirSpeed AirSpeed",
+    ],
+)
+def test_types_of_newer_bridges(types: str, tmp_path: Path) -> None:
+    rows = gazebo_launch.row("/t", types, "GZ_TO_ROS")
+    assert not gazebo_launch.findings(tmp_path, "BRG001", rows)

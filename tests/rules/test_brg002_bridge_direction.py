@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import run_rules
-from support import package_elsewhere
+from support import gazebo_launch, package_elsewhere
 from support.check import check
 
 _BRIDGE = '<node pkg="ros_gz_bridge" exec="parameter_bridge" name="bridge" args="{}"/>'
@@ -71,3 +71,34 @@ def test_a_command_to_ros(tmp_path: Path) -> None:
 )
 def test_directions_that_make_sense(tmp_path: Path, nodes: str) -> None:
     assert not found_in(tmp_path, nodes, **{"a.rviz": _SHOWN})
+
+
+def test_the_end_that_gazebo_has(tmp_path: Path) -> None:
+    lidar = gazebo_launch.sensor("gpu_lidar", "<topic>scan</topic>")
+    rows = gazebo_launch.row("/scan", "sensor_msgs/msg/LaserScan LaserScan", "ROS_TO_GZ", "/scan")
+    (found,) = gazebo_launch.findings(tmp_path / "a", "BRG002", rows, lidar)
+    assert found.message == ("bridge direction: '/scan' goes from ROS to Gazebo, but the sensor 's' publishes it there")
+    assert (found.severity, found.fixes[0].edits[0].text) == ("warning", "GZ_TO_ROS")
+    rows = rows.replace("ROS_TO_GZ", "GZ_TO_ROS")
+    assert not gazebo_launch.findings(tmp_path / "b", "BRG002", rows, lidar)
+
+
+def test_a_command_that_gazebo_takes(tmp_path: Path) -> None:
+    drive = gazebo_launch.DRIVE.format("<topic>cmd_vel</topic>")
+    rows = gazebo_launch.row("/cmd_vel", "geometry_msgs/msg/Twist Twist", "GZ_TO_ROS", "/cmd_vel")
+    (found,) = gazebo_launch.findings(tmp_path / "a", "BRG002", rows, drive, more=_TELEOP)
+    assert "goes from Gazebo to ROS, but the plugin diff-drive subscribes to it there" in found.message
+    assert found.severity == "warning"
+    (found,) = gazebo_launch.findings(tmp_path / "b", "BRG002", rows, drive)
+    assert found.severity == "info"
+
+
+def test_the_clock_goes_both_ways(tmp_path: Path) -> None:
+    # https://github.com/gazebosim/ros_gz/issues/341
+    (found,) = found_in(tmp_path / "a", _BRIDGE.format("/clock@rosgraph_msgs/msg/Clock@ignition.msgs.Clock"))
+    assert found.message == (
+        "bridge direction: '/clock' goes both ways; Gazebo does not publish it if the bridge starts first"
+    )
+    assert found.fixes[0].edits[0].text == "/clock@rosgraph_msgs/msg/Clock[ignition.msgs.Clock"
+    assert not found_in(tmp_path / "b", _BRIDGE.format("/clock@rosgraph_msgs/msg/Clock[ignition.msgs.Clock"))
+    assert not found_in(tmp_path / "c", _BRIDGE.format("/world/w/clock@rosgraph_msgs/msg/Clock@gz.msgs.Clock"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.partial_text import Catalogued
@@ -66,6 +67,37 @@ class GazeboPlugin:
 
 
 @dataclass(frozen=True, slots=True)
+class SimulatedSensor:
+    """A `<sensor>` of Gazebo. `texts` has those of its elements that name topics; `within` is what it is in, as the
+    default names of topics have it: `/link/L`, `/joint/J`, `/link/*` where that is not known."""
+
+    name: str
+    type: str
+    texts: Mapping[str, str]
+    within: str
+
+
+@dataclass(frozen=True, slots=True)
+class IncludedModel:
+    """An `<include>` of a world or model: what it names, and the name that the model gets, "" for its own."""
+
+    uri: str
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Simulated:
+    """A world or model of Gazebo (http://sdformat.org/spec), or what the `<gazebo>` elements of a robot add to it."""
+
+    kind: Literal["world", "model"]
+    name: str
+    plugins: tuple[GazeboPlugin, ...] = ()
+    sensors: tuple[SimulatedSensor, ...] = ()
+    models: tuple[Simulated, ...] = ()
+    includes: tuple[IncludedModel, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class SensorFrame:
     """The frame that the messages of a simulated sensor have: the text of the element `tag`, in the sensor `sensor`."""
 
@@ -97,6 +129,7 @@ class Description:
     systems: tuple[ControlSystem, ...] = ()
     transmissions: tuple[Transmission, ...] = ()
     plugins: tuple[GazeboPlugin, ...] = ()
+    sensors: tuple[SimulatedSensor, ...] = ()
     sensor_frames: tuple[SensorFrame, ...] = ()
     malformed: Malformed | None = None
     lacks: tuple[str, ...] = ()

@@ -18,6 +18,7 @@ from preflight_analysis.robot.model import (
     Joint,
     Malformed,
     SensorFrame,
+    SimulatedSensor,
     Transmission,
 )
 
@@ -35,17 +36,8 @@ def parse_description(text: str) -> Description:
     than a file may be nothing is read."""
     if len(text) > SIZE_LIMIT:
         return _EMPTY
-    parser = etree.XMLParser(
-        encoding="utf-8",
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        remove_comments=True,
-        remove_pis=True,
-    )
     try:
-        # A declaration has to be the first thing, which launch files with a text in them do not keep.
-        root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
+        root = xml_root(text)
     except etree.XMLSyntaxError as error:
         above = text[: len(text) - len(text.lstrip())].count("\n")
         return Description("", malformed=Malformed(_words(error), (error.lineno or 1) + above))
@@ -69,11 +61,26 @@ def parse_description(text: str) -> Description:
         tuple(dict.fromkeys(filter(None, meshes))),
         tuple(map(_system, _children(root, "ros2_control"))),
         tuple(map(_transmission, _children(root, "transmission"))),
-        tuple(_plugin(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
+        tuple(plugin_of(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
+        tuple(sensor_of(sensor) for each, _ in gazebo for sensor in each.iter("sensor")),
         tuple(frame for each, _ in gazebo for sensor in each.iter("sensor") for frame in _sensor_frames(sensor)),
         lacks=lacks,
         catalogued=catalogued_of(text),
     )
+
+
+def xml_root(text: str) -> etree._Element:
+    """The element that a text is, without its comments; raises XMLSyntaxError or ValueError."""
+    parser = etree.XMLParser(
+        encoding="utf-8",
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        remove_comments=True,
+        remove_pis=True,
+    )
+    # A declaration has to be the first thing, which launch files with a text in them do not keep.
+    return etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
 
 
 def _leave_unknown(root: etree._Element) -> None:
@@ -96,6 +103,9 @@ def _words(error: etree.XMLSyntaxError) -> str:
     """The parser's words without the place, which is that in a text that nobody sees."""
     message = (error.msg or "").partition(", line ")[0]
     return message[:1].lower() + message[1:]
+
+
+_TOPIC_TAGS = ("topic", "camera_info_topic")
 
 
 def _tag(element: etree._Element) -> str:
@@ -157,12 +167,23 @@ def _transmission(element: etree._Element) -> Transmission:
     return Transmission(_get(element, "name"), joints)
 
 
-def _plugin(element: etree._Element, reference: str) -> GazeboPlugin:
+def plugin_of(element: etree._Element, reference: str = "") -> GazeboPlugin:
+    """A `<plugin>` element of Gazebo."""
     params: dict[str, str] = {}
     for each in element.iter():
         if each is not element and not len(each) and "${" not in (each.text or ""):
             params.setdefault(_tag(each), (each.text or "").strip())
     return GazeboPlugin(_get(element, "name"), _get(element, "filename"), params, reference)
+
+
+def sensor_of(element: etree._Element, within: str = "/link/*") -> SimulatedSensor:
+    """A `<sensor>` element of Gazebo."""
+    type_ = _get(element, "type")
+    # A contact sensor has its topic in an element of its own, and the first one of a camera is its own.
+    texts = {tag: text for tag in _TOPIC_TAGS if (text := _text(element, tag) or _text(element, f".//{tag}"))}
+    if type_ != "contact" and not _text(element, "topic"):
+        texts.pop("topic", None)
+    return SimulatedSensor(_get(element, "name"), type_, texts, within)
 
 
 def _sensor_frames(element: etree._Element) -> Iterator[SensorFrame]:

@@ -11,12 +11,14 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.knowledge.conversions import gazebo_types
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.gazebo_bridges import type_pairs
+from preflight_analysis.rules.gazebo_side import gazebo_of, to_gazebo
 from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import include_chain, quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _of_gazebo(rule, context)
     pairs = gazebo_types()
     every = {name for names in pairs.values() for name in names}
     for pair in type_pairs(context):
@@ -49,6 +51,32 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _of_gazebo(rule: Rule, context: Context) -> Iterator[Finding]:
+    """The types that the bridge has right, and Gazebo has another one for the topic."""
+    gazebo = context.once(gazebo_of)
+    if gazebo is None:
+        return
+    pairs = gazebo_types()
+    for bridge in to_gazebo(context):
+        prefix, _, name = bridge.gazebo.rpartition(".")
+        makers = gazebo.named(bridge.gazebo_topic, bridge.direction)
+        convertible = pairs.get(bridge.ros.replace("/msg/", "/"), ())
+        types = dict.fromkeys(each.type for each in makers)
+        if not makers or name not in convertible or name in types or "*" in types:
+            continue
+        meant = next(iter(types))
+        # Where Gazebo has several topics on one name, a plugin that is not known may have one more.
+        sure = len(types) == 1 and makers[0].is_certain
+        yield rule.finding(
+            f"the bridge expects '{bridge.gazebo}' on '{bridge.gazebo_topic}', but {makers[0].maker} has "
+            f"'{prefix}.{meant}'",
+            bridge.gazebo_place,
+            severity=None if sure else "info",
+            confidence="likely" if sure else "possible",
+            related=(*gazebo.related, *include_chain(bridge.node.origin)),
+        )
+
+
 def _meant(ros: str, known: Mapping[str, object]) -> str | None:
     """The type that the bridge knows of which this one is a slip, or that it is without `msg/`."""
     package, _, name = ros.replace("/msg/", "/").partition("/")
@@ -64,7 +92,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a ROS type and a Gazebo type in the arguments or the file of `ros_gz_bridge` that the bridge of "
     "Humble to Kilted does not convert into each other. A ROS type needs `/msg/`. A type that the bridge does not know "
-    "is information, because a build of your own may have more.",
+    "is information, because a build of your own may have more. It also checks for a type that differs from that of "
+    "the sensor or plugin in Gazebo, which the world and the robots of the launch tell.",
     why="The bridge does not create this topic: `Failed to create a bridge`. The others work, and nothing arrives on "
     "this one.",
     example="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.PointCloudPacked']",

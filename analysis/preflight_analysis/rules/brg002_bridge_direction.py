@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.ros2.bridges import is_bridge
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.gazebo_bridges import Bridge, bridges
+from preflight_analysis.rules.gazebo_side import Gazebo, gazebo_of, plain
 from preflight_analysis.rules.near_miss import not_analysed
 from preflight_analysis.rules.places import related_endpoint
 from preflight_analysis.rules.problems import include_chain, rename
@@ -62,11 +63,27 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     channels = _channels(graph)
+    gazebo = context.once(gazebo_of)
     for bridge in bridges(context):
         channel = channels.get((bridge.node.name, bridge.topic))
         if channel is None or channel.external:
             continue
         providers, consumers = _others(channel.providers, bridge), _others(channel.consumers, bridge)
+        if bridge.direction == "BIDIRECTIONAL":
+            yield from _of_clock(rule, context, bridge)
+            continue
+        of_gazebo = _of_gazebo(gazebo, bridge, bool(providers), bool(consumers)) if gazebo is not None else None
+        if of_gazebo is not None:
+            message, severity = of_gazebo
+            yield rule.finding(
+                message,
+                bridge.place,
+                severity=severity,
+                confidence="likely" if severity is None else "possible",
+                related=(*(gazebo.related if gazebo is not None else ()), *include_chain(bridge.node.origin)),
+                fixes=rename(context, bridge.place, *bridge.turned),
+            )
+            continue
         type_ = bridge.ros.replace("/msg/", "/")
         if bridge.direction == "ROS_TO_GZ" and consumers and not providers:
             way, sure, missing = "from ROS to Gazebo", type_ in _MEASURED, "publisher"
@@ -92,6 +109,40 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             ),
             fixes=rename(context, bridge.place, written, other) if sure else (),
         )
+
+
+def _of_clock(rule: Rule, context: Context, bridge: Bridge) -> Iterator[Finding]:
+    """Gazebo leaves the time to whoever publishes it already: `Run` in SimulationRunner.cc of gz-sim."""
+    if bridge.gazebo.rpartition(".")[2] == "Clock" and plain(bridge.gazebo_topic) == "/clock":
+        sign = bridge.turned[0].replace(f"{bridge.ros}@", f"{bridge.ros}[")
+        turned = "GZ_TO_ROS" if bridge.turned[0] == bridge.direction else sign
+        yield rule.finding(
+            "bridge direction: '/clock' goes both ways; Gazebo does not publish it if the bridge starts first",
+            bridge.place,
+            confidence="likely",
+            related=include_chain(bridge.node.origin),
+            fixes=rename(context, bridge.place, bridge.turned[0], turned) if turned != bridge.turned[0] else (),
+        )
+
+
+def _of_gazebo(
+    gazebo: Gazebo, bridge: Bridge, has_providers: bool, has_consumers: bool
+) -> tuple[str, Severity | None] | None:
+    """What Gazebo says against a direction: it has the other end of the topic alone. Message and severity, None for the
+    usual one."""
+    others = {"GZ_TO_ROS": "ROS_TO_GZ", "ROS_TO_GZ": "GZ_TO_ROS"}
+    makers = gazebo.named(bridge.gazebo_topic, others[bridge.direction]) if bridge.direction in others else ()
+    if not makers or gazebo.named(bridge.gazebo_topic, bridge.direction):
+        return None
+    if bridge.direction == "ROS_TO_GZ":
+        said, doubtful = "goes from ROS to Gazebo, but {} publishes it there", has_providers
+    elif has_consumers and not has_providers:
+        # What the window of Gazebo sends to its robot may be of interest in ROS, too.
+        return None
+    else:
+        said, doubtful = "goes from Gazebo to ROS, but {} subscribes to it there", not has_providers
+    said = f"bridge direction: '{bridge.gazebo_topic}' {said.format(makers[0].maker)}"
+    return said, "info" if doubtful else None
 
 
 def _named(ends: tuple[Connection, ...]) -> str:
@@ -121,7 +172,8 @@ RULE = Rule(
     "as a scan, from ROS to Gazebo, while nobody publishes it in ROS and a node subscribes to it. Or it takes a "
     "command, such as a velocity, from Gazebo to ROS, while a node publishes it and nobody subscribes to it. The "
     "finding is information for types that are neither. If nodes are not analysed, it is a warning for data of sensors "
-    "alone.",
+    "alone. A plugin or sensor in Gazebo that has the other end of the topic is evidence, too. A `/clock` that goes "
+    "both ways is a warning: Gazebo does not publish a clock that has a publisher already.",
     why="No message arrives. The bridge does not report it.",
     example="arguments=['/scan@sensor_msgs/msg/LaserScan]gz.msgs.LaserScan']",
     instead="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan']",

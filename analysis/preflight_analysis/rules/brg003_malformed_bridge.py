@@ -22,7 +22,11 @@ from preflight_analysis.rules.rule import Context, Rule
 _DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ")
 _TYPES = ("ros_type_name", "gz_type_name")
 _OF_ONE_SIDE = ("ros_topic_name", "gz_topic_name")
-_KEYS = (*_TYPES, *_OF_ONE_SIDE, "topic_name", "direction", "publisher_queue", "subscriber_queue", "lazy")
+_KEYS = (
+    *_TYPES,
+    *_OF_ONE_SIDE,
+    *("topic_name", "direction", "publisher_queue", "subscriber_queue", "lazy", "qos_profile", "frame_id"),
+)
 _OLD = "ign_"
 """How older versions begin the keys of Gazebo."""
 _WITHOUT_OLD = frozenset({"jazzy", "kilted", "lyrical", "rolling"})

@@ -46,7 +46,8 @@ class Entry:
 class Bridge:
     """One bridged topic, with its name and type in ROS and in Gazebo. `direction` is `GZ_TO_ROS`, `ROS_TO_GZ` or
     `BIDIRECTIONAL`; `place` is where that is written, `turned` what is written there and what the other direction would
-    be. `written` is where the bridge is: its argument, or the keys and values of its entry."""
+    be. `written` is where the bridge is: its argument, or the keys and values of its entry. `gazebo_place` is where
+    the name in Gazebo is written, `has_own_name` whether that is not the name in ROS, too."""
 
     node: LaunchNode
     topic: str
@@ -57,6 +58,8 @@ class Bridge:
     place: Location
     turned: tuple[str, str]
     written: tuple[Location, ...]
+    gazebo_place: Location
+    has_own_name: bool = False
 
 
 _GAZEBO_NAMES = ("gz_topic_name", "ign_topic_name")
@@ -74,16 +77,19 @@ def bridges(context: Context) -> Iterator[Bridge]:
                 other = given.word.replace(f"{given.ros}{sign}", f"{given.ros}{_OTHER.get(sign, sign)}")
                 place = argument_location(context, node, given.word)
                 turned, names = (given.word, other), (given.topic, given.ros, given.topic, given.gazebo)
-                yield Bridge(node, *names, _DIRECTIONS[sign], place, turned, (_within(context, place, given.word),))
+                yield Bridge(
+                    node, *names, _DIRECTIONS[sign], place, turned, (_within(context, place, given.word),), place
+                )
     for entry in context.once(entries):
         topic, ros = entry.ros_topic, entry.values.get("ros_type_name")
         direction, place = entry.values.get("direction", ("BIDIRECTIONAL", entry.place))
         if topic is not None and ros is not None:
-            in_gazebo = next((entry.values[key][0] for key in _GAZEBO_NAMES if key in entry.values), topic[0])
+            in_gazebo = next((entry.values[key] for key in _GAZEBO_NAMES if key in entry.values), topic)
             gazebo = next((entry.values[key][0] for key in _GAZEBO_TYPES if key in entry.values), "")
             turned = (direction, _OTHER.get(direction, direction))
             written = (*entry.keys.values(), *(at for _, at in entry.values.values()))
-            yield Bridge(entry.node, topic[0], ros[0], in_gazebo, gazebo, direction, place, turned, written)
+            names, has_own = (topic[0], ros[0], in_gazebo[0], gazebo), in_gazebo[1] is not topic[1]
+            yield Bridge(entry.node, *names, direction, place, turned, written, in_gazebo[1], has_own)
 
 
 def _within(context: Context, place: Location, word: str) -> Location:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import tempfile
 import threading
 from collections import Counter
@@ -18,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from preflight_analysis.catalogue.launches import LAUNCHES, CataloguedFile, path_of
+from preflight_analysis.catalogue.launches import LAUNCHES, SUFFIX, CataloguedFile, path_of
 from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, PYTHON_SUFFIX
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex, Span
@@ -50,6 +49,9 @@ _MARKED = re.compile(r"the (share folder of|variable) ([\w-]+)\Z")
 _MEANT = {"share folder of": "find-pkg-share", "variable": "env"}
 _OF_NAV2 = frozenset({"RewrittenYaml", "ReplaceString", "HasNodeParams", "LaunchConfigAsBool"})
 """Substitutions of `nav2_common`: they ask for no configuration that the file does not name."""
+BY_HAND = frozenset({"ros_gz_sim/launch/gz_sim.launch.py", "ros_ign_gazebo/launch/ign_gazebo.launch.py"})
+"""Files that this does not write: a template that CMake fills in, whose function starts a process, and what includes
+it."""
 _WHERE = re.compile(r"\$\(dirname\)")
 
 
@@ -60,13 +62,19 @@ def write_launches(sources: Path, only: Collection[str]) -> None:
             laid = lay_out(sources, distro, Path(folder), only)
             for package in (LAUNCHES / distro).glob("*"):
                 if laid.has(_repository_of(package)):
-                    shutil.rmtree(package)
+                    _remove(package)
             count, left_out = 0, Counter[str]()
             for name in sorted(laid.sources):
                 maker = _Maker(laid, name, generation, Path(folder) / "cache")
                 count += sum(_write(laid, file, rows) for file, rows in maker.all())
                 left_out += maker.left_out
             print(f"{distro}: {count} launch files; left out: {dict(left_out)}", flush=True)
+
+
+def _remove(package: Path) -> None:
+    for path in package.rglob(f"*{SUFFIX}"):
+        if path.relative_to(package.parent).as_posix().removesuffix(SUFFIX) not in BY_HAND:
+            path.unlink()
 
 
 def _repository_of(package: Path) -> str:
