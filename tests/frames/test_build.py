@@ -40,6 +40,12 @@ def test_a_robot_description() -> None:
     assert {edge.by for edge in frames.edges} == {"/rsp (joint turn)", "/rsp (joint hold)"}
 
 
+def test_links_with_a_slash() -> None:
+    """As in an old URDF of cartographer_ros: who hears of it takes the slash off."""
+    frames = _frames(_publisher().replace("lidar", "/lidar"))
+    assert frames.names("") == {"base", "wheel", "lidar"}
+
+
 def test_a_prefix_is_put_before_it_as_it_is() -> None:
     frames = _frames(_publisher('<param name="frame_prefix" value="one/"/>'))
     assert frames.names("") == {"one/base", "one/wheel", "one/lidar"}

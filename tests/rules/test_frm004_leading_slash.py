@@ -24,6 +24,17 @@ def test_what_is_taken() -> None:
 
 
 @pytest.mark.silent
+def test_a_component_that_broadcasts_it() -> None:
+    """As in moveit_servo."""
+    params = '<param name="frame_id" value="/odom"/><param name="child_frame_id" value="/base"/>'
+    plugin = f'<composable_node pkg="tf2_ros" plugin="tf2_ros::StaticTransformBroadcasterNode" name="s">{params}'
+    container = '<node_container pkg="rclcpp_components" exec="component_container" name="c">'
+    packages = "\n//- /rclcpp_components/package.xml\n<package><name>rclcpp_components</name></package>"
+    found = findings_of(fixture(f"{container}{plugin}</composable_node></node_container>", {}, packages))
+    assert not [each for each in found if each.rule == "FRM004"]
+
+
+@pytest.mark.silent
 def test_ros_1_takes_it_off() -> None:
     node = """<node pkg="robot_localization" type="ekf_localization_node" name="ekf">
       <param name="base_link_frame" value="/base"/></node>"""

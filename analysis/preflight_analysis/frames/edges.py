@@ -155,8 +155,8 @@ def edges_of_robot(
     links = frozenset(robot.description.links)
     return tuple(
         Edge(
-            prefix + joint.parent,
-            prefix + joint.child,
+            plain(prefix + joint.parent),
+            plain(prefix + joint.child),
             joint.type == "fixed",
             "urdf",
             publisher,

@@ -68,7 +68,8 @@ def _severity_of_costmaps(context: Context) -> Severity:
 def _of_mentions(rule: Rule, context: Context) -> Iterator[Finding]:
     for mention in frames_of(context).mentions:
         written = str(mention.param.value)
-        if written.startswith("/"):
+        # Who broadcasts it takes it off.
+        if written.startswith("/") and mention.node.package != "tf2_ros":
             place = place_of_mention(context, mention)
             yield rule.finding(
                 f"frame '{written}' begins with '/', which tf2 refuses: {mention.node.name} gets it as "
