@@ -156,3 +156,17 @@ def test_a_tree_that_a_node_of_the_workspace_loads(tmp_path: Path) -> None:
 )
 def test_what_only_that_node_knows(tmp_path: Path, tree: str) -> None:
     assert not _of_runner(tmp_path, tree)
+
+
+_SERVER = """<launch><node pkg="robot" exec="tree_server" name="bt_action_server">
+<param name="behavior_trees" value="robot/trees,robot/nowhere,elsewhere/trees" value-sep=","/></node></launch>"""
+
+
+def test_the_folders_of_a_tree_execution_server(tmp_path: Path) -> None:
+    tree = '<root><BehaviorTree ID="A"><OpenDoor angel="1"/></BehaviorTree></root>'
+    files = {"trees/a.xml": tree, "trees/b.xml": tree, "src/nodes.cpp": _SOURCE, "trees/below/c.xml": tree}
+    context = package_elsewhere.analysed(tmp_path, _SERVER, "a.launch.xml", **files).context
+    missing, *found = [each for each in run_rules(context) if each.rule.startswith("BTR")]
+    assert missing.message.startswith("folder 'robot/nowhere' in 'behavior_trees' of /bt_action_server does not exist")
+    assert [Path(each.location.file).name for each in found] == ["a.xml", "b.xml"]
+    assert found[0].related[0].message == "/bt_action_server loads the file by 'behavior_trees'"

@@ -32,6 +32,22 @@ def test_one_that_no_file_has() -> None:
     """)  # noqa: E501
 
 
+def test_what_moveit_is_told_of_controllers_is_none_of_the_managers() -> None:
+    """As in KarolineH/gen3_6dof_vision_moveit_config."""
+    (found,) = findings_of(f"""
+        //- /robot.launch.xml
+        <launch>
+          {_MANAGER}
+          <node pkg="controller_manager" exec="spawner" name="s" args="streaming_controller"/>
+        </launch>
+        {_FILES}
+            moveit_simple_controller_manager:
+              arm_controller:
+                type: FollowJointTrajectory
+    """)
+    assert found.message.endswith("it has types for 'twist_controller' and 'joint_state_broadcaster'")
+
+
 def test_a_manager_that_the_launch_does_not_name() -> None:
     check(f"""
         //- /robot.launch.xml

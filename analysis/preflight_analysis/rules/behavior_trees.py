@@ -25,6 +25,9 @@ from preflight_analysis.trees.read import Included, TreeFile, Used, read_trees
 _NAMES_TREE = re.compile(r"(?:\A|[._])bt_xml(?:_filename)?\Z")
 LIBRARIES = "plugin_lib_names"
 """The parameter of bt_navigator that lists libraries of nodes."""
+FOLDERS = "behavior_trees"
+"""The parameter of BehaviorTree.ROS2's TreeExecutionServer that lists folders of trees: `GetDirectoryPath` and
+`LoadBehaviorTrees` in behaviortree_ros2/src/bt_utils.cpp of BehaviorTree/BehaviorTree.ROS2."""
 _SUFFIX = ".xml"
 _MOST = 50
 """Files of one tree, each counted as often as it is included."""
@@ -102,8 +105,8 @@ def trees_of(context: Context) -> tuple[Loaded, ...]:
         navigates = is_navigator(node)
         if not navigates and (package is None or not package.is_within(workspace)):
             continue
-        for param in _naming(node, any_name=not navigates):
-            path = here(context, str(param.value))
+        named = [(param, here(context, str(param.value))) for param in _naming(node, any_name=not navigates)]
+        for param, path in (*named, *_in_folders(context, node)):
             document = context.disk.text(path)
             if (node.name, path) in found or not isinstance(document, Document):
                 continue
@@ -115,6 +118,25 @@ def trees_of(context: Context) -> tuple[Loaded, ...]:
                 libraries, knows_all = libraries_of(node), _knows_libraries(node)
                 found[node.name, path] = Loaded(node, navigates, param, parts, missing, whole, libraries, knows_all)
     return tuple(found.values())
+
+
+def _in_folders(context: Context, node: LaunchNode) -> Iterator[tuple[Param, str]]:
+    """The files of the folders `package/folder` that `behavior_trees` lists: what TreeExecutionServer registers."""
+    for param in node.params if not is_navigator(node) else ():
+        for listed in param.value if param.name == FOLDERS and isinstance(param.value, list) else ():
+            folder = folder_of(context, listed)
+            for name in sorted(context.disk.names(folder)) if folder is not None else ():
+                if name.endswith(_SUFFIX):
+                    yield param, f"{folder}/{name}"
+
+
+def folder_of(context: Context, listed: object) -> str | None:
+    """The folder that an item of `behavior_trees` names; None where it names no package of the workspace."""
+    name, _, below = listed.partition("/") if isinstance(listed, str) else ("", "", "")
+    package = context.environment.packages.get(name)
+    if package is None or not below or not package.is_within(context.environment.workspace):
+        return None
+    return located(context.disk, context.environment, os.path.normpath(os.path.join(package.share, below)))
 
 
 def has_only_nodes_of_nav(context: Context, loaded: Loaded) -> bool:

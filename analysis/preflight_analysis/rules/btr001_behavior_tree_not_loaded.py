@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.finding import Confidence, Finding
-from preflight_analysis.rules.behavior_trees import Loaded, trees_of
+from preflight_analysis.rules.behavior_trees import FOLDERS, Loaded, folder_of, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import rename
+from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS
 
@@ -18,6 +19,7 @@ _WITH_FOLDERS = frozenset({"lyrical", "rolling"})
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _of_folders(rule, context)
     seen = set[tuple[str, int]]()
     for loaded in context.once(trees_of):
         for path, message, span, fix in _wrong(context, loaded):
@@ -32,6 +34,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=loaded.related,
                 fixes=rename(context, place, *fix) if fix is not None else (),
             )
+
+
+def _of_folders(rule: Rule, context: Context) -> Iterator[Finding]:
+    """Folders of trees that are not there."""
+    for node, param in ((each, param) for each in context.tree.nodes for param in each.params):
+        for listed in param.value if param.name == FOLDERS and isinstance(param.value, list) else ():
+            folder = folder_of(context, listed)
+            if folder is None or context.disk.is_folder(folder):
+                continue
+            place = value_place(param.place, str(listed), context.documents.get(param.place.file)) or param.place
+            message = f"folder '{listed}' in '{FOLDERS}' of {node.name} does not exist, so no tree is loaded from it"
+            yield rule.finding(message, place, confidence="likely", related=include_chain(node.origin))
 
 
 _Wrong = tuple[str, str, Span, tuple[str, str] | None]
@@ -73,7 +87,8 @@ RULE = Rule(
     what="Checks for a behavior tree that cannot be loaded. Tags do not match, `<root>` has no main tree, `<SubTree>` "
     "names a tree that neither the file nor those that it includes have, or an included file does not exist. The file "
     "is the value of `default_nav_to_pose_bt_xml` or a similar parameter of bt_navigator. Of the trees that nodes of "
-    "the workspace load, tags and included files are checked.",
+    "the workspace load, tags and included files are checked, and that the folders in `behavior_trees` of a "
+    "`TreeExecutionServer` exist.",
     why="bt_navigator rejects the goal or does not become active.",
     example='<root BTCPP_format="4" main_tree_to_execute="Main">\n'
     '  <BehaviorTree ID="MainTree">\n    <SubTree ID="Recovery"/>\n  </BehaviorTree>\n</root>',

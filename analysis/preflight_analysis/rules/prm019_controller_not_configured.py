@@ -74,7 +74,9 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         manager = managers[each.manager]
         if manager is None:
             continue
-        known = [param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type")]
+        # A controller is a node, whose name has no dot; what MoveIt is told of controllers has one.
+        typed = (param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type"))
+        known = [name for name in typed if "." not in name]
         for controller in each.controllers if known else ():
             if controller not in known:
                 files = [source.origin[-1] for source in manager.param_sources if source.path is not None]
