@@ -7,10 +7,10 @@ from support.controlled_robot import launch, spawner
 _BASE = """
     controller_manager:
       ros__parameters:
-        base: {type: diff_drive_controller/DiffDriveController}
+        base: {type: velocity_controllers/JointGroupVelocityController}
     base:
       ros__parameters:
-        left_wheel_names: [left_wheel]
+        joints: [left_wheel]
 """
 _ARM = """
     controller_manager:
@@ -26,8 +26,8 @@ _ARM = """
 
 def test_a_command_interface() -> None:
     expected = (
-        "                           ^^^^^^^^^^ error[CTL002] joint 'left_wheel' has no command interface 'velocity', "
-        "which 'base' (diff_drive_controller/DiffDriveController) claims; it has 'position'"
+        "                 ^^^^^^^^^^ error[CTL002] joint 'left_wheel' has no command interface 'velocity', "
+        "which 'base' (velocity_controllers/JointGroupVelocityController) claims; it has 'position'"
     )
     check(launch(spawner("base"), params=f"{_BASE}{expected}", interface="position"))
 

@@ -39,7 +39,9 @@ def test_two_spawners_of_one_controller() -> None:
 
 @pytest.mark.silent
 def test_other_joints() -> None:
-    check(launch(spawner("base wheels"), params=_PARAMS.replace("right_wheel_names: [right_wheel]", "")))
+    lists = "left_wheel_names: [left_wheel]\n        right_wheel_names: [right_wheel]"
+    params = _PARAMS.replace("diff_drive_controller/DiffDrive", "velocity_controllers/JointGroupVelocity")
+    check(launch(spawner("base wheels"), params=params.replace(lists, "joints: [left_wheel]")))
 
 
 def test_a_launch_that_is_not_known_in_full_is_information() -> None:
@@ -47,3 +49,21 @@ def test_a_launch_that_is_not_known_in_full_is_information() -> None:
     spawners = (spawner("base", "a"), spawner("wheels", "b"))
     found = findings_of(launch(*spawners, unknown, params=_PARAMS))
     assert [each.severity for each in found if each.rule == "CTL003"] == ["info"]
+
+
+@pytest.mark.parametrize(("right", "twice"), [("rear_left", True), ("rear_right", False)])
+def test_a_joint_on_both_sides(right: str, twice: bool) -> None:
+    """https://github.com/warthog-cpr/warthog, before 27863465"""
+    found = findings_of(
+        f"""
+        <launch>
+          <rosparam ns="base">
+            left_wheel: [front_left, rear_left]
+            right_wheel: [front_right, {right}]
+          </rosparam>
+        </launch>
+        """
+    )
+    assert [each.message for each in found if each.rule == "CTL003"] == (
+        ["joint 'rear_left' is in 'left_wheel' and in 'right_wheel' of controller '/base'"] if twice else []
+    )

@@ -11,6 +11,7 @@ _PARAMS = """
         left_pid: {type: pid_controller/PidController}
     base:
       ros__parameters:
+        right_wheel_names: [right_wheel]
         left_wheel_names: [left_pd/left_wheel]
 """
 

@@ -151,15 +151,17 @@ _ROS1 = """
         ("elbowf_controller", "", "did you mean 'elbow_controller'?"),
         ("wrist", "", "parameter '/arm/wrist/type' is not set"),
         ("elbowf_controller", '<include file="$(find elsewhere)/a.launch"/>', "did you mean 'elbow_controller'?"),
-        ("wrist", '<include file="$(find elsewhere)/a.launch"/>', None),
+        ("wrist", '<include file="$(find elsewhere)/a.launch"/>', "info: parameter '/arm/wrist/type' is not set"),
         ("elbow_controller", "", None),
-        ("--namespace /other wrist", "", None),
+        ("--namespace /arm wrist", "", "parameter '/arm/wrist/type' is not set"),
+        ("--namespace /other wrist", "", "did you mean '/arm/gripper/type'?"),
     ],
 )
 def test_a_controller_of_ros_1(args: str, more: str, said: str | None) -> None:
     told = [each for each in findings_of(_ROS1 % (args, more)) if each.rule == "PRM019"]
-    assert [each.severity for each in told] == (["warning"] if said else [])
-    assert all(said is not None and said in each.message for each in told)
+    severity, _, message = (said or "").rpartition(": ")
+    assert [each.severity for each in told] == ([severity or "warning"] if said else [])
+    assert all(message in each.message for each in told)
 
 
 @pytest.mark.parametrize(("file", "severity"), [("$(arg robot)", "info"), ("arm6", "warning")])

@@ -70,3 +70,16 @@ def test_one_that_xacro_did_not_process_is_told_once(text: str) -> None:
     (found,) = check(fixture)
     said = apply(fixture, found.fixes[0].edits)["/main.launch"]
     assert """name="robot_description" command="xacro '/p/arm.xacro'"/>""" in said
+
+
+def test_a_semantic_description() -> None:
+    """https://github.com/robofeiathome/hera_moveit_config, before 9904221f"""
+    found = findings_of("""
+        <launch><param name="robot_description_semantic" textfile="/p/arm.srdf"/></launch>
+        //- /p/arm.srdf
+        <robot name="arm">
+          <group_state name="up" group="arm">
+        </robot>
+    """)
+    assert [(each.rule, each.severity) for each in found] == [("URD001", "error")]
+    assert found[0].message.startswith("parameter '/robot_description_semantic' is not well-formed XML: ")

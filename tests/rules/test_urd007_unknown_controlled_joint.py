@@ -7,10 +7,11 @@ from preflight_analysis.rules.registry import run_rules
 from support.check import analyse, apply, check, findings_of, read_fixture
 from support.robot_launch import of_urdf, robot
 
+_HARDWARE = "<hardware><plugin>mock_components/GenericSystem</plugin></hardware>"
 _URDF = """<link name="a"/><link name="b"/>
 <joint name="shoulder_joint" type="continuous"><parent link="a"/><child link="b"/></joint>
-<ros2_control name="hw" type="system"><joint name="{}"><command_interface name="position"/></joint></ros2_control>
-<transmission name="t"><joint name="{}"/></transmission>""".replace("\n", "")
+<ros2_control name="hw" type="system">HW<joint name="{}"><command_interface name="position"/></joint></ros2_control>
+<transmission name="t"><joint name="{}"/></transmission>""".replace("\n", "").replace("HW", _HARDWARE)
 
 
 def test_a_slip() -> None:

@@ -8,7 +8,8 @@ _URDF = (
     "<robot name='r'><link name='base'/><link name='left'/><link name='right'/>"
     "<joint name='left_wheel' type='continuous'><parent link='base'/><child link='left'/></joint>"
     "<joint name='right_wheel' type='continuous'><parent link='base'/><child link='right'/></joint>"
-    "<ros2_control name='wheels' type='system'>{}{}</ros2_control></robot>"
+    "<ros2_control name='wheels' type='system'><hardware><plugin>mock_components/GenericSystem</plugin></hardware>"
+    "{}{}</ros2_control></robot>"
 )
 _JOINT = "<joint name='{}_wheel'><command_interface name='{}'/><state_interface name='velocity'/></joint>"
 _PACKAGES = """//- /controller_manager/package.xml

@@ -33,11 +33,22 @@ class ControlJoint:
     name: str
     commands: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
+    mimic: str = ""
+    """Its attribute `mimic`, which says whether it follows the joint that the robot's own one follows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Transmission:
+    """A `<transmission>` element, of ros_control or within `<ros2_control>`."""
+
+    name: str
+    joints: tuple[ControlJoint, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class ControlSystem:
-    """A `<ros2_control>` element. `sensors` and `gpios` have their interfaces as joints do."""
+    """A `<ros2_control>` element. `sensors` and `gpios` have their interfaces as joints do; `unknown` are the tags of
+    elements that it may not have, `around` is the tag of the element that it is in."""
 
     name: str
     type: str
@@ -45,14 +56,9 @@ class ControlSystem:
     joints: tuple[ControlJoint, ...]
     sensors: tuple[ControlJoint, ...] = ()
     gpios: tuple[ControlJoint, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Transmission:
-    """A `<transmission>` element of ros_control."""
-
-    name: str
-    joints: tuple[ControlJoint, ...]
+    transmissions: tuple[Transmission, ...] = ()
+    unknown: tuple[str, ...] = ()
+    around: str = "robot"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +70,16 @@ class GazeboPlugin:
     filename: str
     params: Mapping[str, str]
     reference: str = ""
+    joints: tuple[tuple[str, str], ...] = ()
+    """The tags of its elements that name joints, each with the joint."""
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboReference:
+    """A `<gazebo reference="...">`: what it is about, and whether it adds a sensor or plugin to that."""
+
+    name: str
+    adds: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,9 +143,12 @@ class Description:
     meshes: tuple[str, ...] = ()
     """Each file once, as written."""
     systems: tuple[ControlSystem, ...] = ()
+    misplaced: tuple[ControlSystem, ...] = ()
+    """`<ros2_control>` elements that are not below the root, which nobody reads."""
     transmissions: tuple[Transmission, ...] = ()
     plugins: tuple[GazeboPlugin, ...] = ()
     sensors: tuple[SimulatedSensor, ...] = ()
+    references: tuple[GazeboReference, ...] = ()
     sensor_frames: tuple[SensorFrame, ...] = ()
     malformed: Malformed | None = None
     lacks: tuple[str, ...] = ()

@@ -15,6 +15,7 @@ from preflight_analysis.robot.model import (
     ControlSystem,
     Description,
     GazeboPlugin,
+    GazeboReference,
     Joint,
     Malformed,
     SensorFrame,
@@ -26,6 +27,11 @@ _KEPT = 32
 _XACRO = re.compile(r"\{http[^{}]*xacro/?\}")
 """The namespaces that xacro has had, as lxml writes them before a tag (`xacro.XACRO_NS` of ROS 1 and ROS 2)."""
 _EMPTY = Description("")
+_OF_ROS2_CONTROL = ("hardware", "properties", "joint", "sensor", "gpio", "transmission")
+"""What may be in a `<ros2_control>` element (`parse_resource_from_xml` of ros2_control)."""
+_JOINT_TAG = re.compile(r"(?:joint|joint_?name)$", re.IGNORECASE)
+"""Elements of plugins that name a joint: `leftJoint`, `front_left_joint`, `joint_name`."""
+_NAME = re.compile(r"[A-Za-z_][\w./-]*")
 _FRAME_TAGS = ("gz_frame_id", "ignition_frame_id", "frameName", "frame_name")
 """What has the frame of a simulated sensor: in the sensor (Gazebo), or in its plugin (Gazebo Classic)."""
 
@@ -60,9 +66,15 @@ def parse_description(text: str) -> Description:
         joints,
         tuple(dict.fromkeys(filter(None, meshes))),
         tuple(map(_system, _children(root, "ros2_control"))),
+        tuple(_system(each) for each in root.iter("ros2_control") if each.getparent() is not root),
         tuple(map(_transmission, _children(root, "transmission"))),
         tuple(plugin_of(plugin, about) for each, about in gazebo for plugin in each.iter("plugin")),
         tuple(sensor_of(sensor) for each, _ in gazebo for sensor in each.iter("sensor")),
+        tuple(
+            GazeboReference(about, any(each.find(tag) is not None for tag in ("sensor", "plugin")))
+            for each, about in gazebo
+            if about
+        ),
         tuple(frame for each, _ in gazebo for sensor in each.iter("sensor") for frame in _sensor_frames(sensor)),
         lacks=lacks,
         catalogued=catalogued_of(text),
@@ -141,11 +153,18 @@ def _joint(element: etree._Element) -> Joint:
 
 
 def _system(element: etree._Element) -> ControlSystem:
+    joints, sensors, gpios = (tuple(map(_controlled, _children(element, tag))) for tag in ("joint", "sensor", "gpio"))
+    above = element.getparent()
     return ControlSystem(
         _get(element, "name"),
         _get(element, "type"),
         _text(element, "hardware/plugin"),
-        *(tuple(map(_controlled, _children(element, tag))) for tag in ("joint", "sensor", "gpio")),
+        joints,
+        sensors,
+        gpios,
+        tuple(map(_transmission, _children(element, "transmission"))),
+        tuple(dict.fromkeys(tag for each in element if (tag := _tag(each)) not in _OF_ROS2_CONTROL)),
+        _tag(above) if above is not None else "",
     )
 
 
@@ -153,7 +172,7 @@ def _controlled(element: etree._Element) -> ControlJoint:
     commands, states = (
         tuple(_get(each, "name") for each in _children(element, f"{kind}_interface")) for kind in ("command", "state")
     )
-    return ControlJoint(_get(element, "name"), commands, states)
+    return ControlJoint(_get(element, "name"), commands, states, _get(element, "mimic"))
 
 
 def _transmission(element: etree._Element) -> Transmission:
@@ -170,10 +189,14 @@ def _transmission(element: etree._Element) -> Transmission:
 def plugin_of(element: etree._Element, reference: str = "") -> GazeboPlugin:
     """A `<plugin>` element of Gazebo."""
     params: dict[str, str] = {}
+    joints: list[tuple[str, str]] = []
     for each in element.iter():
         if each is not element and not len(each) and "${" not in (each.text or ""):
-            params.setdefault(_tag(each), (each.text or "").strip())
-    return GazeboPlugin(_get(element, "name"), _get(element, "filename"), params, reference)
+            tag, text = _tag(each), (each.text or "").strip()
+            params.setdefault(tag, text)
+            if _JOINT_TAG.search(tag) and _NAME.fullmatch(text):
+                joints.append((tag, text))
+    return GazeboPlugin(_get(element, "name"), _get(element, "filename"), params, reference, tuple(joints))
 
 
 def sensor_of(element: etree._Element, within: str = "/link/*") -> SimulatedSensor:

@@ -12,6 +12,8 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element
 from preflight_analysis.documents.reading import SIZE_LIMIT
 from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.robot.model import Malformed
+from preflight_analysis.robot.parse import parse_description
 
 _KEPT = 32
 _LINKS = {
@@ -57,13 +59,14 @@ class Named:
 @dataclass(frozen=True, slots=True)
 class Semantic:
     """A semantic description: what it defines, and what it names of the robot. `groups` are the names of groups,
-    `virtual_joints` joints that only MoveIt knows."""
+    `virtual_joints` joints that only MoveIt knows. Of one that is `malformed` nothing else is known."""
 
     groups: tuple[str, ...] = ()
     virtual_joints: tuple[str, ...] = ()
     links: tuple[Named, ...] = ()
     joints: tuple[Named, ...] = ()
     group_names: tuple[Named, ...] = ()
+    malformed: Malformed | None = None
 
 
 @lru_cache(maxsize=_KEPT)
@@ -71,6 +74,9 @@ def parse_semantic(text: str) -> Semantic | None:
     """What a description says; None where it is none. Never raises."""
     if len(text) > SIZE_LIMIT or "<robot" not in text:
         return None
+    malformed = parse_description(text).malformed
+    if malformed is not None:
+        return Semantic(malformed=malformed)
     root = _root(parse_xml("", text))
     if root is None:
         return None

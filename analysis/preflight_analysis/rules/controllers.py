@@ -22,12 +22,18 @@ from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.evaluation.words import words_of
 from preflight_analysis.findings.finding import Confidence, Severity
 from preflight_analysis.robot.model import Description
-from preflight_analysis.robot.of_launch import robots_of, unread_of
+from preflight_analysis.robot.of_launch import Robot, robots_of, unread_of
+from preflight_analysis.rules.robots import robots
 from preflight_analysis.rules.rule import Context
 
 _TYPE = ".type"
 _NOT_STARTED = frozenset({"--inactive", "--stopped", "--load-only"})
 _UNLOADS = "unspawner"
+SPAWN_ROS1 = ("gazebo_ros", "spawn_model")
+"""What puts a robot description into Gazebo in ROS 1: package and executable."""
+GAZEBO_PLUGIN_ROS1 = "gazebo_ros_control"
+"""The plugin of Gazebo that has a controller manager of ROS 1, in the name of its library."""
+_DEFAULT = "DefaultRobotHWSim"
 _JOINTS = ("joint", "joints", "left_wheel", "right_wheel")
 _EXTRA = "extra_joints"
 
@@ -103,6 +109,20 @@ def joints_of_ros1(tree: LaunchTree, controller: str) -> Iterator[NamedJoint]:
             yield NamedJoint(each["name"], extra, is_extra=True)
 
 
+def simulated_of_ros1(context: Context) -> Robot | None:
+    """The only robot that a launch of ROS 1 puts into Gazebo, if the plugin there makes the hardware of its
+    transmissions: it has no other joints then."""
+    if not any((node.package, node.executable) == SPAWN_ROS1 for node in context.tree.nodes) or unread_of(context.tree):
+        return None
+    found = [robot for robot in robots(context) if _has_default_hardware(robot.description)]
+    return found[0] if len(found) == 1 else None
+
+
+def _has_default_hardware(description: Description) -> bool:
+    plugins = [each for each in description.plugins if GAZEBO_PLUGIN_ROS1 in each.filename]
+    return len(plugins) == 1 and plugins[0].params.get("robotSimType", _DEFAULT).endswith(_DEFAULT)
+
+
 def robot_of(context: Context, controller: Controller) -> Description | None:
     """The description that the manager of a controller gets."""
     return robot_of_manager(context, controller.manager, controller.given_to)
@@ -112,13 +132,13 @@ def robot_of_manager(context: Context, manager: str, given_to: str) -> Descripti
     """The description that a manager gets, whose node has the name `given_to` in the launch file, or which has the
     manager in a simulator; else the one that is published in its namespace. None where that is not one, or one of the
     launch is not known."""
-    robots = [robot for robot in robots_of(context.tree) if robot.description.is_whole]
-    found = [robot for robot in robots if any(node.name == given_to for node in robot.nodes)]
+    there = [robot for robot in robots_of(context.tree) if robot.description.is_whole]
+    found = [robot for robot in there if any(node.name == given_to for node in robot.nodes)]
     if not found:
-        found = [robot for robot in robots if manager in map(manager_name, plugins_in(robot.text))]
+        found = [robot for robot in there if manager in map(manager_name, plugins_in(robot.text))]
     if not found and not unread_of(context.tree):
         space = names.parent(manager)
-        found = [robot for robot in robots if any(node.namespace == space for node in robot.nodes)]
+        found = [robot for robot in there if any(node.namespace == space for node in robot.nodes)]
     return found[0].description if len(found) == 1 else None
 
 

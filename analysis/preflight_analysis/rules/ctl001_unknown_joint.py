@@ -12,7 +12,14 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related, Severity
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import unread_of
-from preflight_analysis.rules.controllers import Controller, controllers_of, joints_of_ros1, place_of, robot_of
+from preflight_analysis.rules.controllers import (
+    Controller,
+    controllers_of,
+    joints_of_ros1,
+    place_of,
+    robot_of,
+    simulated_of_ros1,
+)
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.problems import rename
@@ -32,15 +39,25 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
     if len(found) != 1 or unread_of(context.tree):
         return
     joints = frozenset(joint.name for joint in found[0].description.joints)
+    is_simulated = simulated_of_ros1(context) is not None
     for node in context.tree.nodes:
         for controller in loaded_by(node):
             type_ = context.tree.params.get(f"{controller}/type")
             if type_ is not None and isinstance(type_.value, str):
-                yield from _of_controller_of_ros1(rule, context, controller, type_.value, joints, node)
+                yield from _of_controller_of_ros1(
+                    rule, context, controller, type_.value, joints, node, is_simulated=is_simulated
+                )
 
 
 def _of_controller_of_ros1(
-    rule: Rule, context: Context, controller: str, type_: str, joints: frozenset[str], spawner: LaunchNode
+    rule: Rule,
+    context: Context,
+    controller: str,
+    type_: str,
+    joints: frozenset[str],
+    spawner: LaunchNode,
+    *,
+    is_simulated: bool,
 ) -> Iterator[Finding]:
     named = list(joints_of_ros1(context.tree, controller))
     beside = frozenset(each.joint for each in named)
@@ -49,7 +66,7 @@ def _of_controller_of_ros1(
             continue
         place, near = place_of(context, each.param, each.joint), nearest(each.joint, joints - beside)
         is_typo = near is not None and is_slip(each.joint, near)
-        of_robot = is_typo or not joints.isdisjoint(beside)
+        of_robot = is_typo or not joints.isdisjoint(beside) or (is_simulated and not each.is_extra)
         severity: Severity = "info" if not of_robot else "error" if is_typo and not each.is_extra else "warning"
         yield rule.finding(
             f"joint '{each.joint}' does not exist: '{controller}' ({type_}) uses it{did_you_mean(near)}",
@@ -102,7 +119,8 @@ RULE = Rule(
     "of another controller and is not checked here. If the robot has none of the joints of the controller and none "
     "of a similar name, it is another variant of the robot, and the finding is information. In ROS 1 the rule checks "
     "`joint`, `joints`, `left_wheel`, `right_wheel` and `extra_joints` of controllers that `controller_manager` loads. "
-    "A joint without a similar name is a warning there, as the hardware may have joints of its own. If the robot "
+    "A joint without a similar name is a warning there, as the hardware may have joints of its own. If the launch "
+    "spawns the robot in Gazebo, this includes controllers of which the robot has no joint. If the robot "
     "description is unknown, only a name is reported that no other file has, and of which one in several files is a "
     "typo away, in `joint` and `joints` of YAML files of the package.",
     why="The controller cannot be configured or activated, because no hardware has interfaces of that joint. The robot "

@@ -1,19 +1,54 @@
-"""CTL003: two controllers that are activated claim one command interface.
+"""CTL003: two controllers that are activated claim one command interface, or one has a joint twice.
 
 https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
+from preflight_analysis.evaluation.meanings import items_of
+from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.controllers import Claim, Controller, controllers_of
+from preflight_analysis.rules.controllers import Claim, Controller, controllers_of, place_of
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.rule import Context, Rule
 
+_SIDES = (("left_wheel", "right_wheel"), ("left_wheel_names", "right_wheel_names"))
+"""Parameters of drive controllers that list joints, in ROS 1 and in ROS 2."""
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    if context.tree.ros.ament:
+        yield from _of_several(rule, context)
+        for each in context.once(controllers_of):
+            yield from _of_both_sides(rule, context, each.name, {param.name: param for param in each.params})
+        return
+    params = context.tree.params
+    for name in params:
+        controller, _, leaf = name.rpartition("/")
+        if leaf == _SIDES[0][0]:
+            own = {side: params[f"{controller}/{side}"] for side in _SIDES[0] if f"{controller}/{side}" in params}
+            yield from _of_both_sides(rule, context, controller, own)
+
+
+def _of_both_sides(rule: Rule, context: Context, controller: str, params: Mapping[str, Param]) -> Iterator[Finding]:
+    """Joints of a drive controller that are on the left and on the right."""
+    for left, right in _SIDES:
+        if left not in params or right not in params:
+            continue
+        others = items_of(params[right].value)
+        for joint in items_of(params[left].value):
+            if joint in others:
+                yield rule.finding(
+                    f"joint '{joint}' is in '{left}' and in '{right}' of controller '{controller}'",
+                    place_of(context, params[left], joint),
+                    confidence="certain",
+                    related=[Related(f"'{right}'", params[right].place)],
+                )
+
+
+def _of_several(rule: Rule, context: Context) -> Iterator[Finding]:
     owners: dict[tuple[str, str], Controller] = {}
     # One of the spawners may be left out by a condition that is not known.
     tree = context.tree
@@ -52,7 +87,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for two controllers that spawners of the launch activate in one controller manager and that claim the "
     "same command interface of a joint. A controller that is spawned with `--inactive` claims nothing, and there is no "
-    "finding where the launch also starts an unspawner. If a condition of the launch is not known, it is information.",
+    "finding where the launch also starts an unspawner. If a condition of the launch is not known, it is information. "
+    "A joint that a drive controller has on the left and on the right is a finding, too, also in ROS 1.",
     why="The controller manager activates the first controller and refuses the second one. Which one is first depends "
     "on the order in which the spawners reach it.",
     example='<node pkg="controller_manager" exec="spawner" args="position_controller"/>\n'
@@ -61,6 +97,6 @@ RULE = Rule(
     '<node pkg="controller_manager" exec="spawner" args="trajectory_controller --inactive"/>',
     references=(CONTROLLER_MANAGER,),
     settings=("knowledge",),
-    generations=(2,),
+    generations=(1, 2),
     check=_check,
 )

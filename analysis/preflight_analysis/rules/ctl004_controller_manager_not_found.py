@@ -9,14 +9,22 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.moveit import MOVE_GROUP
-from preflight_analysis.evaluation.ros2.spawners import asked_of, is_hardware_spawner, is_spawner
+from preflight_analysis.evaluation.ros1.spawners import asked_of as asked_of_script
+from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_hardware_spawner, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.robot.of_launch import DESCRIPTION, robots_of
-from preflight_analysis.rules.controllers import controllers_of, managers_of, robot_of_manager
+from preflight_analysis.robot.of_launch import DESCRIPTION, robots_of, unread_of
+from preflight_analysis.rules.controllers import (
+    GAZEBO_PLUGIN_ROS1,
+    SPAWN_ROS1,
+    controllers_of,
+    managers_of,
+    robot_of_manager,
+)
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.places import attribute_location
 from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.robots import robots
 from preflight_analysis.rules.rule import Context, Rule
 
 _WITHOUT = frozenset(
@@ -31,7 +39,53 @@ _WITHOUT = frozenset(
 """Nodes that get a description and have no manager in them."""
 
 
+_WITHOUT_ROS1 = frozenset(
+    {
+        PACKAGE,
+        "gazebo_ros",
+        "joint_state_publisher",
+        "joint_state_publisher_gui",
+        "joy",
+        "moveit_ros_move_group",
+        "robot_state_publisher",
+        "rqt_gui",
+        "rviz",
+        "tf",
+        "tf2_ros",
+        "topic_tools",
+        "twist_mux",
+    }
+)
+"""Packages whose programs have no manager in them."""
+_NAMESPACE_ROS1 = "robotNamespace"
+
+
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from (_of_ros2 if context.tree.ros.ament else _of_ros1)(rule, context)
+
+
+def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
+    """The plugin of the only robot of the launch names the namespace of its manager, which no other program has."""
+    tree = context.tree
+    spawners = [(node, asked) for node in tree.nodes if (asked := asked_of_script(node)) is not None]
+    if not spawners or not tree.complete or unread_of(tree):
+        return
+    if sum((node.package, node.executable) == SPAWN_ROS1 for node in tree.nodes) != 1:
+        return
+    plugins = [each for robot in robots(context) for each in robot.description.plugins]
+    named = [each for each in plugins if GAZEBO_PLUGIN_ROS1 in each.filename]
+    space = named[0].params.get(_NAMESPACE_ROS1) if len(named) == 1 else None
+    if not space:
+        return
+    there = names.resolve(PACKAGE, f"/{space.strip('/')}/{PACKAGE}" if space.strip("/") else f"/{PACKAGE}")
+    with_others = {names.parent(node.name) for node in tree.nodes if node.package not in _WITHOUT_ROS1}
+    for node, asked in spawners:
+        manager = f"{asked.namespace}/{PACKAGE}"
+        if manager != there and names.parent(manager) not in with_others:
+            yield _finding(rule, context, node, manager, [there])
+
+
+def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
     spawners = [node for node in tree.nodes if _waits(node)]
     managers = managers_of(tree) if spawners else {}
@@ -50,13 +104,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         meant = any(has.get(manager, set()).issuperset(asked.controllers) for manager in managers)
         if not meant and (asked.plain or is_hardware_spawner(node)):
             continue
-        yield rule.finding(
-            f"controller manager '{asked.manager}' is not in this launch: {node.name} waits for it; the launch has "
-            f"{quoted(sorted(managers))}",
-            attribute_location(context, node, "args"),
-            confidence="likely",
-            related=include_chain(node.origin),
-        )
+        yield _finding(rule, context, node, asked.manager, sorted(managers))
+
+
+def _finding(rule: Rule, context: Context, spawner: LaunchNode, manager: str, there: list[str]) -> Finding:
+    return rule.finding(
+        f"controller manager '{manager}' is not in this launch: {spawner.name} waits for it; the launch has "
+        f"{quoted(there)}",
+        attribute_location(context, spawner, "args"),
+        confidence="likely",
+        related=include_chain(spawner.origin),
+    )
 
 
 def _waits(node: LaunchNode) -> bool:
@@ -93,14 +151,16 @@ RULE = Rule(
     "start, while the launch starts another one, for example in a namespace. The manager of a simulated robot counts: "
     "the plugin of the robot description has its name and namespace. There is no finding if not all of the launch is "
     "known, or if another program in that namespace gets a robot description and may have a manager in it. The manager "
-    "of the launch must have the types of the controllers, unless the spawner brings them, or the hardware.",
+    "of the launch must have the types of the controllers, unless the spawner brings them, or the hardware. In ROS 1 "
+    "the rule compares the namespace of the spawner with `<robotNamespace>` of the plugin `gazebo_ros_control`, where "
+    "the launch spawns one robot and has no other program in the namespace of the spawner.",
     why="The spawner waits for the services of that manager until its timeout. No controller is loaded.",
     example='<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager" namespace="robot"/>\n'
     '<node pkg="controller_manager" exec="spawner" args="base -c /controller_manager"/>',
     instead='<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager" namespace="robot"/>\n'
     '<node pkg="controller_manager" exec="spawner" args="base -c /robot/controller_manager"/>',
     references=(CONTROLLER_MANAGER,),
-    generations=(2,),
+    generations=(1, 2),
     check=_check,
     every_root=True,
 )

@@ -13,15 +13,12 @@ from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.model import Description
-from preflight_analysis.robot.of_launch import Robot, unread_of
-from preflight_analysis.rules.controllers import joints_of_ros1
+from preflight_analysis.robot.of_launch import Robot
+from preflight_analysis.rules.controllers import joints_of_ros1, simulated_of_ros1
 from preflight_analysis.rules.further_reading import ROS_CONTROL_GAZEBO
-from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.robots import written
 from preflight_analysis.rules.rule import Context, Rule
 
-_SPAWN = ("gazebo_ros", "spawn_model")
-_PLUGIN = "gazebo_ros_control"
-_DEFAULT = "DefaultRobotHWSim"
 _ASKED = {
     "effort_controllers": "EffortJointInterface",
     "position_controllers": "PositionJointInterface",
@@ -32,15 +29,11 @@ _ASKED = {
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    nodes = context.tree.nodes
-    if not any((node.package, node.executable) == _SPAWN for node in nodes) or unread_of(context.tree):
+    robot = simulated_of_ros1(context)
+    interfaces = _interfaces(robot.description) if robot is not None else {}
+    if robot is None or not interfaces:
         return
-    simulated = [robot for robot in robots(context) if _is_default(robot.description)]
-    if len(simulated) != 1:
-        return
-    (robot,) = simulated
-    interfaces = _interfaces(robot.description)
-    for node in nodes if interfaces else ():
+    for node in context.tree.nodes:
         for controller in loaded_by(node):
             yield from _of_controller(rule, context, robot, interfaces, controller, node)
 
@@ -72,12 +65,6 @@ def _of_controller(
             Related(f"'{controller}' is loaded here", spawner.location),
         ),
     )
-
-
-def _is_default(description: Description) -> bool:
-    """Whether Gazebo makes the interfaces of the transmissions."""
-    plugins = [each for each in description.plugins if _PLUGIN in each.filename]
-    return len(plugins) == 1 and plugins[0].params.get("robotSimType", _DEFAULT).endswith(_DEFAULT)
 
 
 def _interfaces(description: Description) -> dict[str, str]:

@@ -6,19 +6,25 @@ http://wiki.ros.org/controller_manager#Helper_scripts
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import os
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.conditions import named_arguments
+from preflight_analysis.evaluation.ros1.spawners import Asked as AskedScript
 from preflight_analysis.evaluation.ros1.spawners import asked_of as asked_of_script
+from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
-from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.spawners import Asked, asked_of, is_spawner, type_in
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
-from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.nearest import is_slip, nearest
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -33,6 +39,7 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
     """The manager asks for `NAME/type` in its namespace, which the launch sets for others of that namespace. Where not
     all is known that the launch sets, only a slip of one of these is told."""
     params = context.tree.params
+    loaded = {full for node in context.tree.nodes for full in loaded_by(node)}
     for node in context.tree.nodes:
         asked = asked_of_script(node)
         if asked is None:
@@ -44,14 +51,42 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
             if name.startswith(f"{namespace}/") and name.endswith("/type") and _is_plugin(param.value)
         ]
         known = [param.name.removeprefix(f"{namespace}/").removesuffix("/type") for param in types]
+        if not known:
+            yield from _of_other_namespace(rule, context, node, asked, loaded)
         for controller in asked.controllers if known else ():
             full = asked.full(controller)
             if f"{full}/type" in params:
                 continue
-            if context.tree.complete or nearest(controller, known) is not None:
+            near = nearest(controller, known)
+            sure = context.tree.complete or (near is not None and is_slip(controller, near))
+            if sure or _is_beside(node, types):
                 missing = f"parameter '{full}/type' is not set, and the controller manager reads it"
                 found = _finding(rule, node, missing, controller, known)
+                found = found if sure else replace(found, severity="info")
                 yield replace(found, confidence="possible") if _is_of_one_variant(context, types) else found
+
+
+def _is_beside(spawner: LaunchNode, types: Iterable[Param]) -> bool:
+    """Whether the launch file of the spawner sets types itself."""
+    return any(at.file == spawner.location.file for param in types for at in param.origin)
+
+
+def _of_other_namespace(
+    rule: Rule, context: Context, spawner: LaunchNode, asked: AskedScript, loaded: Collection[str]
+) -> Iterator[Finding]:
+    """Controllers whose types the launch sets in one other namespace, of which nothing is loaded."""
+    params = context.tree.params
+    for controller in map(asked.full, asked.controllers):
+        end = f"/{names.leaf(controller)}/type"
+        found = [param for name, param in params.items() if name.endswith(end) and _is_plugin(param.value)]
+        if len(found) == 1 and found[0].name.removesuffix("/type") not in loaded:
+            yield rule.finding(
+                f"parameter '{controller}/type' is not set, and the controller manager reads it: the controller is not "
+                f"loaded; did you mean '{found[0].name}'?",
+                spawner.location,
+                confidence="likely",
+                related=(Related("the type is set here", found[0].place), *include_chain(spawner.origin)),
+            )
 
 
 def _is_of_one_variant(context: Context, params: Iterable[Param]) -> bool:
@@ -68,7 +103,7 @@ def _is_plugin(value: object) -> bool:
 
 def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
-    asked = {at: each for at, node in enumerate(nodes) if is_spawner(node) and (each := asked_of(node)) and each.plain}
+    asked = {at: each for at, node in enumerate(nodes) if is_spawner(node) and (each := _known(context, node))}
     managers = {name: _manager(context, name) for name in dict.fromkeys(each.manager for each in asked.values())}
     for at, each in asked.items():
         manager = managers[each.manager]
@@ -77,22 +112,82 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         # A controller is a node, whose name has no dot; what MoveIt is told of controllers has one.
         typed = (param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type"))
         known = [name for name in typed if "." not in name]
-        for controller in each.controllers if known else ():
-            if controller not in known:
-                files = [source.origin[-1] for source in manager.param_sources if source.path is not None]
-                related = [Related(f"parameters of {manager.name}", path) for path in files[:1]]
+        files = [source for source in manager.param_sources if source.path is not None]
+        given = [context.documents[path] for path in map(os.path.normpath, each.files)]
+        for controller in each.controllers:
+            if controller in known or type_in(given, controller, each.namespace) is not None:
+                continue
+            apart = _apart(context, controller, [*given, *_documents(context, manager)])
+            apart = apart or _for_the_manager(context, controller, given)
+            # A manager without any types may get them of what is not known.
+            if known or apart is not None or (files and context.tree.complete):
+                related = [Related(f"parameters of {manager.name}", source.origin[-1]) for source in files[:1]]
+                related += [Related("the type is set here", apart[1])] if apart is not None else []
                 missing = f"parameter '{controller}.type' of {manager.name} is not set"
-                yield _finding(rule, nodes[at], missing, controller, known, related)
+                yield _finding(rule, nodes[at], missing, controller, known, related, apart[0] if apart else None)
+
+
+def _known(context: Context, spawner: LaunchNode) -> Asked | None:
+    """What a spawner asks for without a type of its own; None where it may give controllers what is not known."""
+    asked = asked_of(spawner)
+    if asked is None or asked.plain:
+        return asked
+    return asked if asked.files and not asked.type and _are_known(context, asked.files) else None
+
+
+def _are_known(context: Context, files: Iterable[str]) -> bool:
+    return all(os.path.normpath(path) in context.documents for path in files)
+
+
+def _documents(context: Context, manager: LaunchNode) -> Iterator[Document]:
+    for source in manager.param_sources:
+        document = context.documents.get(source.path) if source.path is not None else None
+        if document is not None:
+            yield document
+
+
+def _apart(context: Context, controller: str, documents: Iterable[Document]) -> tuple[str, Location] | None:
+    """Where the type is set for the controller itself, which neither the manager nor the spawner reads: the key of that
+    section, and the place."""
+    for document in documents:
+        for section in read_param_file(document).sections:
+            if not section.exact or names.leaf(section.pattern) != controller:
+                continue
+            for param in section.params:
+                if param.name == "type":
+                    return section.key, context.location(document.path, param.name_span)
+    return None
+
+
+def _for_the_manager(context: Context, controller: str, documents: Iterable[Document]) -> tuple[str, Location] | None:
+    """The same where a file of the spawner has the type as a parameter of the manager, which does not get the file."""
+    for document in documents:
+        for section in read_param_file(document).sections:
+            for param in section.params:
+                if param.name == f"{controller}.type":
+                    return section.key, context.location(document.path, param.name_span)
+    return None
 
 
 def _finding(
-    rule: Rule, spawner: LaunchNode, missing: str, controller: str, known: list[str], related: Iterable[Related] = ()
+    rule: Rule,
+    spawner: LaunchNode,
+    missing: str,
+    controller: str,
+    known: list[str],
+    related: Iterable[Related] = (),
+    apart: str | None = None,
 ) -> Finding:
     near = nearest(controller, known)
     some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
+    if apart is not None:
+        what = f"section '{apart}' sets it, which has no effect there"
+    elif near is not None:
+        what = f"did you mean '{near}'?"
+    else:
+        what = f"it has types for {some}" if known else "it has no types of controllers"
     return rule.finding(
-        f"{missing}: the controller is not loaded; "
-        + (f"did you mean '{near}'?" if near is not None else f"it has types for {some}"),
+        f"{missing}: the controller is not loaded; {what}",
         spawner.location,
         confidence="likely",
         related=(*related, *include_chain(spawner.origin)),
@@ -120,12 +215,15 @@ RULE = Rule(
     id="PRM019",
     name="controller-not-configured",
     severity="warning",
-    what="Checks for a controller in the arguments of the `spawner` of ros2_control without a type in the "
-    "parameters of the controller manager. The manager is a node of the launch, or the one that the robot "
-    "description starts in Gazebo. There is no finding if the parameters of the manager are not all known, or if "
-    "the spawner has its own parameters. In ROS 1 the rule checks for `NAME/type` in the namespace of the manager, if "
-    "the launch sets the type of another controller there. If the launch is not known completely, only a misspelled "
-    "controller is reported. Under a condition, the finding is information if an argument names the parameter file.",
+    what="Checks for a controller in the arguments of the `spawner` of ros2_control without a type in the parameters "
+    "of the controller manager, or in a file that the spawner has as `--param-file`. The manager is a node of the "
+    "launch, or the one that the robot description starts in Gazebo. A `type` in the section of the controller "
+    "itself, as in ROS 1, only counts in the file of the spawner. There is no finding if the parameters of the "
+    "manager are not all known, or if the spawner has `--controller-type`. In ROS 1 the rule checks for `NAME/type` "
+    "in the namespace of the manager. The launch must set the type of another controller there, or that of the "
+    "controller in one other namespace only. If the launch is not known completely, only a misspelled controller is "
+    "reported, or information where the launch file of the spawner sets other types. Under a condition, the finding "
+    "is information if an argument names the parameter file.",
     why="The manager refuses to load the controller: `The 'type' param was not defined`. The spawner exits and the "
     "controller does not run.",
     example="arguments=['streaming_controller']  # the manager's file has twist_controller",

@@ -11,6 +11,9 @@ from preflight_analysis.robot.of_launch import Described, Robot, robots_of
 from preflight_analysis.robot.sources import argument_place, place_of
 from preflight_analysis.rules.rule import Context
 
+LENIENT_ROS2_CONTROL = ("foxy", "galactic", "humble", "iron")
+"""Distributions whose ros2_control does not compare `<ros2_control>` with the joints of the robot."""
+
 
 def robots(context: Context) -> Iterator[Robot]:
     """The robots of the launch whose URDF is known as a whole."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Edit, Finding, Fix
 from preflight_analysis.robot.model import Malformed
-from preflight_analysis.robot.of_launch import Robot, robots_of
+from preflight_analysis.robot.of_launch import Described, Robot, robots_of, semantics_of
 from preflight_analysis.robot.sources import files_of
 from preflight_analysis.rules.further_reading import URDF, XACRO
 from preflight_analysis.rules.problems import include_chain, shown
@@ -33,9 +33,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 robot.param.place,
                 related=include_chain(robot.param.origin),
             )
+    for semantic in semantics_of(context.tree):
+        if semantic.semantic.malformed is not None:
+            yield _malformed(rule, context, semantic, semantic.semantic.malformed)
 
 
-def _malformed(rule: Rule, context: Context, robot: Robot, malformed: Malformed) -> Finding:
+def _malformed(rule: Rule, context: Context, robot: Described, malformed: Malformed) -> Finding:
     place: Location = robot.param.place
     where = f"line {malformed.line}"
     if not robot.text.lstrip().startswith("<"):
@@ -76,6 +79,7 @@ RULE = Rule(
     severity="error",
     what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is neither "
     "`<robot>` nor `<sdf>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file. "
+    "The semantic description (SRDF) must be well-formed, too. "
     "A description that xacro has yet to process is a warning, and the other rules do not read it. A value that is a "
     "name is not checked: some nodes get the name of the parameter with the description.",
     why="`robot_state_publisher` ends with an error and publishes no frame. Controller managers and planners wait for "

@@ -13,18 +13,17 @@ from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.robots import robots, written
+from preflight_analysis.rules.robots import LENIENT_ROS2_CONTROL, robots, written
 from preflight_analysis.rules.rule import Context, Rule
 
-_LENIENT = ("foxy", "galactic", "humble", "iron")
-"""Distributions whose ros2_control loads the hardware all the same."""
-
+_MOVING = frozenset({"position", "velocity", "effort", "acceleration"})
+"""The interfaces of a joint that moves. One with others alone is a name for something else of the hardware."""
 _MANY = 3
 """So many further joints that are like none are not there for one reason, such as a prefix."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    refused = context.tree.ros.ament and context.environment.distro not in (None, *_LENIENT)
+    refused = context.tree.ros.ament and context.environment.distro not in (None, *LENIENT_ROS2_CONTROL)
     for robot in robots(context):
         description = robot.description
         joints = frozenset(joint.name for joint in description.joints)
@@ -36,7 +35,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             (each.name, joint.name)
             for each in description.systems
             for joint in each.joints
-            if joint.commands or joint.states
+            if not _MOVING.isdisjoint((*joint.commands, *joint.states))
         }
         missing = [
             (*each, nearest(each[2], joints)) for each in dict.fromkeys(named) if each[2] and each[2] not in joints
@@ -80,8 +79,8 @@ RULE = Rule(
     severity="warning",
     what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have. It is "
     "an error with ros2_control of Jazzy and newer, which refuses such a description. A `<transmission>` in ROS 2 is "
-    "information, because nothing reads it there. So is a joint without interfaces, which may be an actuator of the "
-    "hardware, and one of a description that has no joints at all.",
+    "information, because nothing reads it there. So is a joint without interfaces for its motion, which may stand for "
+    "something else of the hardware, and one of a description that has no joints at all.",
     why="The joint is not moved: the simulator skips it, and controllers that claim it report positions of no joint. "
     "ros2_control of Jazzy and newer does not load the hardware at all.",
     example='<ros2_control name="arm" type="system">\n  <joint name="sholder_joint"/>\n</ros2_control>',

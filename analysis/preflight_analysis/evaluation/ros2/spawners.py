@@ -8,13 +8,13 @@ manager the parameter files of its controllers and their types (`NAME.type`, `ro
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.evaluation.ros2.param_files import EVERY, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, ParamSource, Remap
 from preflight_analysis.evaluation.words import words_of
 
@@ -47,8 +47,8 @@ _WITHOUT_VALUE = (
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What a spawner asks for. `manager` is the manager's full name; `plain`: all else it has are options that give the
-    controllers nothing."""
+    """What a spawner asks for. `manager` is the manager's full name, `namespace` that of the spawner, in which it looks
+    for controllers in its files; `plain`: all else it has are options that give the controllers nothing."""
 
     manager: str
     controllers: tuple[str, ...]
@@ -56,6 +56,7 @@ class Asked:
     type: str | None = None
     remaps: tuple[tuple[str, str], ...] = ()
     plain: bool = True
+    namespace: str = "/"
 
 
 def is_spawner(node: LaunchNode) -> bool:
@@ -104,9 +105,14 @@ def asked_of(spawner: LaunchNode) -> Asked | None:
             plain = plain and word in _WITHOUT_VALUE
         else:
             controllers.append(word)
-    named = names.resolve(manager, caller)
     return Asked(
-        named, tuple(filter(None, controllers)), tuple(filter(None, files)), type_ or None, tuple(remaps), plain
+        names.resolve(manager, caller),
+        tuple(filter(None, controllers)),
+        tuple(filter(None, files)),
+        type_ or None,
+        tuple(remaps),
+        plain,
+        names.parent(caller),
     )
 
 
@@ -154,8 +160,8 @@ def _with_asked(
         # Of the file nothing is for the manager: it hands it on.
         sources += [ParamSource(path, (), spawner.origin) for path in given]
         for controller in each.controllers:
-            name, full = f"{controller}.type", names.join(manager.namespace, controller)
-            type_ = each.type or _type_of(full, given)
+            name = f"{controller}.type"
+            type_ = each.type or type_in(given.values(), controller, each.namespace)
             if type_ is not None and not any(param.name == name for param in params):
                 params.append(Param(name, type_, spawner.origin, manager.name))
             remaps += [
@@ -165,13 +171,24 @@ def _with_asked(
     return manager._replace(params=tuple(params), param_sources=tuple(sources), remaps=tuple(remaps))
 
 
-def _type_of(controller: str, files: Mapping[str, Document]) -> str | None:
-    """The type that the files have for the controller of this full name."""
+def type_in(files: Iterable[Document], controller: str, namespace: str) -> str | None:
+    """The type that a spawner in a namespace finds for a controller in the files that it is given."""
     found = [
         param.value
-        for document in files.values()
-        for section in read_param_file(document).reaching(controller)
+        for document in files
+        for section in read_param_file(document).sections
+        if _is_for(section, controller, namespace)
         for param in section.params
         if param.name == "type" and isinstance(param.value, str)
     ]
     return found[-1] if found else None
+
+
+def _is_for(section: Section, controller: str, namespace: str) -> bool:
+    """Whether a spawner takes a section for that of a controller. It looks for keys of the file itself and of `/**`, so
+    that it does not find a namespace with the controller below it, which a node's own parameters may have
+    (`get_parameter_from_param_files`, controller_manager_services.py of ros2_control, jazzy)."""
+    own = names.join(namespace, controller)
+    if section.key in (EVERY, f"{EVERY}/{controller}", f"{EVERY}{own}"):
+        return True
+    return len(section.spans) == 1 and section.key in ((own, controller) if namespace == "/" else (own,))

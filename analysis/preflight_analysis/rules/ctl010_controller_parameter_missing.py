@@ -1,0 +1,94 @@
+"""CTL010: a controller without a parameter that it does not go on without.
+
+`on_configure` of each controller refuses an empty one: `'command_interfaces' parameter is empty`
+(https://github.com/ros-controls/ros2_controllers, humble and jazzy).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.evaluation.ros2.spawners import asked_of
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.controllers import Controller, controllers_of
+from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
+from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.rule import Context, Rule
+
+_NEEDED = {
+    "diff_drive_controller/DiffDriveController": ("left_wheel_names", "right_wheel_names"),
+    "effort_controllers/JointGroupEffortController": ("joints",),
+    "forward_command_controller/ForwardCommandController": ("joints", "interface_name"),
+    "forward_command_controller/MultiInterfaceForwardCommandController": ("joint", "interface_names"),
+    "joint_trajectory_controller/JointTrajectoryController": ("command_interfaces", "state_interfaces"),
+    "position_controllers/JointGroupPositionController": ("joints",),
+    "velocity_controllers/JointGroupVelocityController": ("joints",),
+}
+"""The parameters that a type of controller needs, each without a default."""
+_ONLY_LOADED = "--load-only"
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    managers = {node.name: node for node in context.tree.nodes_and_simulated}
+    for each in context.once(controllers_of):
+        needed, manager = _NEEDED.get(each.type, ()), managers.get(each.given_to)
+        if not needed or each.spawner is None or manager is None or not _is_known(context, manager, each.spawner):
+            continue
+        own = {param.name for param in each.params if param.value not in ("", [])}
+        missing = [name for name in needed if name not in own]
+        if not missing:
+            continue
+        apart = None if own.intersection(needed) else _apart(context, manager, each, missing[0])
+        reason = f"; section '{apart[0]}' sets it for another node" if apart is not None else ""
+        yield rule.finding(
+            f"controller '{each.name}' has no parameter {quoted(missing)}, which {each.type} requires{reason}",
+            each.spawner.location,
+            confidence="likely",
+            related=(*((apart[1],) if apart is not None else ()), *include_chain(each.spawner.origin)),
+        )
+
+
+def _is_known(context: Context, manager: LaunchNode, spawner: LaunchNode) -> bool:
+    """Whether all is known that the controller may get, and the spawner configures it."""
+    asked = asked_of(spawner)
+    if asked is None or manager.unknowns or _ONLY_LOADED in spawner.args or "--controller-ros-args" in spawner.args:
+        return False
+    given = (source.path for source in manager.param_sources if source.path is not None)
+    return all(path in context.documents for path in (*given, *asked.files))
+
+
+def _apart(context: Context, manager: LaunchNode, controller: Controller, name: str) -> tuple[str, Related] | None:
+    """The only section of the manager's files that has the parameter and is for no controller of the launch."""
+    others = {names.join(manager.namespace, each.name) for each in context.once(controllers_of)}
+    found = [
+        (section.key, Related("the section", context.location(document.path, section.spans[-1])))
+        for source in manager.param_sources
+        if source.path is not None and (document := context.documents.get(source.path)) is not None
+        for section in read_param_file(document).sections
+        if section.exact and section.pattern not in others and any(param.name == name for param in section.params)
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+RULE = Rule(
+    id="CTL010",
+    name="controller-parameter-missing",
+    severity="warning",
+    what="Checks for a controller that a spawner of the launch configures and that lacks a parameter which its type "
+    "requires: `command_interfaces` and `state_interfaces` of the joint trajectory controller, `joints` and "
+    "`interface_name` of command controllers, the wheels of the differential drive. A section with another name than "
+    "that of the controller, or in another namespace, is the usual cause. All files of the manager and of the spawner "
+    "must be known.",
+    why="The controller refuses to be configured: `'command_interfaces' parameter is empty`. The spawner exits.",
+    example="controller_manager:\n  ros__parameters:\n    arm: {type: joint_trajectory_controller/"
+    "JointTrajectoryController}\narm_controller:\n  ros__parameters:\n    command_interfaces: [position]",
+    instead="controller_manager:\n  ros__parameters:\n    arm: {type: joint_trajectory_controller/"
+    "JointTrajectoryController}\narm:\n  ros__parameters:\n    command_interfaces: [position]",
+    references=(ROS2_CONTROLLERS,),
+    generations=(2,),
+    check=_check,
+    every_root=True,
+)
