@@ -164,6 +164,14 @@ def test_a_controller_of_ros_1(args: str, more: str, said: str | None) -> None:
     assert all(message in each.message for each in told)
 
 
+@pytest.mark.silent
+def test_a_controller_that_is_remapped() -> None:
+    """https://github.com/code-iai/iai_pr2: the manager reads the parameters under the other name."""
+    fixture = _ROS1 % ("arm_controller", "")
+    remap = '<remap from="/arm/arm_controller" to="/arm/elbow_controller"/>'
+    assert [each.rule for each in findings_of(fixture.replace('<group ns="arm">', f'<group ns="arm">{remap}'))] == []
+
+
 @pytest.mark.parametrize(("file", "severity"), [("$(arg robot)", "info"), ("arm6", "warning")])
 def test_a_branch_that_goes_with_another_file_of_parameters(file: str, severity: str) -> None:
     check(

@@ -83,3 +83,13 @@ def test_a_semantic_description() -> None:
     """)
     assert [(each.rule, each.severity) for each in found] == [("URD001", "error")]
     assert found[0].message.startswith("parameter '/robot_description_semantic' is not well-formed XML: ")
+
+
+def test_a_prefix_that_nothing_declares() -> None:
+    """https://github.com/abizovnuralem/go2_ros2_sdk: the parser of urdfdom knows no namespaces."""
+    text = '<robot name="a"><xacro:include filename="b.xacro"/></robot>'
+    (found,) = findings_of(_LAUNCH.format("", json.dumps({"xacro arm": {"output": text}})))
+    assert (found.rule, found.severity) == ("URD001", "warning")
+    assert found.message == "parameter '/robot_description' is raw xacro: no command processes it"
+    other = '<robot name="a"><v:size/></robot>'
+    assert findings_of(_LAUNCH.format("", json.dumps({"xacro arm": {"output": other}}))) == []

@@ -34,6 +34,11 @@ def test_a_file_by_its_path(package: str, tmp_path: Path) -> None:
     check(of_urdf(_URDF.format(f"file://{tmp_path}/arms/meshes/wrist.stl"), written + package))
 
 
+@pytest.mark.silent
+def test_two_slashes_behind_the_package(package: str) -> None:
+    check(of_urdf(_URDF.format("package://arms//meshes/elbow.STL"), package))
+
+
 def test_a_folder_that_is_missing_is_told_once(package: str) -> None:
     meshes = [f"package://arms/parts/{name}.stl" for name in ("elbow", "wrist")]
     first = _expected(meshes[0], "folder 'arms/parts' of a mesh does not exist")

@@ -45,10 +45,34 @@ def parse_description(text: str) -> Description:
     try:
         root = xml_root(text)
     except etree.XMLSyntaxError as error:
+        lenient = _without_namespaces(text)
+        if lenient is not None:
+            return _described(lenient, text)
         above = text[: len(text) - len(text.lstrip())].count("\n")
         return Description("", malformed=Malformed(_words(error), (error.lineno or 1) + above))
     except ValueError:
         return _EMPTY
+    return _described(root, text)
+
+
+def _without_namespaces(text: str) -> etree._Element | None:
+    """The root of a text with prefixes that nothing declares, which the parser of urdfdom does not mind; None where it
+    has other errors, too."""
+    parser = etree.XMLParser(
+        encoding="utf-8",
+        recover=True,
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        remove_comments=True,
+        remove_pis=True,
+    )
+    root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
+    only = all(each.type == etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE for each in parser.error_log)
+    return root if only else None
+
+
+def _described(root: etree._Element, text: str) -> Description:
     if _tag(root) != "robot":
         return Description(_tag(root), _get(root, "name"))
     lacks = lacks_of(text)
@@ -106,7 +130,7 @@ def _leave_unknown(root: etree._Element) -> None:
 
 def _is_raw(root: etree._Element) -> bool:
     """Whether xacro did not process it: it leaves no element of its own, and computes each `${...}`."""
-    return any(_XACRO.match(_tag(each)) for each in root.iter()) or any(
+    return any(_XACRO.match(_tag(each)) or _tag(each).startswith("xacro:") for each in root.iter()) or any(
         "${" in _get(each, "name") for tag in ("link", "joint") for each in _children(root, tag)
     )
 

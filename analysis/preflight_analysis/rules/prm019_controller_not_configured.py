@@ -39,8 +39,11 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
     """The manager asks for `NAME/type` in its namespace, which the launch sets for others of that namespace. Where not
     all is known that the launch sets, only a slip of one of these is told."""
     params = context.tree.params
-    loaded = {full for node in context.tree.nodes for full in loaded_by(node)}
-    for node in context.tree.nodes:
+    nodes = context.tree.nodes
+    loaded = {full for node in nodes for full in loaded_by(node)}
+    # A remap of the manager's node gives a controller the parameters of another name.
+    renamed = {names.resolve(remap.source, node.name) for node in nodes if loaded for remap in node.remaps}
+    for node in nodes:
         asked = asked_of_script(node)
         if asked is None:
             continue
@@ -55,7 +58,7 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
             yield from _of_other_namespace(rule, context, node, asked, loaded)
         for controller in asked.controllers if known else ():
             full = asked.full(controller)
-            if f"{full}/type" in params:
+            if f"{full}/type" in params or full in renamed:
                 continue
             near = nearest(controller, known)
             sure = context.tree.complete or (near is not None and is_slip(controller, near))

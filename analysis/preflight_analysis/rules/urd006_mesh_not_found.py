@@ -49,7 +49,7 @@ def _missing(context: Context, mesh: str) -> tuple[str, str, str, Severity | Non
             if near is None:
                 return None
             return f"package '{name}' of a mesh does not exist; did you mean '{near}'?", name, near, None
-        path = os.path.join(package.share, below)
+        path = os.path.join(package.share, below.lstrip("/"))
     else:
         path = mesh.removeprefix(_FILE) if mesh.startswith(_FILE) else ""
         if not any(path.startswith(f"{package.share.rstrip('/')}/") for package in packages.values()):
