@@ -67,9 +67,12 @@ def _without_namespaces(text: str) -> etree._Element | None:
         remove_comments=True,
         remove_pis=True,
     )
-    root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
+    try:
+        root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
+    except etree.XMLSyntaxError:
+        return None
     only = all(each.type == etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE for each in parser.error_log)
-    return root if only else None
+    return root if only and root is not None else None
 
 
 def _described(root: etree._Element, text: str) -> Description:
