@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from preflight_analysis.rules.registry import run_rules
 from support.check import analyse, read_fixture
-from support.control_threads import hardware, launch, publisher, urdf, workspace
+from support.control_threads import hardware, launch, manager, publisher, urdf, workspace
 
 _JOINTS = ("shoulder", "elbow")
 _PLUGIN = "<hardware><plugin>mock_components/GenericSystem</plugin></hardware>"
@@ -14,8 +14,13 @@ _FOLLOWS = {"elbow": "type='continuous'><mimic joint='shoulder'/>"}
 _FIXED = {"elbow": "type='fixed'>"}
 
 
-def _said(more: str, types: dict[str, str] | None = None, distro: str | None = "jazzy") -> list[str]:
-    fixture = workspace(launch(publisher(urdf(_JOINTS, more, types=types))), {})
+def _said(
+    more: str,
+    types: dict[str, str] | None = None,
+    distro: str | None = "jazzy",
+    tags: tuple[str, ...] = (manager(None),),
+) -> list[str]:
+    fixture = workspace(launch(publisher(urdf(_JOINTS, more, types=types)), *tags), {})
     context = analyse(read_fixture(fixture))
     used = replace(context, environment=replace(context.environment, distro=distro))
     found = run_rules(used)
@@ -67,6 +72,12 @@ def test_a_joint_that_follows_none() -> None:
         'error joint \'elbow\' of <ros2_control name="hw"> has mimic="true", but no <mimic> in the robot, which '
         "ros2_control refuses"
     ]
+
+
+def test_a_launch_that_only_shows_the_robot() -> None:
+    """https://github.com/automaticaddison/mycobot_ros2: the plugin is for the simulator."""
+    more = "<ros2_control name='hw' type='system'><hardware/></ros2_control>"
+    assert _said(more, tags=()) == [f"info {_HW} has no <hardware> with a <plugin>"]
 
 
 @pytest.mark.silent

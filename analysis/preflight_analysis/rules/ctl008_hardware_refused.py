@@ -12,17 +12,23 @@ from collections.abc import Iterator
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.robot.model import ControlJoint, ControlSystem, Description
 from preflight_analysis.robot.of_launch import Robot
+from preflight_analysis.rules.controllers import managers_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.robots import LENIENT_ROS2_CONTROL, robots, written
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    # A launch that only shows the robot may leave out the plugin of its hardware.
+    no_manager = not managers_of(context.tree)
     for robot in robots(context):
         for system in robot.description.misplaced:
             message = f"{_tag(system)} is inside <{system.around}>: ros2_control reads only elements below <robot>"
             yield _at_system(rule, context, robot, system, message)
         for system in robot.description.systems:
+            if not system.plugin:
+                message = f"{_tag(system)} has no <hardware> with a <plugin>"
+                yield _at_system(rule, context, robot, system, message, "info" if no_manager else None)
             for message in _of_system(system):
                 yield _at_system(rule, context, robot, system, message)
             yield from _of_joints(rule, context, robot, system)
@@ -32,15 +38,15 @@ def _tag(system: ControlSystem) -> str:
     return f'<ros2_control name="{system.name}">'
 
 
-def _at_system(rule: Rule, context: Context, robot: Robot, system: ControlSystem, message: str) -> Finding:
+def _at_system(
+    rule: Rule, context: Context, robot: Robot, system: ControlSystem, message: str, severity: Severity | None = None
+) -> Finding:
     place, related = written(context, robot, "ros2_control", "name", system.name)
-    return rule.finding(message, place, related=related)
+    return rule.finding(message, place, severity=severity, related=related)
 
 
 def _of_system(system: ControlSystem) -> Iterator[str]:
     """What each version refuses."""
-    if not system.plugin:
-        yield f"{_tag(system)} has no <hardware> with a <plugin>"
     for tag in system.unknown:
         yield f"{_tag(system)} has the element <{tag}>, which ros2_control refuses"
     joints = {joint.name for joint in system.joints}
