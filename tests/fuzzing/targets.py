@@ -503,7 +503,7 @@ def behavior_tree(data: bytes) -> None:
     """What is named in a tree stands where it is said to stand."""
     text = text_of(data)
     found = read_trees(Document("/w/tree.xml", text, "", (), (), LineIndex(text)))
-    spans = [*(each.span for each in found.includes), *(span for node in found.nodes for _, span in node.attributes)]
+    spans = [*(each.span for each in found.includes), *(each.span for node in found.nodes for each in node.attributes)]
     for span in (*spans, *(each.span for each in (*found.nodes, *found.subtrees))):
         assert 0 <= span.start < span.end <= len(text)
 
