@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.findings.contexts import RootFindings, by_file
-from support.check import check, findings_of
+from preflight_analysis.rules.registry import run_rules
+from support.check import analyse, check, findings_of, read_fixture
 
 
 def test_a_parameter_file_for_another_node() -> None:
@@ -106,6 +107,21 @@ def test_files_with_a_section_for_their_node() -> None:
         /**:
           ros__parameters: {rate: 1}
     """)
+
+
+@pytest.mark.parametrize(("section", "wrong"), [("local_costmap", False), ("global_costmap", True)])
+def test_a_section_for_a_costmap_that_the_process_is_known_to_make(section: str, *, wrong: bool) -> None:
+    fixture = read_fixture(f"""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="nav2_controller" exec="controller_server" name="controller_server"><param from="/p.yaml"/></node>
+        </launch>
+        //- /p.yaml
+        {section}:
+          {section}:
+            ros__parameters: {{global_frame: odom}}
+    """)
+    assert ("PRM011" in {finding.rule for finding in run_rules(analyse(fixture))}) == wrong
 
 
 def test_a_key_that_fits_a_node_of_another_launch_is_not_wrong() -> None:

@@ -8,6 +8,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import known_of_nodes
 from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -73,11 +74,17 @@ def _files_of(node: LaunchNode) -> tuple[tuple[str, LaunchNode, Location], ...]:
 
 
 def _beside(context: Context) -> dict[str, list[str]]:
-    """The other nodes that the processes of nodes were seen to make. What a component makes gets the files of its
-    container."""
+    """The other nodes that the processes of nodes were seen to make, or are known to. What a component makes gets the
+    files of its container."""
     found: dict[str, list[str]] = {}
     containers: Mapping[str, LaunchNode] | None = None
-    for node in context.graph.tree.nodes if context.graph is not None else ():
+    tree = context.graph.tree if context.graph is not None else context.tree
+    known = known_of_nodes(tree, context.known, context.kept)
+    for node, said in zip(tree.nodes_and_simulated, known, strict=True):
+        if said is not None and said.entry.within and node.kind != "composable":
+            made = (names.join(names.parent(node.name), below) for below in said.entry.within)
+            found.setdefault(node.name, []).extend(made)
+    for node in tree.nodes:
         if node.within is not None and node.kind == "composable":
             containers = containers_of(context.tree.nodes) if containers is None else containers
             host = container_of(node, containers)
