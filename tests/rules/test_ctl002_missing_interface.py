@@ -1,5 +1,7 @@
 """CTL002: an interface that a joint does not have."""
 
+import re
+
 import pytest
 from support.check import check, findings_of
 from support.controlled_robot import launch, spawner
@@ -30,6 +32,15 @@ def test_a_command_interface() -> None:
         "which 'base' (velocity_controllers/JointGroupVelocityController) claims; it has 'position'"
     )
     check(launch(spawner("base"), params=f"{_BASE}{expected}", interface="position"))
+
+
+def test_a_joint_whose_interfaces_the_hardware_makes() -> None:
+    """https://github.com/ros-industrial/ros2_canopen: `Cia402System` has them, the description only the joints."""
+    text = launch(spawner("base"), params=_BASE, interface="position")
+    for tag in ("command", "state"):
+        text = re.sub(rf"&lt;{tag}_interface name='\w+'/>", "", text)
+    (found,) = findings_of(text)
+    assert (found.rule, found.severity, found.confidence) == ("CTL002", "info", "possible")
 
 
 def test_a_state_interface_of_those_that_a_parameter_lists() -> None:

@@ -80,6 +80,14 @@ def test_a_launch_that_only_shows_the_robot() -> None:
     assert _said(more, tags=()) == [f"info {_HW} has no <hardware> with a <plugin>"]
 
 
+def test_hardware_that_a_simulated_robot_leaves_out() -> None:
+    """https://github.com/ROBOTIS-GIT/open_manipulator: the end unit of omy_3m has none in Gazebo, which goes on."""
+    plugin = "<gazebo><plugin filename='gz_ros2_control-system' name='p'/></gazebo>"
+    more = f"<ros2_control name='hw' type='system'><gpio name='end'/></ros2_control>{plugin}"
+    create = '<node pkg="ros_gz_sim" exec="create" name="create" args="-topic robot_description"/>'
+    assert _said(more, tags=(create,)) == [f"info {_HW} has no <hardware> with a <plugin>"]
+
+
 @pytest.mark.silent
 def test_what_is_read() -> None:
     assert _said(hardware(_JOINTS)) == []

@@ -93,3 +93,10 @@ def test_a_prefix_that_nothing_declares() -> None:
     assert found.message == "parameter '/robot_description' is raw xacro: no command processes it"
     other = '<robot name="a"><v:size/></robot>'
     assert findings_of(_LAUNCH.format("", json.dumps({"xacro arm": {"output": other}}))) == []
+
+
+@pytest.mark.silent
+def test_hyphens_in_a_comment() -> None:
+    """https://github.com/jsk-ros-pkg/jsk_common: a calibrated PR2, whose comments the parser of urdfdom takes."""
+    text = '<robot name="a"><!-- left -- right --><link name="base"/></robot>'
+    assert findings_of(_LAUNCH.format("", json.dumps({"xacro arm": {"output": text}}))) == []

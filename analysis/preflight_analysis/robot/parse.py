@@ -27,6 +27,7 @@ _KEPT = 32
 _XACRO = re.compile(r"\{http[^{}]*xacro/?\}")
 """The namespaces that xacro has had, as lxml writes them before a tag (`xacro.XACRO_NS` of ROS 1 and ROS 2)."""
 _EMPTY = Description("")
+_TAKEN_BY_URDFDOM = (etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE, etree.ErrorTypes.ERR_HYPHEN_IN_COMMENT)
 _OF_ROS2_CONTROL = ("hardware", "properties", "joint", "sensor", "gpio", "transmission")
 """What may be in a `<ros2_control>` element (`parse_resource_from_xml` of ros2_control)."""
 _JOINT_TAG = re.compile(r"(?:joint|joint_?name)$", re.IGNORECASE)
@@ -45,7 +46,7 @@ def parse_description(text: str) -> Description:
     try:
         root = xml_root(text)
     except etree.XMLSyntaxError as error:
-        lenient = _without_namespaces(text)
+        lenient = _as_urdfdom(text)
         if lenient is not None:
             return _described(lenient, text)
         above = text[: len(text) - len(text.lstrip())].count("\n")
@@ -55,9 +56,9 @@ def parse_description(text: str) -> Description:
     return _described(root, text)
 
 
-def _without_namespaces(text: str) -> etree._Element | None:
-    """The root of a text with prefixes that nothing declares, which the parser of urdfdom does not mind; None where it
-    has other errors, too."""
+def _as_urdfdom(text: str) -> etree._Element | None:
+    """The root of a text with prefixes that nothing declares, or with `--` in comments: the parser of urdfdom minds
+    neither. None where it has other errors, too."""
     parser = etree.XMLParser(
         encoding="utf-8",
         recover=True,
@@ -71,7 +72,7 @@ def _without_namespaces(text: str) -> etree._Element | None:
         root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
     except etree.XMLSyntaxError:
         return None
-    only = all(each.type == etree.ErrorTypes.NS_ERR_UNDEFINED_NAMESPACE for each in parser.error_log)
+    only = all(each.type in _TAKEN_BY_URDFDOM for each in parser.error_log)
     return root if only and root is not None else None
 
 

@@ -55,6 +55,8 @@ def _of_controller(
 ) -> Iterator[Finding]:
     for claim in controller.claims:
         known = (commands if claim.commands else states).get(claim.joint)
+        # Without any interface in the description the plugin of the hardware makes them, if anything does.
+        is_bare = not commands.get(claim.joint) and not states.get(claim.joint)
         kind = "command" if claim.commands else "state"
         for interface in claim.interfaces if known is not None else ():
             if known is None or interface in known:
@@ -64,8 +66,8 @@ def _of_controller(
                 f"joint '{claim.joint}' has no {kind} interface '{interface}', which '{controller.name}' "
                 f"({controller.type}) claims; {has}",
                 place_of(context, claim.param, claim.joint),
-                severity=controller.severity,
-                confidence=controller.confidence,
+                severity="info" if is_bare else controller.severity,
+                confidence="possible" if is_bare else controller.confidence,
             )
 
 
@@ -76,7 +78,8 @@ RULE = Rule(
     what="Checks for a command or state interface that a controller claims and that `<ros2_control>` in the robot "
     "description does not give to the joint. The controller is one of ros2_controllers, and the launch spawns it. A "
     "parameter of any controller whose name ends in `_interface` or `_interfaces` is checked if its value is "
-    "`joint/interface`, which is a warning.",
+    "`joint/interface`, which is a warning. For a joint without any interface the finding is information: the plugin "
+    "of the hardware may make them.",
     why="The controller manager refuses to activate the controller. The robot does not move.",
     example='<joint name="left_wheel_joint">\n  <command_interface name="position"/>\n</joint>',
     instead='<joint name="left_wheel_joint">\n  <command_interface name="velocity"/>\n</joint>',

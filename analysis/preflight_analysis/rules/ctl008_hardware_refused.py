@@ -9,18 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.robot.model import ControlJoint, ControlSystem, Description
 from preflight_analysis.robot.of_launch import Robot
-from preflight_analysis.rules.controllers import managers_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.robots import LENIENT_ROS2_CONTROL, robots, written
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    # A launch that only shows the robot may leave out the plugin of its hardware.
-    no_manager = not managers_of(context.tree)
+    # A launch that shows or simulates the robot may leave out the plugin of its hardware: Gazebo goes on without.
+    is_run = any((node.package, node.executable) == MANAGER for node in context.tree.nodes)
     for robot in robots(context):
         for system in robot.description.misplaced:
             message = f"{_tag(system)} is inside <{system.around}>: ros2_control reads only elements below <robot>"
@@ -28,7 +28,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for system in robot.description.systems:
             if not system.plugin:
                 message = f"{_tag(system)} has no <hardware> with a <plugin>"
-                yield _at_system(rule, context, robot, system, message, "info" if no_manager else None)
+                yield _at_system(rule, context, robot, system, message, None if is_run else "info")
             for message in _of_system(system):
                 yield _at_system(rule, context, robot, system, message)
             yield from _of_joints(rule, context, robot, system)
@@ -92,8 +92,9 @@ RULE = Rule(
     severity="error",
     what="Checks for a `<ros2_control>` element of the robot description that ros2_control refuses: without a "
     "`<plugin>` in `<hardware>`, with an unknown element, or with a `<transmission>` for a joint that it does not "
-    "have. One that is not directly below `<robot>` is not read at all. ros2_control of Jazzy and newer also refuses a "
-    "fixed joint, and a joint with `<mimic>` that has a command interface or follows a joint of another element. The "
+    "have. Without the plugin it is information where the launch runs no `ros2_control_node`. One that is not directly "
+    "below `<robot>` is not read at all. ros2_control of Jazzy and newer also refuses a fixed joint, and a joint with "
+    "`<mimic>` that has a command interface or follows a joint of another element. The "
     'attribute `mimic="false"` allows the interface. If the distribution is unknown, this is information. It is not '
     "reported for older distributions.",
     why="The controller manager ends with an exception, or has no hardware. No controller runs.",
