@@ -817,7 +817,8 @@ from ros_gz_sim.actions import GzServer
 def generate_launch_description():
     return LaunchDescription([
         GzServer(world_sdf_file="/a.sdf"),
-        RosGzBridge(bridge_name="b", config_file="/b.yaml", namespace="r", condition=IfCondition("true")),
+        RosGzBridge(bridge_name="b", config_file="/b.yaml", namespace="r", condition=IfCondition("true"),
+                    extra_bridge_params={"expand_gz_topic_names": True}),
         RosGzBridge(bridge_name="c", config_file="/c.yaml", condition=IfCondition("false"))])
 """,
     )

@@ -14,11 +14,15 @@ class _Including(IncludeLaunchDescription):
     package = file = ""
     required: tuple[str, ...] = ()
     optional: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+    """What newer versions take too, and what changes no name in ROS."""
 
     def __init__(self, **kwargs: Any) -> None:
         for name in self.required:
             if name not in kwargs:
                 raise TypeError(f"{type(self).__name__}.__init__() missing required argument: '{name}'")
+        for name in self.left_out:
+            kwargs.pop(name, None)
         names = (*self.required, *self.optional)
         given = [(name, kwargs.pop(name)) for name in names if kwargs.get(name) is not None]
         path = PathJoinSubstitution([FindPackageShare(self.package), "launch", self.file])
@@ -36,6 +40,7 @@ class RosGzBridge(_Including):
         "use_respawn",
         "log_level",
     )
+    left_out = ("bridge_params", "extra_bridge_params")
 
 
 class GzServer(_Including):
