@@ -1,7 +1,10 @@
 """CTL010: a controller without a parameter that it requires."""
 
+from dataclasses import replace
+
 import pytest
-from support.check import findings_of
+from preflight_analysis.rules.registry import run_rules
+from support.check import analyse, findings_of, read_fixture
 from support.control_threads import hardware, launch, manager, publisher, spawner, urdf, workspace
 
 _JOINTS = ("joint1", "joint2")
@@ -42,3 +45,17 @@ def test_what_is_not_configured_or_known() -> None:
     assert _said(_MANAGER, "arm --load-only") == []
     assert _said(_MANAGER, "arm -p /elsewhere.yaml") == []
     assert _said(f"{_MANAGER}arm:\n{_FULL}", "arm -p /p/controllers.yaml") == []
+
+
+def test_a_package_of_the_workspace_that_is_called_so() -> None:
+    """https://github.com/MonashNovaRover/nova has a diff_drive_controller of its own."""
+    package = "joint_trajectory_controller"
+    files = {
+        "/p/controllers.yaml": f"{_MANAGER}arm:\n  ros__parameters:\n    own: true\n",
+        f"/{package}/package.xml": f"<package><name>{package}</name></package>",
+    }
+    robot = publisher(urdf(_JOINTS, hardware(_JOINTS)))
+    context = analyse(read_fixture(workspace(launch(robot, manager(), spawner("arm")), files)))
+    for folder, said in (("/", False), ("/elsewhere", True)):
+        here = replace(context, environment=replace(context.environment, workspace=folder))
+        assert ("CTL010" in {each.rule for each in run_rules(here)}) == said

@@ -31,7 +31,16 @@ def test_what_no_parser_takes(text: str, said: str) -> None:
 
 
 @pytest.mark.silent
-@pytest.mark.parametrize("text", ["<robot/>", "<sdf/>", " \n", '<?xml version="1.0"?>\n<robot/>'])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<robot/>",
+        "<sdf/>",
+        '<COLLADA xmlns="http://www.collada.org/2008/03/COLLADASchema"/>',
+        " \n",
+        '<?xml version="1.0"?>\n<robot/>',
+    ],
+)
 def test_what_is_taken(text: str) -> None:
     check(_LAUNCH.format("", json.dumps({"xacro arm": {"output": text}})))
 

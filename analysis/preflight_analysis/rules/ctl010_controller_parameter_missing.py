@@ -35,6 +35,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     managers = {node.name: node for node in context.tree.nodes_and_simulated}
     for each in context.once(controllers_of):
         needed, manager = _NEEDED.get(each.type, ()), managers.get(each.given_to)
+        package = context.environment.packages.get(each.type.partition("/")[0])
+        if package is not None and package.is_within(context.environment.workspace):
+            continue  # a controller of one's own that is called so
         if not needed or each.spawner is None or manager is None or not _is_known(context, manager, each.spawner):
             continue
         own = {param.name for param in each.params if param.value not in ("", [])}

@@ -14,8 +14,8 @@ from preflight_analysis.rules.problems import include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
-_KINDS = ("robot", "sdf")
-"""Tags of roots that robot_state_publisher takes; SDF by a plugin (sdformat_urdf)."""
+_KINDS = ("robot", "sdf", "{http://www.collada.org/2008/03/COLLADASchema}COLLADA", "COLLADA")
+"""Tags of roots that robot_state_publisher takes; SDF and COLLADA by plugins (sdformat_urdf, collada_parser)."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -77,8 +77,8 @@ RULE = Rule(
     id="URD001",
     name="malformed-description",
     severity="error",
-    what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is neither "
-    "`<robot>` nor `<sdf>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file. "
+    what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is not "
+    "`<robot>`, `<sdf>` or `<COLLADA>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file. "
     "The semantic description (SRDF) must be well-formed, too. "
     "A description that xacro has yet to process is a warning, and the other rules do not read it. A value that is a "
     "name is not checked: some nodes get the name of the parameter with the description.",
