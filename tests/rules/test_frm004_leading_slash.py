@@ -132,6 +132,14 @@ def test_a_parameter_of_a_node_that_is_not_known() -> None:
     assert found.message == "frame '/laser' begins with '/', which tf2 refuses: /lidar gets it as 'frame_id'"
 
 
+def test_one_of_a_node_that_broadcasts_transforms() -> None:
+    """Plankton's message_to_tf, whose frames tf2 takes."""
+    seen = '{"/lidar": {"publishers": {"/tf": "tf2_msgs/msg/TFMessage"}}}'
+    text = f"{_LIDAR.format('/laser').rstrip()}\n        //- interfaces\n        {seen}\n"
+    (found,) = [f for f in findings_of(text) if f.rule == "FRM004"]
+    assert found.severity == "info"
+
+
 @pytest.mark.silent
 def test_a_parameter_of_a_node_that_is_not_known_without_a_slash() -> None:
     assert [f for f in findings_of(_LIDAR.format("laser")) if f.rule == "FRM004"] == []

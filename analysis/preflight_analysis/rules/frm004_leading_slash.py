@@ -14,6 +14,7 @@ from preflight_analysis.rules.frames import frames_of, place_of_mention, place_o
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.well_known import is_transform
 from preflight_analysis.tracing.interface import BUFFER
 
 _REFUSE = re.compile(rf"{BUFFER}::|[a-z]+_")
@@ -66,18 +67,27 @@ def _severity_of_costmaps(context: Context) -> Severity:
 
 
 def _of_mentions(rule: Rule, context: Context) -> Iterator[Finding]:
+    broadcasters = context.once(_broadcasters)
     for mention in frames_of(context).mentions:
         written = str(mention.param.value)
-        # Who broadcasts it takes it off.
+        # Who gets what a node broadcasts takes it off (`BufferCore::setTransform`).
         if written.startswith("/") and mention.node.package != "tf2_ros":
             place = place_of_mention(context, mention)
             yield rule.finding(
                 f"frame '{written}' begins with '/', which tf2 refuses: {mention.node.name} gets it as "
                 f"'{mention.parameter}'",
                 place,
+                severity="info" if mention.node.name in broadcasters else None,
                 confidence="possible",
                 fixes=rename(context, place, written, mention.frame),
             )
+
+
+def _broadcasters(context: Context) -> frozenset[str]:
+    """The names of the nodes that publish transforms."""
+    topics = context.graph.topics.values() if context.graph is not None else ()
+    of_tf = (channel for channel in topics if is_transform(channel.name))
+    return frozenset(end.node.name for channel in of_tf for end in channel.providers)
 
 
 def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -116,7 +126,8 @@ RULE = Rule(
     what="Checks for a frame that begins with `/` in the parameters of a ROS 2 node, in a transform that it looks "
     "up, or in the configuration of RViz. Of nodes of ROS 1 it checks what their source asks of tf2, and "
     "`global_frame` and `robot_base_frame` of costmaps: a warning in Melodic and Noetic. Where the distribution is "
-    "unknown, it is information if no package of the workspace depends on tf2.",
+    "unknown, it is information if no package of the workspace depends on tf2. So is a parameter of a node whose frames "
+    "are not known and that broadcasts transforms.",
     why="tf2 refuses the frame: `Invalid frame ID: frame_ids cannot start with a '/'`. The tf library of ROS 1 removed "
     "the slash.",
     example="slam_toolbox:\n  ros__parameters:\n    base_frame: /base_link",

@@ -78,7 +78,8 @@ RULE = Rule(
     name="malformed-description",
     severity="error",
     what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is not "
-    "`<robot>`, `<sdf>` or `<COLLADA>`. The rule reads the value that the nodes get: the output of xacro, or the text of the file. "
+    "`<robot>`, `<sdf>` or `<COLLADA>`. The rule reads the value that the nodes get: the output of xacro, or the text "
+    "of the file. "
     "The semantic description (SRDF) must be well-formed, too. "
     "A description that xacro has yet to process is a warning, and the other rules do not read it. A value that is a "
     "name is not checked: some nodes get the name of the parameter with the description.",
