@@ -126,8 +126,8 @@ RULE = Rule(
     what="Checks for a frame that begins with `/` in the parameters of a ROS 2 node, in a transform that it looks "
     "up, or in the configuration of RViz. Of nodes of ROS 1 it checks what their source asks of tf2, and "
     "`global_frame` and `robot_base_frame` of costmaps: a warning in Melodic and Noetic. Where the distribution is "
-    "unknown, it is information if no package of the workspace depends on tf2. So is a parameter of a node whose frames "
-    "are not known and that broadcasts transforms.",
+    "unknown, it is information if no package of the workspace depends on tf2. So is a parameter of a node that "
+    "broadcasts transforms, if the use of the frame is not known.",
     why="tf2 refuses the frame: `Invalid frame ID: frame_ids cannot start with a '/'`. The tf library of ROS 1 removed "
     "the slash.",
     example="slam_toolbox:\n  ros__parameters:\n    base_frame: /base_link",
