@@ -5,7 +5,9 @@ https://control.ros.org/jazzy/doc/ros2_control/hardware_interface/doc/hardware_i
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 
 from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.findings.finding import Finding
@@ -14,6 +16,8 @@ from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.problems import quoted
 from preflight_analysis.rules.rule import Context, Rule
 
+_AS_DESCRIBED = re.compile(r"(?:mock_components|fake_components|gz_ros2_control|ign_ros2_control|gazebo_ros2_control)/")
+"""Before the names of hardware that has the interfaces of the description and no others."""
 _FULL_NAMES = ("_interface", "_interfaces")
 """The ends of the names of parameters that may have interfaces with their joints."""
 
@@ -26,7 +30,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         commands = {joint.name: set(joint.commands) for system in systems for joint in system.joints}
         states = {joint.name: set(joint.states) for system in systems for joint in system.joints}
-        yield from _of_controller(rule, context, each, commands, states)
+        own = {joint.name for system in systems if not _AS_DESCRIBED.match(system.plugin) for joint in system.joints}
+        yield from _of_controller(rule, context, each, commands, states, own)
         yield from _by_full_name(rule, context, each, commands, states)
 
 
@@ -51,12 +56,18 @@ def _by_full_name(
 
 
 def _of_controller(
-    rule: Rule, context: Context, controller: Controller, commands: dict[str, set[str]], states: dict[str, set[str]]
+    rule: Rule,
+    context: Context,
+    controller: Controller,
+    commands: dict[str, set[str]],
+    states: dict[str, set[str]],
+    own: AbstractSet[str],
 ) -> Iterator[Finding]:
+    """`own` are the joints whose hardware may have interfaces that the description does not list."""
     for claim in controller.claims:
         known = (commands if claim.commands else states).get(claim.joint)
-        # Without any interface in the description the plugin of the hardware makes them, if anything does.
-        is_bare = not commands.get(claim.joint) and not states.get(claim.joint)
+        # Where the description lists none, the hardware makes them, if anything does.
+        is_bare = not known and claim.joint in own
         kind = "command" if claim.commands else "state"
         for interface in claim.interfaces if known is not None else ():
             if known is None or interface in known:
@@ -78,8 +89,8 @@ RULE = Rule(
     what="Checks for a command or state interface that a controller claims and that `<ros2_control>` in the robot "
     "description does not give to the joint. The controller is one of ros2_controllers, and the launch spawns it. A "
     "parameter of any controller whose name ends in `_interface` or `_interfaces` is checked if its value is "
-    "`joint/interface`, which is a warning. For a joint without any interface the finding is information: the plugin "
-    "of the hardware may make them.",
+    "`joint/interface`, which is a warning. For a joint without any interface of that kind the finding is information, "
+    "because the plugin of the hardware may make them. Those of mock components and Gazebo do not.",
     why="The controller manager refuses to activate the controller. The robot does not move.",
     example='<joint name="left_wheel_joint">\n  <command_interface name="position"/>\n</joint>',
     instead='<joint name="left_wheel_joint">\n  <command_interface name="velocity"/>\n</joint>',
