@@ -33,6 +33,7 @@ _OF_ROS2_CONTROL = ("hardware", "properties", "joint", "sensor", "gpio", "transm
 _JOINT_TAG = re.compile(r"(?:joint|joint_?name)$", re.IGNORECASE)
 """Elements of plugins that name a joint: `leftJoint`, `front_left_joint`, `joint_name`."""
 _NAME = re.compile(r"[A-Za-z_][\w./-]*")
+_TOPIC_TAGS = ("topic", "camera_info_topic")
 _FRAME_TAGS = ("gz_frame_id", "ignition_frame_id", "frameName", "frame_name")
 """What has the frame of a simulated sensor: in the sensor (Gazebo), or in its plugin (Gazebo Classic)."""
 
@@ -59,17 +60,9 @@ def parse_description(text: str) -> Description:
 def _as_urdfdom(text: str) -> etree._Element | None:
     """The root of a text with prefixes that nothing declares, or with `--` in comments: the parser of urdfdom minds
     neither. None where it has other errors, too."""
-    parser = etree.XMLParser(
-        encoding="utf-8",
-        recover=True,
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        remove_comments=True,
-        remove_pis=True,
-    )
+    parser = _parser(recover=True)
     try:
-        root = etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
+        root = xml_root(text, parser)
     except etree.XMLSyntaxError:
         return None
     only = all(each.type in _TAKEN_BY_URDFDOM for each in parser.error_log)
@@ -109,18 +102,23 @@ def _described(root: etree._Element, text: str) -> Description:
     )
 
 
-def xml_root(text: str) -> etree._Element:
+def xml_root(text: str, parser: etree.XMLParser | None = None) -> etree._Element:
     """The element that a text is, without its comments; raises XMLSyntaxError or ValueError."""
-    parser = etree.XMLParser(
+    # A declaration has to be the first thing, which launch files with a text in them do not keep.
+    return etree.fromstring(text.strip().encode("utf-8", "replace"), parser if parser is not None else _parser())
+
+
+def _parser(*, recover: bool = False) -> etree.XMLParser:
+    """One that loads nothing and expands no entities; `recover`: it goes on behind what is wrong, and logs it."""
+    return etree.XMLParser(
         encoding="utf-8",
+        recover=recover,
         resolve_entities=False,
         no_network=True,
         load_dtd=False,
         remove_comments=True,
         remove_pis=True,
     )
-    # A declaration has to be the first thing, which launch files with a text in them do not keep.
-    return etree.fromstring(text.strip().encode("utf-8", "replace"), parser)
 
 
 def _leave_unknown(root: etree._Element) -> None:
@@ -143,9 +141,6 @@ def _words(error: etree.XMLSyntaxError) -> str:
     """The parser's words without the place, which is that in a text that nobody sees."""
     message = (error.msg or "").partition(", line ")[0]
     return message[:1].lower() + message[1:]
-
-
-_TOPIC_TAGS = ("topic", "camera_info_topic")
 
 
 def _tag(element: etree._Element) -> str:

@@ -19,7 +19,8 @@ case."""
 _MOST_NAMES = 30
 _MOST_ROOTS = 2
 """A file that many launches name is looked at in the first of them: each takes an evaluation."""
-_ROBOTS = (".xacro", ".urdf", ".srdf")
+ROBOTS = (".xacro", ".urdf", ".srdf")
+"""The ends of the names of robot descriptions."""
 _DESCRIBES = re.compile(r"robot_description|xacro")
 
 
@@ -31,7 +32,7 @@ def roots_naming(index: WorkspaceIndex, sources: Sources, environment: Environme
     own = package_around(environment, path)
     naming = _naming(_names(sources, environment, path))
     found = [root for root in index.entries if _has(index, sources, root, path, naming)]
-    if not found and own is not None and path.endswith(_ROBOTS):
+    if not found and own is not None and path.endswith(ROBOTS):
         speaking = (_DESCRIBES, _naming([own.name]))
         found = [root for root in index.entries if all(_has(index, sources, root, path, each) for each in speaking)]
     found.sort(key=lambda root: (own is None or not root.path.startswith(own.share.rstrip("/") + "/"), root))
@@ -49,8 +50,8 @@ def _names(sources: Sources, environment: Environment, path: str) -> list[str]:
     """The names of a file and of those that include it, and so on."""
     own = package_around(environment, path)
     packages = environment.own_packages
-    suffixes = _ROBOTS if path.endswith(_ROBOTS) else (".xml",)
-    if len(packages) > _MOST_PACKAGES or suffixes != _ROBOTS:
+    suffixes = ROBOTS if path.endswith(ROBOTS) else (".xml",)
+    if len(packages) > _MOST_PACKAGES or suffixes != ROBOTS:
         packages = [own] if own is not None else []
     files = [file for package in packages for file in files_in(sources, package.share, deep=True)]
     files = [file for file in files if file.endswith(suffixes)]

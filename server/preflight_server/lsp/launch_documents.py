@@ -7,6 +7,7 @@ import re
 
 from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, is_python
 from preflight_analysis.launch.read import LAUNCH_SUFFIXES, is_module, is_yaml
+from preflight_analysis.workspace.handed_over import ROBOTS
 
 from preflight_server.lsp.text_store import OpenDocument
 
@@ -17,7 +18,6 @@ _DOCTYPE = re.compile(r"<!DOCTYPE[^<>]*>")
 _TAG = re.compile(r"<([\w:.-]+)(?=[\s/>]|\Z)")
 _XML = ("xml", "urdf", "xacro", "srdf")
 """What editors call the languages of XML."""
-_ROBOTS = (".xacro", ".urdf", ".srdf")
 _TREE = re.compile(r"<BehaviorTree\b|\b(?:BTCPP_format|main_tree_to_execute)\s*=")
 
 
@@ -72,7 +72,7 @@ def is_handed_over(document: OpenDocument) -> bool:
     path = document.path
     if path is None or is_launch_file(document) or not is_xml(document):
         return False
-    if path.endswith(_ROBOTS):
+    if path.endswith(ROBOTS):
         return True
     tag = _first_tag(document.text)
     return tag == "robot" or (tag == "root" and _TREE.search(document.text) is not None)
@@ -86,4 +86,4 @@ def is_served(document: OpenDocument) -> bool:
 def is_xml(document: OpenDocument) -> bool:
     """Whether it is XML of any kind. Editors without a mode for it may call it text."""
     path = document.path or ""
-    return document.language_id in _XML or path.endswith((".xml", *_ROBOTS))
+    return document.language_id in _XML or path.endswith((".xml", *ROBOTS))
