@@ -203,7 +203,37 @@ def test_a_renamed_node_keeps_its_parameters(tmp_path: Path) -> None:
     assert keys == ["/left/motor:", "  motor:", "/*/motor:"]
 
 
-def test_a_node_is_not_renamed_if_a_section_means_others_too(tmp_path: Path) -> None:
+def test_nodes_that_share_a_section_are_renamed_together(tmp_path: Path) -> None:
     workspace = create_workspace(tmp_path, RENAMED % "pump")
-    with pytest.raises(RenameRefusedError, match="rename it by hand"):
+    edits = rename(workspace.context, workspace.offset, "motor")
+    edited = workspace.edited(edits)
+    assert edited["main.launch.yaml"].count("name: motor\n") == 2
+    assert "pump" not in edited["p.yaml"]
+    assert [(workspace.shown(e.location), e.reason) for e in edits if e.indirect] == [
+        ("main.launch.yaml:12 pump", "It reads the same section at p.yaml:6")
+    ]
+
+
+def test_nodes_of_several_launches_that_share_a_section_are_renamed_together(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="p" exec="t" name="$0pump"><param from="{folder}/p.yaml"/></node>
+        </launch>
+        //- other.launch.xml
+        <launch>
+          <node pkg="p" exec="t" name="%s"><param from="{folder}/p.yaml"/></node>
+          <node pkg="p" exec="t" name="fan"><remap from="a" to="pump/a"/></node>
+        </launch>
+        //- third.launch.xml
+        <launch><node pkg="p" exec="t" name="pump" namespace="x"><param from="{folder}/p.yaml"/></node></launch>
+        //- p.yaml
+        pump:
+          ros__parameters: {a: 1}
+        """
+    workspace = create_workspace(tmp_path / "a", text % "pump", build_type="ament_python")
+    edited = workspace.edited(rename(workspace.context, workspace.offset, "motor"))
+    assert sorted(edited) == ["main.launch", "other.launch.xml", "p.yaml"]
+    assert edited["other.launch.xml"].count('"motor') == 2
+    workspace = create_workspace(tmp_path / "b", text % "$(env NAME pump)", build_type="ament_python")
+    with pytest.raises(RenameRefusedError, match="started at other.launch.xml:2: rename it by hand"):
         rename(workspace.context, workspace.offset, "motor")

@@ -11,15 +11,17 @@ from preflight_analysis.workspace.index import Root
 from support.workspace_harness import create_workspace
 
 
-def renamed(tmp_path: Path, text: str, new: str) -> dict[str, str]:
+def renamed(tmp_path: Path, text: str, new: str, build_type: str | None = None) -> dict[str, str]:
     """The files that a rename changes, after it; line ends as blanks."""
-    workspace = create_workspace(tmp_path, text)
+    workspace = create_workspace(tmp_path, text, build_type=build_type)
     texts = workspace.edited(rename(workspace.context, workspace.offset, new))
     return {name: text.replace(str(tmp_path), "") for name, text in texts.items()}
 
 
-def refused(tmp_path: Path, text: str, new: str = "other", *, named: tuple[Root, ...] = ()) -> str:
-    workspace = create_workspace(tmp_path, text, named=named)
+def refused(
+    tmp_path: Path, text: str, new: str = "other", *, named: tuple[Root, ...] = (), build_type: str | None = None
+) -> str:
+    workspace = create_workspace(tmp_path, text, named=named, build_type=build_type)
     with pytest.raises(RenameRefusedError) as refusal:
         rename(workspace.context, workspace.offset, new)
     return str(refusal.value)
@@ -322,3 +324,138 @@ def test_the_catalogue_s_files_are_not_edited(tmp_path: Path, monkeypatch: pytes
     )
     assert "cannot be" in refused(tmp_path / "ws", text)
     launches.launch_files_of.cache_clear()
+
+
+LEAKS = """
+    <launch>
+      <arg name="spe$0ed" default="0.4"/>
+      <include file="{folder}/b.launch.py"/>
+      <log message="$(var speed)"/>
+    </launch>
+    //- two.launch.xml
+    <launch>
+      <arg name="speed" default="0.5"/>
+      <include file="{folder}/b.launch.py"/>
+    </launch>
+    //- b.launch.py
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument
+
+    def generate_launch_description():
+        return LaunchDescription([DeclareLaunchArgument('%s', default_value='1')])
+"""
+
+
+def test_files_that_include_a_third_do_not_share_what_that_has_nothing_to_do_with(tmp_path: Path) -> None:
+    texts = renamed(tmp_path, LEAKS % "use_sim_time", "velocity", "ament_python")
+    assert list(texts) == ["main.launch"]
+    assert texts["main.launch"].count("velocity") == 2
+
+
+def test_an_argument_that_no_include_passes_is_that_of_all_who_read_it(tmp_path: Path) -> None:
+    workspace = create_workspace(tmp_path, LEAKS % "speed", build_type="ament_python")
+    edits = rename(workspace.context, workspace.offset, "velocity")
+    assert sorted(workspace.edited(edits)) == ["b.launch.py", "main.launch", "two.launch.xml"]
+    assert {(e.label, e.reason) for e in edits if e.indirect} == {
+        (
+            "Argument 'speed' of b.launch.py",
+            "Shared with main.launch: no include between them passes it by name",
+        ),
+        (
+            "Argument 'speed' of two.launch.xml",
+            "Shared with b.launch.py: no include between them passes it by name",
+        ),
+    }
+
+
+def test_an_argument_that_is_passed_is_another_one(tmp_path: Path) -> None:
+    text = (LEAKS % "speed").replace(
+        '<include file="{folder}/b.launch.py"/>',
+        '<include file="{folder}/b.launch.py"><arg name="speed" value="$(var speed)"/></include>',
+    )
+    texts = renamed(tmp_path / "a", text, "velocity", "ament_python")
+    assert list(texts) == ["main.launch"]
+    assert '<arg name="speed" value="$(var velocity)"/>' in texts["main.launch"]
+    assert "$(var velocity)" in texts["main.launch"].split("</include>")[1]
+    of_b = text.replace("$0", "").replace("DeclareLaunchArgument('", "DeclareLaunchArgument('$0")
+    texts = renamed(tmp_path / "b", of_b, "velocity", "ament_python")
+    assert sorted(texts) == ["b.launch.py", "main.launch", "two.launch.xml"]
+    assert '<arg name="speed" default="0.4"/>' in texts["main.launch"]
+    assert '<arg name="velocity" value="$(var speed)"/>' in texts["main.launch"]
+    assert "$(var speed)" in texts["main.launch"].split("</include>")[1]
+
+
+def test_what_an_include_sets_is_read_after_it(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <include file="{folder}/a.launch.xml"><arg name="speed" value="2"/></include>
+          %s<include file="{folder}/b.launch.xml"/>%s
+          <log message="$(var speed)"/>
+        </launch>
+        //- a.launch.xml
+        <launch><arg name="spe$0ed"/></launch>
+        //- b.launch.xml
+        <launch><arg name="speed" default="1"/></launch>
+        """
+    texts = renamed(tmp_path / "a", text % ("", ""), "velocity", "ament_python")
+    assert sorted(texts) == ["a.launch.xml", "b.launch.xml", "main.launch"]
+    assert texts["main.launch"].count("velocity") == 2
+    reset = text % ('<group forwarding="false">', "</group>")
+    texts = renamed(tmp_path / "b", reset.replace('<log message="$(var speed)"/>', ""), "velocity", "ament_python")
+    assert sorted(texts) == ["a.launch.xml", "main.launch"]
+
+
+def test_what_a_scoped_group_includes_is_not_read_after_it(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <group><include file="{folder}/a.launch.xml"/></group>
+          <include file="{folder}/b.launch.xml"/>
+        </launch>
+        //- a.launch.xml
+        <launch><arg name="spe$0ed" default="2"/></launch>
+        //- b.launch.xml
+        <launch><arg name="speed" default="1"/></launch>
+        """
+    assert list(renamed(tmp_path, text, "velocity", "ament_python")) == ["a.launch.xml"]
+
+
+def test_a_missing_include_of_another_root(tmp_path: Path) -> None:
+    text = LEAKS.replace("<launch>\n      <arg", '<launch>\n      <include file="/none.launch.xml"/>\n      <arg')
+    assert list(renamed(tmp_path, text % "other", "velocity", "ament_python")) == ["main.launch"]
+
+
+def test_an_argument_that_would_be_taken_for_another_one(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <arg name="velocity" default="%s"/>
+          <include file="{folder}/b.launch.xml"><arg name="speed" value="%s"/></include>
+          %s
+        </launch>
+        //- b.launch.xml
+        <launch><arg name="spe$0ed"/><log message="$(var speed)"/></launch>
+        //- c.launch.xml
+        <launch><arg name="velocity" default="1"/></launch>
+        """
+    same = renamed(tmp_path / "a", text % ("1", "$(var velocity)", ""), "velocity", "ament_python")
+    assert '<arg name="velocity" value="$(var velocity)"/>' in same["main.launch"]
+    other = refused(tmp_path / "b", text % ("1", "2", ""), "velocity", build_type="ament_python")
+    assert other == "'velocity' is already an argument of the same launch, at main.launch:2"
+    beside = (text % ("1", "2", '<include file="{folder}/c.launch.xml"/>')).replace(
+        'name="velocity" default="1"/>\n', 'name="x" default="1"/>\n', 1
+    )
+    assert "at c.launch.xml:1" in refused(tmp_path / "c", beside, "velocity", build_type="ament_python")
+
+
+def test_an_argument_that_is_passed_by_a_name_made_up(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <arg name="spe$0ed" default="1"/>
+        </launch>
+        //- up.launch.xml
+        <launch>
+          <let name="which" value="speed"/>
+          <include file="{folder}/main.launch"><arg name="$(var which)" value="2"/></include>
+        </launch>
+        """
+    message = refused(tmp_path, text, "velocity", build_type="ament_python")
+    assert message == "'speed' is passed to main.launch by a name made up at up.launch.xml:3"

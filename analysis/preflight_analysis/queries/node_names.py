@@ -22,9 +22,11 @@ _WORD = re.compile(r"\S+")
 
 @dataclass(frozen=True, slots=True)
 class NodeMention:
-    """A name that lies below a node's. `span`, in the file of `value`, is the last part of the node's name, without
-    its namespace; None where it is not written there as it is: a substitution gives it, or a namespace around it."""
+    """A name that lies below that of `node`, its full name. `span`, in the file of `value`, is the last part of the
+    node's name, without its namespace; None where it is not written there as it is: a substitution gives it, or a
+    namespace around it."""
 
+    node: str
     value: Location
     span: Span | None
 
@@ -47,16 +49,16 @@ def mentions_of(context: QueryContext, trees: Iterable[LaunchTree], wanted: froz
                     yield _of_param(context, param, full, node)
         for place, full in remap_names(tree):
             for node in _above(full, wanted):
-                yield NodeMention(place, _moved(_part(context.text(place), full, node), place.span.start))
+                yield NodeMention(node, place, _moved(_part(context.text(place), full, node), place.span.start))
         for owner in tree.nodes:
             yield from _in_annotation(context, owner, wanted)
             yield from _in_arguments(context, owner, wanted)
             if owner.name in wanted:
-                yield from _in_parameter_files(context, tree, owner, wanted)
+                yield from _in_parameter_files(context, owner)
             if owner.container and owner.container_location is not None:
                 full, place = f"/{owner.container.lstrip('/')}", owner.container_location
                 if full in wanted:
-                    yield NodeMention(place, _moved(_part(context.text(place), full, full), place.span.start))
+                    yield NodeMention(full, place, _moved(_part(context.text(place), full, full), place.span.start))
 
 
 def remap_names(tree: LaunchTree) -> Iterator[tuple[Location, str]]:
@@ -98,7 +100,7 @@ def _of_param(context: QueryContext, param: Param, full: str, node: str) -> Node
     if action is not None and action.kind == "rosparam" and place.span.start < action.body.span.start:
         action, place = None, param.origin[-1]
     if action is not None and action.kind == "param":
-        return NodeMention(place, _moved(_part(context.text(place), full, node), place.span.start))
+        return NodeMention(node, place, _moved(_part(context.text(place), full, node), place.span.start))
     return _of_key(context, param, full, node, place, action)
 
 
@@ -119,8 +121,8 @@ def _of_key(
         above = f"{base}/{'/'.join(path[:depth])}"
         if above == node and (key := keys.get(path[:depth])) is not None:
             written = context.location(place.file, Span(start + key.start, start + key.end))
-            return NodeMention(written, _moved(_part(context.text(written), above, node), written.span.start))
-    return _of_namespace(context, param, base, node) or NodeMention(place, None)
+            return NodeMention(node, written, _moved(_part(context.text(written), above, node), written.span.start))
+    return _of_namespace(context, param, base, node) or NodeMention(node, place, None)
 
 
 def _of_namespace(context: QueryContext, param: Param, base: str, node: str) -> NodeMention | None:
@@ -136,7 +138,7 @@ def _of_namespace(context: QueryContext, param: Param, base: str, node: str) -> 
             return None
         below = f"/{leaf.text}" if ns is not None and leaf is not None else ""
         span = _part(value.text, base.removesuffix(below), node) if value.is_literal else None
-        return NodeMention(context.location(tag.file, value.span), _moved(span, value.span.start))
+        return NodeMention(node, context.location(tag.file, value.span), _moved(span, value.span.start))
     return None
 
 
@@ -146,28 +148,22 @@ def _in_annotation(context: QueryContext, owner: LaunchNode, wanted: frozenset[s
             full = names.resolve(name, owner.name)
             for node in _above(full, wanted):
                 found = _part(name, full, node)
-                yield NodeMention(context.location(owner.location.file, span), _moved(found, span.start))
+                yield NodeMention(node, context.location(owner.location.file, span), _moved(found, span.start))
 
 
-def _in_parameter_files(
-    context: QueryContext, tree: LaunchTree, owner: LaunchNode, wanted: frozenset[str]
-) -> Iterator[NodeMention]:
-    """The keys in ROS 2's parameter files that end in the node's name; not if they mean other nodes as well."""
+def _in_parameter_files(context: QueryContext, owner: LaunchNode) -> Iterator[NodeMention]:
+    """The keys in ROS 2's parameter files that end in the node's name."""
     name = names.leaf(owner.name)
     for path in dict.fromkeys(source.path for source in owner.param_sources if source.path is not None):
         document = context.document(path)
         for section in read_param_file(document).sections if document is not None else ():
             if not section.fits(owner.name) or names.leaf(section.pattern) != name:
                 continue
-            others = any(
-                section.fits(node.name) and node.name not in wanted and any(s.path == path for s in node.param_sources)
-                for node in tree.nodes
-            )
             key = section.spans[-1]
             written = document.text[key.start : key.end] if document is not None else ""
             exact = written == name or written.endswith(f"/{name}")
-            last = Span(key.end - len(name), key.end) if exact and not others else None
-            yield NodeMention(context.location(path, key), last)
+            last = Span(key.end - len(name), key.end) if exact else None
+            yield NodeMention(owner.name, context.location(path, key), last)
 
 
 def _in_arguments(context: QueryContext, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:
@@ -183,4 +179,4 @@ def _in_arguments(context: QueryContext, owner: LaunchNode, wanted: frozenset[st
     written = list(_WORD.finditer(value.text))
     plain = value.is_literal and value.span.end - value.span.start == len(value.text) and len(written) > 2
     found = _part(words[2], full, full) if plain else None
-    yield NodeMention(place, _moved(found, value.span.start + written[2].start()) if plain else None)
+    yield NodeMention(full, place, _moved(found, value.span.start + written[2].start()) if plain else None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -42,8 +42,16 @@ class QueryContext:
     @cached_property
     def all_trees(self) -> tuple[LaunchTree, ...]:
         """What every root starts that reaches the file: those that were not analysed are evaluated now."""
+        return self.trees_around((self.path,))
+
+    def trees_around(self, paths: Iterable[str]) -> tuple[LaunchTree, ...]:
+        """What every root starts that reaches the file, or one of these paths: as a launch file or another that it
+        reads."""
         known = {analysis.launch for analysis in self.analyses}
-        others = (root for root in self.current.roots_of(self.path) if root not in known)
+        roots = dict.fromkeys(self.current.roots_of(self.path))
+        for path in paths:
+            roots.update(dict.fromkeys(self.current.roots_touching(path)))
+        others = (root for root in roots if root not in known)
         return (*self.trees, *(self.workspace.tree(root.path, dict(root.args)) for root in others))
 
     def facts(self, path: str) -> FileFacts | None:

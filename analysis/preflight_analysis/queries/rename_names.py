@@ -6,15 +6,15 @@ The sources of nodes are left alone: what a node itself calls by the old name st
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Edit
+from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import connections, made_at
-from preflight_analysis.queries.rename_refused import RenameRefusedError
+from preflight_analysis.queries.rename_edit import RenameEdit, RenameRefusedError
 from preflight_analysis.queries.symbol_at import NamedSymbol, own_parameter, remaps_at, settings_of
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -25,53 +25,66 @@ _PARAMETER = re.compile(r"[A-Za-z][\w-]*\Z", re.ASCII)
 @dataclass(frozen=True, slots=True)
 class ParameterRename:
     """A parameter with all places that set it. `leaf` is the last part of its name, which a rename changes: `places`
-    are where that is written; `names` are the full names that they set."""
+    are where that is written, each with the launch files of roots that it counts in as well and that were not
+    analysed; `names` are the full names that they set in all `trees`."""
 
     leaf: str
     span: Span
-    places: tuple[Location, ...]
+    places: Mapping[Location, tuple[str, ...]]
     names: frozenset[str]
+    trees: tuple[LaunchTree, ...]
 
 
 def parameter_rename(context: QueryContext, symbol: NamedSymbol) -> ParameterRename:
     """What a rename of the parameter at the cursor changes. Raises `RenameRefusedError`."""
     at = _leaf(context, context.location(context.path, symbol.span))
     leaf = context.text(at)
-    full, places = set(symbol.names), dict[Location, None]()
+    full, places = set(symbol.names), dict[Location, dict[str, None]]()
     while True:
-        before = len(full), len(places)
-        for tree in context.all_trees:
+        trees = context.trees_around({place.file for place in places})
+        before = len(full), len(places), len(trees)
+        for tree in trees:
             for name, param in settings_of(tree):
                 if name in full or param.place in places:
                     full.add(name)
-                    places[param.place] = None
-        if before == (len(full), len(places)):
+                    places.setdefault(param.place, {})[tree.file] = None
+        if before == (len(full), len(places), len(context.trees_around({place.file for place in places}))):
             break
-    written = []
-    for place in places:
+    analysed = {tree.file for tree in context.trees}
+    written = {}
+    for place, files in places.items():
         part = _leaf(context, place)
         if context.text(part) != leaf:
             raise RenameRefusedError(
                 f"The parameter is set at {shown(context, place)} under a name that does not end in '{leaf}'"
             )
-        written.append(part)
+        written[part] = tuple(file for file in files if file not in analysed)
     if not written:
         raise RenameRefusedError(f"No launch file or parameter file sets '{leaf}'")
-    return ParameterRename(leaf, at.span, tuple(written), frozenset(full))
+    return ParameterRename(leaf, at.span, written, frozenset(full), trees)
 
 
-def parameter_edits(context: QueryContext, found: ParameterRename, new: str) -> tuple[Edit, ...]:
+def parameter_edits(context: QueryContext, found: ParameterRename, new: str) -> tuple[RenameEdit, ...]:
     """The edits that give the parameter another last part. Raises `RenameRefusedError`."""
     if not _PARAMETER.match(new):
         raise RenameRefusedError(f"'{new}' is not a parameter name: a letter, then letters, digits and underscores")
     renamed = {name: name[: len(name) - len(found.leaf)] + new for name in found.names}
-    for tree in context.all_trees:
+    for tree in found.trees:
         for name, param in settings_of(tree):
             if name in renamed.values():
                 raise RenameRefusedError(f"'{new}' is already set at {shown(context, param.place)}")
     for analysis in context.analyses:
         _refuse_if_read(context, analysis, found, renamed)
-    return tuple(Edit(place, new) for place in found.places)
+    return tuple(
+        RenameEdit(
+            place,
+            new,
+            f"Parameter '{found.leaf}' in {context.shown(place.file)}",
+            f"Also set for nodes of {', '.join(map(context.shown, others))}" if others else "",
+            bool(others),
+        )
+        for place, others in found.places.items()
+    )
 
 
 def _refuse_if_read(
@@ -104,12 +117,13 @@ def _leaf(context: QueryContext, place: Location) -> Location:
     return context.location(place.file, Span(start + found.start(), start + found.end()))
 
 
-def topic_edits(context: QueryContext, symbol: NamedSymbol, new: str | None) -> tuple[Edit, ...]:
+def topic_edits(context: QueryContext, symbol: NamedSymbol, new: str | None) -> tuple[RenameEdit, ...]:
     """The edits of all remaps that give nodes the topic, service or action at the cursor, which `new` is written in
     place of; for None only whether that is possible. Raises `RenameRefusedError`."""
     at = context.location(context.path, symbol.span)
     renamed: dict[str, str] = {}
-    for tree in context.all_trees:
+    trees = context.all_trees
+    for tree in trees:
         for node, remap in remaps_at(tree, at):
             if remap.target_location != at:
                 raise RenameRefusedError(
@@ -123,8 +137,17 @@ def topic_edits(context: QueryContext, symbol: NamedSymbol, new: str | None) -> 
         raise RenameRefusedError(f"'{new}' is not a topic name: a letter, then letters, digits, underscores, slashes")
     for analysis in context.analyses:
         _refuse_if_own(context, analysis, renamed, checks_new=new is not None)
-    edits = dict(_targets(context, renamed, context.text(at), new))
-    return tuple(Edit(place, text) for place, text in edits.items())
+    while True:
+        reached = _reached(trees, renamed)
+        wider = context.trees_around({place.file for place in reached})
+        if len(wider) == len(trees):
+            break
+        trees = wider
+    edits = dict(_targets(context, reached, renamed, context.text(at), new))
+    return tuple(
+        RenameEdit(place, text, f"Remap to '{context.text(place)}' in {context.shown(place.file)}")
+        for place, text in edits.items()
+    )
 
 
 def _refuse_if_own(context: QueryContext, analysis: Analysis, renamed: Mapping[str, str], *, checks_new: bool) -> None:
@@ -141,19 +164,26 @@ def _refuse_if_own(context: QueryContext, analysis: Analysis, renamed: Mapping[s
             raise RenameRefusedError(f"'{new}' exists already: {met[0].node.name} uses it")
 
 
-def _targets(
-    context: QueryContext, renamed: Mapping[str, str], written: str, new: str | None
-) -> Iterator[tuple[Location, str]]:
-    """The targets of remaps that come to one of the names, with what is to be written there."""
+def _reached(trees: Iterable[LaunchTree], renamed: Mapping[str, str]) -> Mapping[Location, list[tuple[str, str]]]:
+    """The targets of remaps that come to one of the names, with each node that they reach and the name that it gets."""
     reached: dict[Location, list[tuple[str, str]]] = {}
-    for tree in context.all_trees:
+    for tree in trees:
         for node in tree.nodes:
             for remap in node.remaps:
                 pair = node.name, names.resolve(remap.target, node.name)
                 reached.setdefault(remap.target_location, []).append(pair)
+    return {place: pairs for place, pairs in reached.items() if any(full in renamed for _, full in pairs)}
+
+
+def _targets(
+    context: QueryContext,
+    reached: Mapping[Location, list[tuple[str, str]]],
+    renamed: Mapping[str, str],
+    written: str,
+    new: str | None,
+) -> Iterator[tuple[Location, str]]:
+    """What is to be written at each of these targets."""
     for place, pairs in reached.items():
-        if not any(full in renamed for _, full in pairs):
-            continue
         text = context.text(place)
         if "$" in text or any(names.resolve(text, node) != full for node, full in pairs):
             raise RenameRefusedError(f"The name at {shown(context, place)} comes from a substitution")

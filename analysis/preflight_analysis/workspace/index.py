@@ -101,6 +101,10 @@ class WorkspaceIndex:
         """The roots that read a file which is none of their launch files, such as one of parameters."""
         return self._readers.get(path, ())
 
+    def roots_touching(self, path: str) -> tuple[Root, ...]:
+        """The roots that reach or read a file; none where it stands alone."""
+        return (*self._reaching.get(path, ()), *self._readers.get(path, ()))
+
     def includers(self, path: str) -> tuple[Inclusion, ...]:
         """Who includes a file, each place with each set of arguments once."""
         return self._includers.get(path, ())
