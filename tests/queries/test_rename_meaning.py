@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode
@@ -15,6 +16,9 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.rename import RenameRefusedError, rename
+from preflight_analysis.workspace.commands import CommandResults
+from preflight_analysis.workspace.facts import Kind, Mention
+from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
@@ -22,6 +26,9 @@ from support.editor_harness import ROOT
 from support.meaning_harness import write_case
 
 CASES = sorted((ROOT / "fixtures/ros1/meaning").glob("*.txt"))
+ROS2 = ROOT / "fixtures/ros2/meaning"
+ROS2_CASES = [json.loads(line) for line in (ROS2 / "cases.jsonl").read_text().splitlines()]
+ROS2_INCLUDING = [case for case in ROS2_CASES if len(case["files"]) > 1]
 NEW = "zz_renamed"
 
 
@@ -31,21 +38,38 @@ def workspace_of(case: Path, folder: Path) -> tuple[Workspace, str]:
     return Workspace(environment, Sources(), "/"), job.file
 
 
-def renames(workspace: Workspace, folder: Path, kind: str) -> Iterator[tuple[str, str, Span, tuple[Edit, ...]]]:
-    """Each declaration of an argument, or each node: its file, name and place, and what renames it."""
+def workspace_of_ros2(case: Mapping[str, Any], folder: Path) -> Workspace:
+    share = folder / "src" / "gp"
+    shutil.copytree(ROS2, folder / "src", ignore=shutil.ignore_patterns("*.jsonl", "*.md"))
+    (share / "launch").mkdir()
+    for name, text in case["files"].items():
+        (share / "launch" / name).write_text(text)
+    variables = {"HOME": "/home/robot", "USER": "robot", "PATH": "/usr/bin:/bin", "ROS_VERSION": "2"}
+    environment = detect_environment(None, {**variables, "ROS_DISTRO": "rolling"}, (str(folder / "src"),))
+    return Workspace(environment, Sources(), "/", CommandResults(lambda: "not in tests", "<command>"))
+
+
+def index_of(workspace: Workspace, folder: Path) -> WorkspaceIndex:
     index = build_index(workspace, str(folder))
     assert index is not None
+    return index
+
+
+def renames(
+    workspace: Workspace, index: WorkspaceIndex, *kinds: Kind
+) -> Iterator[tuple[str, Mention, tuple[Edit, ...]]]:
+    """Each mention of these kinds: its file, itself, and what renames it."""
     for path, facts in index.files.items():
-        analyses = tuple(workspace.static(root.path) for root in index.roots_of(path))
-        for mention in (m for m in facts.mentions if m.kind == kind):
+        for mention in (m for m in facts.mentions if m.kind in kinds):
+            analyses = tuple(workspace.static(root.path, dict(root.args)) for root in index.roots_of(path))
             try:
                 edits = rename(QueryContext(path, analyses, index, workspace), mention.span.start, NEW)
             except RenameRefusedError:
                 continue
-            yield path, mention.name, mention.span, edits
+            yield path, mention, edits
 
 
-def after(workspace: Workspace, root: str, edits: tuple[Edit, ...]) -> LaunchTree:
+def after(workspace: Workspace, roots: tuple[Root, ...], edits: tuple[Edit, ...]) -> list[LaunchTree]:
     """What is started with the edits made in the editor."""
     texts: dict[str, str] = {}
     for edit in sorted(edits, key=lambda e: e.location.span, reverse=True):
@@ -55,10 +79,10 @@ def after(workspace: Workspace, root: str, edits: tuple[Edit, ...]) -> LaunchTre
         texts[path] = text[: span.start] + edit.text + text[span.end :]
     for path, text in texts.items():
         workspace.sources.open(path, text)
-    tree = workspace.tree(root, {})
+    trees = [workspace.tree(root.path, dict(root.args)) for root in roots]
     for path in texts:
         workspace.sources.close(path)
-    return tree
+    return trees
 
 
 def started(tree: LaunchTree, renamed: Mapping[str, str]) -> dict[str, Any]:
@@ -74,6 +98,8 @@ def started(tree: LaunchTree, renamed: Mapping[str, str]) -> dict[str, Any]:
                 new(node.name),
                 node.namespace,
                 (node.package, node.executable, node.env, node.machine, node.args.replace(NEW, "_")),
+                [(param.name, repr(param.value)) for param in node.params],
+                new(node.container) if node.container else None,
                 sorted(
                     (new(names.resolve(r.source, node.name)), new(names.resolve(r.target, node.name)))
                     for r in node.remaps
@@ -89,34 +115,71 @@ def started(tree: LaunchTree, renamed: Mapping[str, str]) -> dict[str, Any]:
     }
 
 
+def without(name: str, trees: list[LaunchTree]) -> str:
+    """What launches come to, whatever an argument is called: a value that is not known keeps its substitutions."""
+    return repr([started(tree, {}) for tree in trees]).replace(NEW, "_").replace(name, "_")
+
+
 def test_arguments(tmp_path: Path) -> None:
     done = 0
     for case in CASES:
-        folder = tmp_path / case.stem
-        workspace, root = workspace_of(case, folder)
-        before = started(workspace.tree(root, {}), {})
-        for path, name, _, edits in renames(workspace, folder, "arg-declaration"):
-            # A value that is not known keeps the text of its substitutions.
-            now = repr(started(after(workspace, root, edits), {})).replace(NEW, name)
-            assert now.replace(name, "_") == repr(before).replace(name, "_"), (case.name, path, name)
+        workspace, _ = workspace_of(case, tmp_path / case.stem)
+        index = index_of(workspace, tmp_path / case.stem)
+        roots = tuple(index.entries)
+        before = after(workspace, roots, ())
+        for path, mention, edits in renames(workspace, index, "arg-declaration", "arg-use", "arg-passed"):
+            now = after(workspace, roots, edits)
+            assert without(mention.name, now) == without(mention.name, before), (case.name, path, mention)
             done += 1
-    assert done > 20
+    assert done > 60
+
+
+def test_arguments_of_ros2(tmp_path: Path) -> None:
+    done = 0
+    for number, case in enumerate(ROS2_INCLUDING):
+        folder = tmp_path / str(number)
+        workspace = workspace_of_ros2(case, folder)
+        index = index_of(workspace, folder)
+        roots = tuple(index.entries)
+        before = after(workspace, roots, ())
+        for path, mention, edits in renames(workspace, index, "arg-declaration", "arg-use", "arg-passed"):
+            now = after(workspace, roots, edits)
+            assert without(mention.name, now) == without(mention.name, before), (number, path, mention, edits)
+            done += 1
+    assert done > 100
 
 
 def test_nodes(tmp_path: Path) -> None:
     done = 0
     for case in CASES:
-        folder = tmp_path / case.stem
-        workspace, root = workspace_of(case, folder)
-        before = workspace.tree(root, {})
-        for path, name, span, edits in renames(workspace, folder, "node"):
-            own = [n for n in before.nodes if n.location.file == path and n.action.span.contains(span.start)]
-            if not own or any(not names.is_legal(node.name) for node in own):
-                continue
-            if any(isinstance(problem.kind, DuplicateNode) for problem in before.problems):
-                continue  # the rename mends it
-            new = {node.name: names.parent(node.name) + NEW for node in own}
-            now = after(workspace, root, edits)
-            assert started(now, {}) == started(before, new), (case.name, path, name)
-            done += 1
+        workspace, _ = workspace_of(case, tmp_path / case.stem)
+        done += nodes_renamed(workspace, index_of(workspace, tmp_path / case.stem), case.name)
     assert done > 20
+
+
+def test_nodes_of_ros2(tmp_path: Path) -> None:
+    done = 0
+    for number, case in enumerate(ROS2_INCLUDING):
+        workspace = workspace_of_ros2(case, tmp_path / str(number))
+        done += nodes_renamed(workspace, index_of(workspace, tmp_path / str(number)), str(number))
+    assert done > 20
+
+
+def nodes_renamed(workspace: Workspace, index: WorkspaceIndex, case: str) -> int:
+    """How many renames of nodes changed nothing else."""
+    done, roots = 0, tuple(index.entries)
+    before = after(workspace, roots, ())
+    for path, mention, edits in renames(workspace, index, "node"):
+        if not mention.name.isidentifier():
+            continue  # the rename mends it
+        tags = {(e.location.file, e.location.span.start) for e in edits}
+        for was, now in zip(before, after(workspace, roots, edits), strict=True):
+            if any(isinstance(problem.kind, DuplicateNode) for problem in was.problems):
+                continue  # the rename mends it
+            spans = [(n, n.tag.span_of(attribute)) for n in was.nodes for attribute in ("name", "test-name")]
+            own = [n for n, span in spans if span is not None and (n.location.file, span.start) in tags]
+            own = [n for n in own if names.leaf(n.name) == mention.name and names.is_legal(n.name)]
+            new = {node.name: names.parent(node.name) + NEW for node in own}
+            assert started(now, {}) == started(was, new), (case, path, mention, edits)
+            done += bool(own)
+    return done

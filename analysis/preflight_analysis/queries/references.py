@@ -47,7 +47,7 @@ def _arguments(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference
     for name in symbol.names:
         files = shared_arguments.SharedArgument(context, context.trees, symbol.files, name).files
         yield from _all(shared_arguments.declared_at(context, files, name), declare=True)
-        yield from _all(shared_arguments.used_at(context, files, name))
+        yield from _all(shared_arguments.used_at(context, files, name, context.trees))
         yield from _all(shared_arguments.given_at(context, files, name))
 
 

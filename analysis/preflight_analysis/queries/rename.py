@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import keyword
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -134,6 +135,10 @@ def _shared_argument(context: QueryContext, symbol: NamedSymbol, name: str) -> S
             if name in inclusion.args and shared.hands_on(inclusion) and _is_unscoped(context, inclusion.includer):
                 where = shown(context, inclusion.tag)
                 raise RenameRefusedError(f"'{name}' is passed to {context.shown(path)} by a name made up at {where}")
+    if hasattr(builtins, name) and not any(
+        (*declared_at(context, shared.files, name), *given_at(context, shared.files, name))
+    ):
+        raise RenameRefusedError(f"'{name}' is a function of Python here, not an argument")
     for root in index.entries:
         if root.path in shared.files and any(given == name for given, _ in root.args):
             raise RenameRefusedError(
@@ -158,7 +163,7 @@ def _places_of_argument(context: QueryContext, shared: SharedArgument, new: str)
         label = f"Argument '{shared.name}' of {context.shown(path)}"
         other = shared.shared_with.get(path)
         reason = f"Shared with {context.shown(other)}: no include between them passes it by name" if other else ""
-        own = (*declared_at(context, (path,), shared.name), *used_at(context, (path,), shared.name))
+        own = (*declared_at(context, (path,), shared.name), *used_at(context, (path,), shared.name, shared.trees))
         yield from (RenameEdit(place, new, label, reason, bool(other)) for place in own)
         for place in given_at(context, (path,), shared.name):
             yield RenameEdit(place, new, f"'{shared.name}' as passed to {context.shown(path)}", reason)
@@ -172,13 +177,13 @@ def _check_argument(context: QueryContext, shared: SharedArgument, new: str) -> 
     if new in NOT_ARGUMENTS or keyword.iskeyword(new):
         raise RenameRefusedError(f"'{new}' is not a valid argument name: it has another meaning in $(eval ...)")
     name, files = shared.name, shared.files
-    taken = (*declared_at(context, files, new), *used_at(context, files, new))
+    taken = (*declared_at(context, files, new), *used_at(context, files, new, shared.trees))
     same_tag = {tag for place in given_at(context, files, name) for tag in _tags(context, place, name)}
     given = (p for p in given_at(context, files, new) if same_tag.intersection(_tags(context, p, new)))
     for place in (*taken, *given):
         raise RenameRefusedError(f"Duplicate argument '{new}', declared at {shown(context, place)}")
     mixed = tuple(_mixed_with(context, shared, new))
-    for place in (*declared_at(context, mixed, new), *used_at(context, mixed, new)):
+    for place in (*declared_at(context, mixed, new), *used_at(context, mixed, new, shared.trees)):
         raise RenameRefusedError(f"'{new}' is already an argument of the same launch, at {shown(context, place)}")
 
 

@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchTree, Use
 from preflight_analysis.launch.references import arg_references
 from preflight_analysis.launch.substitutions import parse_value
+from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.facts import may_be_true
 from preflight_analysis.workspace.index import Inclusion
@@ -36,7 +38,8 @@ class SharedArgument:
         by_tag: bool = False,
     ) -> None:
         self._context, self._index, self.name = context, context.current, name
-        self._trees = tuple(tree for tree in trees if tree.ros.shared_configurations)
+        self.trees = tuple(trees)
+        self._substituted = substituted_files(context, self.trees, name)
         self._given: dict[Location, tuple[str, ...]] = {}
         self.shared_with: dict[str, str] = {}
         """Of each file that was not asked for, the one that it shares the argument with."""
@@ -61,6 +64,12 @@ class SharedArgument:
             if by_tag and self.gives(inclusion):
                 yield from (i.target for i in self._index.included_from(inclusion.includer) if i.tag == inclusion.tag)
         yield from self._flows.get(path, ())
+        yield from (f for found in self._substituted.values() if path in found.launch_files for f in found.launch_files)
+
+    @property
+    def read(self) -> Iterable[str]:
+        """The parameter files that use the argument."""
+        return (p for p, found in self._substituted.items() if not self.files.keys().isdisjoint(found.launch_files))
 
     def hands_on(self, inclusion: Inclusion) -> bool:
         """Whether an include passes on whatever value there is under that name."""
@@ -78,11 +87,8 @@ class SharedArgument:
         if facts is None:
             return False
         kinds = ("arg-declaration", "arg-use")
-        return any(m.kind in kinds and m.name == self.name for m in facts.mentions) or any(
-            used == self.name
-            for yaml in _substituted_files(self._context, path)
-            for used, _ in _uses_in(self._context, yaml)
-        )
+        written = any(m.kind in kinds and m.name == self.name for m in facts.mentions)
+        return written or any(path in found.launch_files for found in self._substituted.values())
 
     def is_wanted(self, path: str) -> bool:
         """Whether a file, or one that it hands everything on to, has to do with the argument."""
@@ -112,7 +118,9 @@ class SharedArgument:
     def _flows(self) -> Mapping[str, Iterable[str]]:
         """ROS 2: for each file the others that read there what it has set, or whose setting it reads."""
         found: dict[str, dict[str, None]] = {}
-        for tree in self._trees:
+        for tree in self.trees:
+            if not tree.ros.shared_configurations:
+                continue
             reads = [u for u in tree.uses if u.name == self.name and u.kind in ("arg", "declaration") and u.origin]
             for use in reads:
                 for owner in self._owners(use, reads, set()):
@@ -161,9 +169,9 @@ def shared_argument(context: QueryContext, files: Iterable[str], name: str, *, b
     """As it is in all roots that reach one of the files that share it."""
     found = SharedArgument(context, context.all_trees, files, name, by_tag=by_tag)
     while True:
-        trees = context.trees_around(found.files)
+        trees = context.trees_around((*found.files, *found.read))
         wider = SharedArgument(context, trees, files, name, by_tag=by_tag)
-        if wider.files.keys() == found.files.keys():
+        if len(wider.trees) == len(found.trees):
             return wider
         found = wider
 
@@ -175,13 +183,17 @@ def declared_at(context: QueryContext, files: Iterable[str], name: str) -> Itera
             yield from (context.location(path, m.span) for m in facts.named("arg-declaration", name))
 
 
-def used_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator[Location]:
-    """Each use in `$(arg)` and `$(eval)`, in the YAML of `<rosparam subst_value="true">` too."""
+def used_at(
+    context: QueryContext, files: Iterable[str], name: str, trees: Iterable[LaunchTree] = ()
+) -> Iterator[Location]:
+    """Each use in `$(arg)`, `$(var)` and `$(eval)`, in the parameter files whose substitutions are made in the launches
+    `trees`, too."""
+    files = tuple(files)
     for path in files:
         if (facts := context.facts(path)) is not None:
             yield from (context.location(path, m.span) for m in facts.named("arg-use", name))
-            for yaml in _substituted_files(context, path):
-                yield from (context.location(yaml, span) for used, span in _uses_in(context, yaml) if used == name)
+    for found in substituted_files(context, trees, name).values():
+        yield from (place for path in files for place in found.places if path in found.launch_files)
 
 
 def given_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator[Location]:
@@ -196,22 +208,57 @@ def given_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator
                 yield from (context.location(inclusion.includer, m.span) for m in given)
 
 
-def _substituted_files(context: QueryContext, path: str) -> Iterator[str]:
-    """The YAML files whose substitutions are resolved with the arguments of a launch file."""
+@dataclass(frozen=True, slots=True)
+class SubstitutedFile:
+    """Where a parameter file uses an argument, and the launch files whose argument that is."""
+
+    launch_files: dict[str, None]
+    places: tuple[Location, ...]
+
+
+def substituted_files(context: QueryContext, trees: Iterable[LaunchTree], name: str) -> Mapping[str, SubstitutedFile]:
+    """The parameter files that use an argument, by their paths."""
+    found: dict[str, SubstitutedFile] = {}
+    loads: dict[str, frozenset[int]] = {}
+    for tree in trees:
+        shared = tree.ros.shared_configurations
+        # Uses in such a file are noted where the launch file names it.
+        flat = {u.location for u in tree.uses if shared and u.kind == "arg" and u.name == name and _is_empty(u)}
+        starts = {(at.file, at.span.start) for at in flat}
+        for use in tree.uses:
+            if use.kind != "file" or use.target is None:
+                continue
+            file, start = use.location.file, use.location.span.start
+            if not shared and file not in loads:
+                loads[file] = frozenset(_substituting(context, file))
+            if (file, start) not in starts if shared else start not in loads[file]:
+                continue
+            path = use.target.file
+            if path not in found:
+                spans = _uses_in(context, path, 2 if shared else 1)
+                places = tuple(context.location(path, span) for used, span in spans if used == name)
+                found[path] = SubstitutedFile({}, places)
+            found[path].launch_files[file] = None
+    return {path: each for path, each in found.items() if each.places}
+
+
+def _is_empty(use: Use) -> bool:
+    return use.location.span.start == use.location.span.end
+
+
+def _substituting(context: QueryContext, path: str) -> Iterator[int]:
+    """Where a launch file of ROS 1 names files for `<rosparam subst_value="true">`."""
     launch_file = context.launch_file(path)
-    loads: set[Span] = set()
     for action in launch_file.root.walk() if launch_file and launch_file.root else ():
         file, substituted = action.value("file"), action.value("subst_value")
         if action.kind == "rosparam" and file is not None and substituted is not None and may_be_true(substituted):
-            loads.add(file.span)
-    uses = (u for tree in context.trees for u in tree.uses if loads and u.kind == "file" and u.target is not None)
-    found = (u.target.file for u in uses if u.target and u.location.file == path and u.location.span in loads)
-    yield from dict.fromkeys(found)
+            yield file.span.start
 
 
-def _uses_in(context: QueryContext, path: str) -> Iterator[tuple[str, Span]]:
+def _uses_in(context: QueryContext, path: str, generation: int) -> Iterator[tuple[str, Span]]:
     document = context.document(path)
     if document is not None:
-        value = parse_value(SpannedText(document.text, Span(0, len(document.text))))
+        text = SpannedText(document.text, Span(0, len(document.text)))
+        value = parse_value(text) if generation == 1 else parse_value_ros2(text)
         if value.problem is None:
             yield from arg_references(value)
