@@ -235,5 +235,5 @@ def test_nodes_of_several_launches_that_share_a_section_are_renamed_together(tmp
     assert sorted(edited) == ["main.launch", "other.launch.xml", "p.yaml"]
     assert edited["other.launch.xml"].count('"motor') == 2
     workspace = create_workspace(tmp_path / "b", text % "$(env NAME pump)", build_type="ament_python")
-    with pytest.raises(RenameRefusedError, match="started at other.launch.xml:2: rename it by hand"):
+    with pytest.raises(RenameRefusedError, match=r"started at other\.launch\.xml:2: rename it by hand"):
         rename(workspace.context, workspace.offset, "motor")

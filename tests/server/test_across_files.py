@@ -89,6 +89,55 @@ async def test_rename_for_a_client_that_checks_no_versions(harness: Harness, fil
         assert sorted(edit.changes or {}) == sorted([inner.as_uri(), outer.as_uri()])
 
 
+async def test_a_file_that_changed_on_the_disk_a_moment_ago(harness: Harness, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(harness) as editor:
+        editor.open(inner)
+        await indexed(editor, outer)
+        # Nobody has reported it yet.
+        changed = OUTER.replace("<launch>", "<launch>\n  <!-- one line more -->\n  <!-- and one more -->")
+        outer.write_text(changed)
+        editor.apply(await editor.rename(inner, editor.at(inner, "(arg rate)", 6), "speed"))
+        assert editor.texts[outer] == changed.replace('"rate" value', '"speed" value')
+        assert editor.texts[inner].count("speed") == 2
+
+
+async def test_a_file_that_includes_another_since_a_moment_ago(harness: Harness, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(harness) as editor:
+        editor.open(inner)
+        await indexed(editor, outer)
+        outer.write_text(OUTER.replace("inner.launch", "other.launch"))
+        edit = await editor.rename(inner, editor.at(inner, "(arg rate)", 6), "speed")
+        editor.apply(edit)
+        assert outer not in editor.texts
+
+
+async def test_each_edit_says_what_it_changes(harness: Harness, files: tuple[Path, Path]) -> None:
+    outer, inner = files
+    async with editing(harness, client=capabilities(annotates=True)) as editor:
+        editor.open(inner)
+        await indexed(editor, outer)
+        edit = await editor.rename(inner, editor.at(inner, "(arg rate)", 6), "speed")
+        assert edit is not None
+        said = {name: each.label for name, each in (edit.change_annotations or {}).items()}
+        found: dict[str, list[str]] = {}
+        for change in edit.document_changes or ():
+            assert isinstance(change, types.TextDocumentEdit)
+            path = from_uri(change.text_document.uri)
+            assert change.text_document.version == editor.versions.get(path)
+            edits = [each for each in change.edits if isinstance(each, types.AnnotatedTextEdit)]
+            assert len(edits) == len(change.edits)
+            found[path.name] = [said[each.annotation_id].replace(str(outer.parent), "") for each in edits]
+        where = str(inner.relative_to(harness.workspace))
+        assert found == {
+            "inner.launch": [f"Argument 'rate' of {where}"] * 2,
+            "outer.launch": [f"'rate' as passed to {where}"],
+        }
+        editor.apply(edit)
+        assert editor.texts[inner].count("speed") == 2
+
+
 async def test_what_was_typed_a_moment_ago_counts(harness: Harness, files: tuple[Path, Path]) -> None:
     outer, inner = files
     async with editing(harness) as editor:

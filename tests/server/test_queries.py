@@ -193,10 +193,19 @@ async def test_a_fix_may_change_another_file(harness: Harness) -> None:
         (action,) = await editor.fixes(launch, found.range)
         assert action.title == "Add <run_depend>rospy</run_depend> to package.xml of 'preflight_demo'"
         assert action.edit is not None
-        assert action.edit.changes is not None
-        ((uri, (edit,)),) = action.edit.changes.items()
-        assert uri == manifest.as_uri()
+        (changed,) = action.edit.document_changes or ()
+        assert isinstance(changed, types.TextDocumentEdit)
+        assert changed.text_document == types.OptionalVersionedTextDocumentIdentifier(manifest.as_uri(), None)
+        (edit,) = changed.edits
+        assert isinstance(edit, types.TextEdit)
         assert (edit.range.start.line, edit.new_text) == (2, "  <run_depend>rospy</run_depend>\n")
+        # On the disk alone, and not yet reported.
+        manifest.write_text("<package>\n\n\n  <name>preflight_demo</name>\n</package>\n")
+        (action,) = await editor.fixes(launch, found.range)
+        editor.apply(action.edit)
+        assert editor.texts[manifest] == (
+            "<package>\n\n\n  <name>preflight_demo</name>\n  <run_depend>rospy</run_depend>\n</package>\n"
+        )
 
 
 PATROL = """<launch>

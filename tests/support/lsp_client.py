@@ -31,6 +31,7 @@ def capabilities(
     dynamic: bool = True,
     snippets: bool = True,
     creates: bool = True,
+    annotates: bool = False,
 ) -> types.ClientCapabilities:
     """What an editor of today can do; `pull` and `refresh` are the two halves of pulled diagnostics."""
     return types.ClientCapabilities(
@@ -41,7 +42,9 @@ def capabilities(
         workspace=types.WorkspaceClientCapabilities(
             apply_edit=True,
             workspace_edit=types.WorkspaceEditClientCapabilities(
-                document_changes=True, resource_operations=[types.ResourceOperationKind.Create] if creates else []
+                document_changes=True,
+                resource_operations=[types.ResourceOperationKind.Create] if creates else [],
+                change_annotation_support=types.ChangeAnnotationsSupportOptions() if annotates else None,
             ),
             configuration=True,
             did_change_configuration=types.DidChangeConfigurationClientCapabilities(dynamic_registration=dynamic),
@@ -467,7 +470,8 @@ class Editor:
     def apply(self, edit: types.WorkspaceEdit | None) -> None:
         """Apply an edit as an editor does: from the back, opening what is not open, and tell the server."""
         assert edit is not None
-        changes = {uri: list(edits) for uri, edits in (edit.changes or {}).items()}
+        changes: dict[str, list[types.TextEdit | types.AnnotatedTextEdit]] = {}
+        changes.update({uri: list(edits) for uri, edits in (edit.changes or {}).items()})
         for change in edit.document_changes or ():
             if isinstance(change, types.CreateFile):
                 from_uri(change.uri).touch(exist_ok=False)
@@ -475,7 +479,9 @@ class Editor:
             assert isinstance(change, types.TextDocumentEdit)
             path = from_uri(change.text_document.uri)
             assert change.text_document.version == self.versions.get(path)
-            changes[change.text_document.uri] = [each for each in change.edits if isinstance(each, types.TextEdit)]
+            changes[change.text_document.uri] = [
+                each for each in change.edits if isinstance(each, types.TextEdit | types.AnnotatedTextEdit)
+            ]
         assert changes
         for uri, edits in changes.items():
             path = from_uri(uri)

@@ -58,6 +58,15 @@ class QueryContext:
         """What a launch file mentions."""
         return self.current.files.get(path)
 
+    def outdated(self) -> tuple[str, ...]:
+        """The launch files whose text is another one by now than the one that the index has."""
+        sources = self.workspace.sources
+        known = ((path, facts.version.partition(".")[0]) for path, facts in self.current.files.items())
+        other = ((path, version) for path, version in known if sources.digest(path).partition(".")[0] != version)
+        read = ((path, version, sources.launch_file(path)) for path, version in other)
+        # What is known of a file of the catalogue is no digest of it.
+        return tuple(p for p, version, now in read if isinstance(now, Unreadable) or now.document.digest != version)
+
     def launch_file(self, path: str) -> LaunchFile | None:
         """The launch file of the text that positions in it speak of."""
         for analysis in self.analyses:

@@ -17,6 +17,7 @@ from preflight_analysis import __version__
 from pygls.lsp.server import LanguageServer
 
 from preflight_server.lsp import features
+from preflight_server.lsp.convert import EditSupport
 from preflight_server.lsp.folders import Folders
 from preflight_server.lsp.live import LiveWatch
 from preflight_server.lsp.protocol import PreflightProtocol, RefusedError, is_failure
@@ -86,6 +87,11 @@ class PreflightServer(LanguageServer):
         document = self.client_capabilities.text_document
         ways = (document.publish_diagnostics, document.diagnostic) if document is not None else ()
         return self.rule_pages if any(way is not None and way.code_description_support for way in ways) else None
+
+    @property
+    def edit_support(self) -> EditSupport:
+        """What the client knows of edits."""
+        return EditSupport.of(self.client_capabilities)
 
     @property
     def sessions(self) -> tuple[Session, ...]:

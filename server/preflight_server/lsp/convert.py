@@ -11,6 +11,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.findings.finding import Edit, Finding, Severity
+from preflight_analysis.queries.rename_edit import RenameEdit
 from preflight_analysis.queries.symbols import Symbol
 
 from preflight_server.lsp.positions import Positions
@@ -58,11 +59,34 @@ class _OfFile:
     places: Mapping[str, Mapping[Location, types.Location]]
 
 
+class TextChangedError(Exception):
+    """The texts of `paths` are others than those that were analysed: whoever asked has to ask again."""
+
+    def __init__(self, paths: Sequence[str]) -> None:
+        super().__init__(*paths)
+        self.paths = paths
+
+
+@dataclass(frozen=True, slots=True)
+class EditSupport:
+    """What a client knows of edits: the versions of the texts that they are for, and what is said of each."""
+
+    versions: bool = False
+    annotations: bool = False
+
+    @classmethod
+    def of(cls, capabilities: types.ClientCapabilities) -> EditSupport:
+        """That of a client which says so."""
+        edit = capabilities.workspace.workspace_edit if capabilities.workspace else None
+        versions = bool(edit and edit.document_changes)
+        return cls(versions, versions and bool(edit and edit.change_annotation_support))
+
+
 class Converter:
     """Converts what speaks of files by path. `documents` are the texts the spans were computed on.
 
     A text that is neither there nor open is read from disk (YAML files, node sources), so use it off the event loop.
-    `pages` are what the codes of diagnostics lead to, for a client that follows them.
+    `pages` are what the codes of diagnostics lead to, for a client that follows them; `edits` what it knows of edits.
     Diagnostics that `before` made of the same findings, in texts that have not changed, are the same objects again:
     to make thousands, and to compare them with what was published, takes longer than a keystroke may.
     """
@@ -74,12 +98,16 @@ class Converter:
         *,
         related: bool = True,
         pages: RulePages | None = None,
+        edits: EditSupport | None = None,
         before: Converter | None = None,
     ) -> None:
         self._texts = texts
         self._documents = documents
         self._related = related
         self._pages = pages
+        self._edits = edits or EditSupport()
+        self.edited: set[str] = set()
+        """The files that edits were made for."""
         self._positions: dict[str, Positions] = {}
         self._uris: dict[str, str] = {}
         self._made: dict[str, _OfFile] = {}
@@ -215,23 +243,44 @@ class Converter:
         """All diagnostics are made: let go of those that were not made again."""
         self._before = None
 
-    def workspace_edit(self, edits: Iterable[Edit], *, versioned: bool = False) -> types.WorkspaceEdit:
-        """Edits of any number of files, as every client understands them; `versioned` for those that check that the
-        text is still what the edits were made for."""
-        changes: dict[str, list[types.TextEdit]] = {}
+    def workspace_edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
+        """Edits of any number of files, with what the client knows of: versions of the texts that they are for, and
+        what is said of each edit. Raises `TextChangedError` where a text is another one by now."""
+        changes: dict[str, list[types.TextEdit | types.AnnotatedTextEdit]] = {}
+        annotations: dict[str, types.ChangeAnnotation] = {}
         for edit in edits:
-            text_edit = types.TextEdit(self.range(edit.location), edit.text)
-            changes.setdefault(edit.location.file, []).append(text_edit)
-        if not versioned:
-            return types.WorkspaceEdit(changes={self.uri(path): found for path, found in changes.items()})
+            there, of_file = self.range(edit.location), changes.setdefault(edit.location.file, [])
+            if isinstance(edit, RenameEdit) and self._edits.annotations:
+                of_file.append(types.AnnotatedTextEdit(_annotated(edit, annotations), there, edit.text))
+            else:
+                of_file.append(types.TextEdit(there, edit.text))
+        if changed := [path for path in changes if self._is_changed(path)]:
+            raise TextChangedError(changed)
+        self.edited.update(changes)
+        if not self._edits.versions:
+            plain = {
+                self.uri(path): [e for e in found if isinstance(e, types.TextEdit)] for path, found in changes.items()
+            }
+            return types.WorkspaceEdit(changes=plain)
         return types.WorkspaceEdit(
             document_changes=[
                 types.TextDocumentEdit(
                     types.OptionalVersionedTextDocumentIdentifier(self.uri(path), self._version(path)), found
                 )
                 for path, found in changes.items()
-            ]
+            ],
+            change_annotations=annotations or None,
         )
+
+    def _is_changed(self, path: str) -> bool:
+        """Whether the text of a file, in the editor or on the disk, is another one than that which was analysed."""
+        known, opened = self._documents.get(path), self._texts.by_path(path)
+        if known is None:
+            return False
+        if opened is not None:
+            return opened.text != known.text
+        read = read_text(path)
+        return not isinstance(read, Text) or read.text != known.text
 
     def _version(self, path: str) -> int | None:
         opened = self._texts.by_path(path)
@@ -253,3 +302,12 @@ class Converter:
         """The editor's range in offsets."""
         positions = self.positions(path)
         return Span(positions.offset(range_.start), positions.offset(range_.end))
+
+
+def _annotated(edit: RenameEdit, annotations: dict[str, types.ChangeAnnotation]) -> str:
+    """The name of what is said of the edit: in `annotations`, once for all edits of which the same is said."""
+    wanted = types.ChangeAnnotation(edit.label, edit.indirect or None, edit.reason or None)
+    known = next((name for name, each in annotations.items() if each == wanted), None)
+    name = known if known is not None else str(len(annotations) + 1)
+    annotations[name] = wanted
+    return name

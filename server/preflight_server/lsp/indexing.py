@@ -64,6 +64,11 @@ class Indexing:
         if self._task is None or self._task.done():
             self._task = self._server.spawn(self._rounds())
 
+    async def settled(self) -> None:
+        """Wait until all that changed so far is in the index."""
+        if self._task is not None and not self._task.done():
+            await asyncio.shield(self._task)
+
     def close(self) -> None:
         """Stop, wait for the end, and keep the index for the next start."""
         self._cancel.set()

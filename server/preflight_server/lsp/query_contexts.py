@@ -33,4 +33,5 @@ async def workspace_query_context(session: Session, path: str = "") -> QueryCont
 def converter_for(ls: PreflightServer, context: QueryContext, places: Iterable[Location]) -> Converter:
     """Conversion by the very texts that the places were found in. Reads files: use it off the event loop."""
     documents = {path: context.document(path) for path in {place.file for place in places}}
-    return Converter(ls.texts, {path: document for path, document in documents.items() if document is not None})
+    known = {path: document for path, document in documents.items() if document is not None}
+    return Converter(ls.texts, known, edits=ls.edit_support)

@@ -167,6 +167,22 @@ class Session:
         self.analyses.ask_again()
         self.indexing.changed(paths)
 
+    async def changed_on_disk(self, paths: Iterable[str]) -> bool:
+        """Whether some of the files, which are not open, are other ones than what was read: not every change has been
+        reported by the time that somebody asks. They are known then: ask anew."""
+        closed = [path for path in paths if self._server.texts.by_path(path) is None]
+        if not closed or not await self.in_pool(lambda: self._sources.look(closed)):
+            return False
+        await self.noticed(closed)
+        return True
+
+    async def noticed(self, paths: Iterable[str]) -> None:
+        """Somebody found other texts than those that were analysed. Returns when the index has the new ones."""
+        closed = [path for path in paths if self._server.texts.by_path(path) is None]
+        if closed:
+            self.files_changed(closed)
+            await self.indexing.settled()
+
     def environment_changed(self) -> None:
         """Packages came or went, or settings that say where they are changed."""
         self._forget_workspace()
@@ -234,7 +250,8 @@ class Session:
         if parsed is None or parsed.text != document.text:
             return None
         findings = self.analyses.findings.get(document.path, ())
-        converter = Converter(self._server.texts, analyses[0].documents, pages=self._server.shown_pages)
+        pages, edits = self._server.shown_pages, self._server.edit_support
+        converter = Converter(self._server.texts, analyses[0].documents, pages=pages, edits=edits)
         index = self.indexing.index
         return View(self, document, document.path, analyses[0], analyses, index, findings, converter)
 

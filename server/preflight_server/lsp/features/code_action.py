@@ -26,6 +26,8 @@ from preflight_analysis.queries.actions import FixOf, annotating, fix_all, fixes
 from preflight_analysis.queries.suppressing import suppress_on_line
 from preflight_analysis.workspace.settings_edit import turn_off
 
+from preflight_server.lsp.convert import Converter
+from preflight_server.lsp.edits import edits_of
 from preflight_server.lsp.session import View
 
 if TYPE_CHECKING:
@@ -43,10 +45,10 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=list(_KINDS)))
     async def code_action(ls: PreflightServer, params: types.CodeActionParams) -> list[types.CodeAction] | None:
-        view = await ls.view_of(params.text_document.uri, python=True)
-        if view is None:
-            return None
-        return await view.session.in_pool(lambda: list(_Actions(ls, view, params).all()))
+        async def answer(view: View) -> tuple[list[types.CodeAction], Converter]:
+            return await view.session.in_pool(lambda: list(_Actions(ls, view, params).all())), view.converter
+
+        return await edits_of(ls, params.text_document.uri, answer)
 
     @server.command(EXPLAIN)
     async def explain(rule: str) -> str | None:
@@ -183,7 +185,7 @@ class _Actions:
         if exists:
             return converter.workspace_edit([edit])
         created = types.CreateFile(converter.uri(path), options=types.CreateFileOptions(ignore_if_exists=True))
-        changes = converter.workspace_edit([edit], versioned=True).document_changes or ()
+        changes = converter.workspace_edit([edit]).document_changes or ()
         return types.WorkspaceEdit(document_changes=[created, *changes])
 
 

@@ -6,11 +6,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
-from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.rename import RenameRefusedError, prepare, rename
 
+from preflight_server.lsp.convert import Converter, TextChangedError
+from preflight_server.lsp.edits import edits_of
 from preflight_server.lsp.protocol import RefusedError
 from preflight_server.lsp.query_contexts import converter_for, query_context
+from preflight_server.lsp.session import View
 
 if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
@@ -43,26 +45,17 @@ def register(server: PreflightServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def rename_symbol(ls: PreflightServer, params: types.RenameParams) -> types.WorkspaceEdit | None:
-        view = await ls.view_of(params.text_document.uri, python=True)
-        if view is None:
-            return None
-        offset, context = view.converter.positions(view.path).offset(params.position), await query_context(view)
+        async def answer(view: View) -> tuple[types.WorkspaceEdit, Converter]:
+            context = await query_context(view)
+            offset = view.converter.positions(view.path).offset(params.position)
 
-        def work() -> types.WorkspaceEdit:
-            edits = rename(context, offset, params.new_name)
-            if any(_typed_on(ls, context, path) for path in {edit.location.file for edit in edits}):
-                raise RefusedError("The text changed meanwhile", types.LSPErrorCodes.ContentModified)
-            converter = converter_for(ls, context, (edit.location for edit in edits))
-            return converter.workspace_edit(edits, versioned=_versioned(ls.client_capabilities))
+            def work() -> tuple[types.WorkspaceEdit, Converter]:
+                if outdated := context.outdated():
+                    raise TextChangedError(outdated)
+                edits = rename(context, offset, params.new_name)
+                converter = converter_for(ls, context, (edit.location for edit in edits))
+                return converter.workspace_edit(edits), converter
 
-        return await view.session.in_pool(lambda: _answered(work))
+            return await view.session.in_pool(lambda: _answered(work))
 
-
-def _typed_on(ls: PreflightServer, context: QueryContext, path: str) -> bool:
-    opened, known = ls.texts.by_path(path), context.document(path)
-    return opened is not None and (known is None or known.text != opened.text)
-
-
-def _versioned(capabilities: types.ClientCapabilities) -> bool:
-    edit = capabilities.workspace.workspace_edit if capabilities.workspace else None
-    return bool(edit and edit.document_changes)
+        return await edits_of(ls, params.text_document.uri, answer)
