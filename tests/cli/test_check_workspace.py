@@ -144,6 +144,18 @@ def test_known_findings_do_not_count(workspace: Path, preflight: Run) -> None:
     assert (done.code, new["rule"], new["range"]["start"]["line"]) == (1, "LCH004", 5)
 
 
+def test_known_findings_are_not_written_through_a_link_that_leads_elsewhere(
+    workspace: Path, tmp_path: Path, preflight: Run
+) -> None:
+    profile = tmp_path / "profile"
+    profile.write_text("export A=1\n")
+    (workspace / "known.json").symlink_to(profile)
+    done = preflight("check", "--no-run", "--write-baseline", "known.json", cwd=workspace)
+    assert (done.code, done.out) == (2, "")
+    assert "known.json is a link that leads out of the project" in done.err
+    assert profile.read_text() == "export A=1\n"
+
+
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"schema": "ros-preflight/baseline/1", "findings": [1]}'])
 def test_a_list_that_is_none_is_exit_code_2(workspace: Path, preflight: Run, content: str) -> None:
     (workspace / "known.json").write_text(content)

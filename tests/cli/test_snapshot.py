@@ -90,6 +90,21 @@ def test_a_snapshot_reads_well_and_is_the_same_as_what_it_was_made_of(harness: H
     }
 
 
+def test_a_link_of_the_project_does_not_lead_a_snapshot_out_of_it(
+    repository: Path, harness: Harness, preflight: Run
+) -> None:
+    profile = harness.home / "profile"
+    profile.write_text("export A=1\n")
+    (repository / "expected.yaml").symlink_to(profile)
+    (repository / "described").symlink_to(harness.home)
+    for arguments in (("--output", "expected.yaml"), ("--output", "described", "--format", "nodl")):
+        done = preflight("snapshot", harness.launch_file, *arguments, "--no-run", cwd=repository)
+        assert done.code == 2
+        assert "is a link that leads out of the project" in done.err
+    assert profile.read_text() == "export A=1\n"
+    assert not (harness.home / "preflight_demo").exists()
+
+
 def test_a_snapshot_is_the_same_in_another_folder(harness: Harness, preflight: Run) -> None:
     elsewhere = harness.home / "other/place"
     shutil.copytree(harness.workspace, elsewhere)

@@ -67,6 +67,11 @@ def workspace_of(file: str) -> str:
     repository the nearest folder with packages in its `src`, or the repository), else the folder whose `src` it is
     below, else its package, else its own folder.
     """
+    return project_of(file) or os.path.dirname(os.path.abspath(file))
+
+
+def project_of(file: str) -> str | None:
+    """The same, None where it is in none of these."""
     folder = os.path.dirname(os.path.abspath(file))
     if workspace := _catkin_workspace(folder) or _colcon_workspace(folder):
         return workspace
@@ -80,7 +85,7 @@ def workspace_of(file: str) -> str:
             return nearest or candidate
     if nearest is not None:
         return nearest
-    return next((candidate for candidate in _with_parents(folder) if _is_package(candidate)), folder)
+    return next((candidate for candidate in _with_parents(folder) if _is_package(candidate)), None)
 
 
 def detect_environment(

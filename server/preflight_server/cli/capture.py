@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.writing import write_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.findings.report import place, printable
@@ -150,6 +151,6 @@ def _apply(file: str, edits: Sequence[Edit], document: Document) -> None:
     try:
         if Path(file).read_bytes() != document.text.encode():
             raise CannotDoError(f"{file} is not UTF-8, or changed in the meantime; print the annotations instead")
-        Path(file).write_bytes(text.encode())
+        write_file(file, text.encode())
     except OSError as error:
         raise CannotDoError(f"{file} cannot be written: {error.strerror}") from None

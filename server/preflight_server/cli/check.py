@@ -13,6 +13,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.environment.detect import SETTINGS_FILE
+from preflight_analysis.environment.writing import write_file
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
 from preflight_analysis.findings.contexts import RootFindings, causes_first
 from preflight_analysis.findings.coverage import Coverage
@@ -222,9 +223,9 @@ def _known(file: str) -> frozenset[str]:
 
 def _write_baseline(report: Report, file: str) -> int:
     try:
-        Path(file).write_text(dumps(to_baseline(report, _folder(file)), indent=2) + "\n", encoding="utf-8")
+        write_file(file, (dumps(to_baseline(report, _folder(file)), indent=2) + "\n").encode())
     except OSError as error:
-        raise CannotDoError(f"{file} cannot be written: {error}") from None
+        raise CannotDoError(f"{file} cannot be written: {error.strerror}") from None
     count = len(report.findings)
     say(f"ros-preflight: {file} has {count} finding{'' if count == 1 else 's'}")
     return CLEAN

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from preflight_analysis.environment.writing import write_file
 from preflight_analysis.nodl.write import nodl_files
 from preflight_analysis.snapshot.files import to_json, to_yaml
 from preflight_analysis.workspace.workspace import Analysis
@@ -65,7 +66,6 @@ def _write_nodl(analysis: Analysis, folder: Path) -> None:
 
 def _write(path: Path, text: str) -> None:
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", errors="backslashreplace")
+        write_file(path, text.encode("utf-8", "backslashreplace"))
     except OSError as error:
         raise CannotDoError(f"{path} cannot be written: {error.strerror}") from None

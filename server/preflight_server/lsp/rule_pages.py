@@ -6,6 +6,7 @@ import logging
 from pathlib import Path
 
 from preflight_analysis import __version__
+from preflight_analysis.environment.writing import write_file
 from preflight_analysis.rules.reference import page
 from preflight_analysis.rules.registry import rule_by_id
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
@@ -34,7 +35,7 @@ class RulePages:
         try:
             if not path.is_file() or path.read_text(encoding="utf-8") != text:
                 make_private(path.parent)
-                path.write_text(text, encoding="utf-8")
+                write_file(path, text.encode())
         except OSError as error:
             _log.info("the page of %s cannot be written: %s", rule_id, error)
             return None
