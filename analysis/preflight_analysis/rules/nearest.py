@@ -37,16 +37,16 @@ def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = st
     Case, `-` against `_`, and what `key` removes do not count as edits.
     """
     candidates = set(candidates)
-    wanted = _folded(key(name))
+    wanted = folded(key(name))
     best: tuple[int, int, str] | None = None
     for candidate in sorted(candidates):
         if candidate == name:
             continue
-        folded = _folded(key(candidate))
-        limit = cutoff(max(len(wanted), len(folded)))
-        if abs(len(wanted) - len(folded)) > limit:
+        other = folded(key(candidate))
+        limit = cutoff(max(len(wanted), len(other)))
+        if abs(len(wanted) - len(other)) > limit:
             continue
-        distance = int(OSA.distance(wanted, folded, score_cutoff=limit))
+        distance = int(OSA.distance(wanted, other, score_cutoff=limit))
         if distance > limit:
             continue
         rank = (distance, int(OSA.distance(name, candidate)), candidate)
@@ -87,13 +87,13 @@ def is_slip(name: str, other: str) -> bool:
     if numbers_in(name) != numbers_in(other):
         return False
     most = 2 if min(len(name), len(other)) >= _LONG else 1
-    return int(OSA.distance(_folded(name), _folded(other))) <= most
+    return int(OSA.distance(folded(name), folded(other))) <= most
 
 
 def is_slip_of_words(name: str, other: str) -> bool:
     """As `is_slip`, of names that are put together from words: `hsrb_bringup` is no slip of `hero_bringup`, as its word
     is another one."""
-    words, others = _folded(name).split("_"), _folded(other).split("_")
+    words, others = folded(name).split("_"), folded(other).split("_")
     if len(words) != len(others):
         return is_slip(name, other)
     return all(is_slip(word, one) for word, one in zip(words, others, strict=True))
@@ -207,7 +207,8 @@ def numbers_in(name: str) -> tuple[str, ...]:
     return tuple(re.findall(r"\d+", name))
 
 
-def _folded(name: str) -> str:
+def folded(name: str) -> str:
+    """The name without case, and with `_` for `-`."""
     return name.lower().replace("-", "_")
 
 

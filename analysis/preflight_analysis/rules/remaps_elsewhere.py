@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+
+from rapidfuzz import process
+from rapidfuzz.distance import OSA
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -11,7 +15,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import dangling_consumers, dangling_topic_providers
 from preflight_analysis.rules.names_in_sources import meant_in_sources
-from preflight_analysis.rules.nearest import is_slip_of_words, likeness
+from preflight_analysis.rules.nearest import folded, is_slip_of_words, likeness
 from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
@@ -85,7 +89,7 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     }
     publishers = context.once(dangling_topic_providers)
     lone = [each for each in (*consumers, *publishers) if each.remap is not None]
-    found = zip(lone, context.kept.each(_used, lone, around(context, _TARGETS)), strict=True) if lone else ()
+    found = zip(lone, context.kept.each(_used, lone, _Targets(around(context, _TARGETS))), strict=True) if lone else ()
     by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
     return {**by_launches, **by_source, **_beside(context, lone, publishers)}
 
@@ -99,15 +103,56 @@ def _beside(context: Context, lone: Sequence[Connection], publishers: Sequence[C
     return {**slips, **lacking}
 
 
-def _used(connection: Connection, known: Mapping[str, int]) -> Elsewhere | None:
-    node, found = connection.node.name, list[tuple[int, str]]()
-    for written, count in known.items():
-        full = names.resolve(written, node)
-        if full == connection.name and count > 1:
-            return None
-        alike = likeness(connection.name, full) if count >= _ENOUGH else None
-        if alike is not None and alike[0] == "typo" and is_slip_of_words(connection.name, full):
-            found.append((-count, written))
+@dataclass(frozen=True)
+class _Targets:
+    """The targets of remaps as written, with how many files have each."""
+
+    counts: Mapping[str, int]
+
+    @cached_property
+    def _by_beginning(self) -> Mapping[str, Mapping[str, int]]:
+        """How often each is written, by what a node puts before it: nothing for a global name, `~` for a private one,
+        and the namespace for one that is `relative`."""
+        found: dict[str, dict[str, int]] = {"global": {}, "private": {}, "relative": {}}
+        for written, count in self.counts.items():
+            kind = "global" if names.is_global(written) else "private" if names.is_private(written) else "relative"
+            name = names.canonicalize(f"/{written.removeprefix('~')}")
+            found[kind][name] = max(count, found[kind].get(name, 0))
+        return found
+
+    @cached_property
+    def _several(self) -> tuple[str, ...]:
+        return tuple(written for written, count in self.counts.items() if count >= _ENOUGH)
+
+    def has(self, name: str, node: str) -> bool:
+        """Whether several files have a target by which a node would come to this full name."""
+        known = self._by_beginning
+        below = [("global", ""), ("relative", names.parent(node).rstrip("/")), ("private", node)]
+        return any(
+            name.startswith(f"{before}/") and known[kind].get(name[len(before) :], 0) >= _ENOUGH
+            for kind, before in below
+        )
+
+    def alike(self, name: str, node: str) -> Iterator[tuple[int, str]]:
+        """The targets of several files of which the full name is a slip, and how many files have each."""
+        fulls = [names.resolve(written, node) for written in self._several]
+        # Each of the words may be that far away: see `is_slip_of_words`.
+        most = 2 * (folded(name).count("_") + 1)
+        near = process.extract(
+            folded(name), list(map(folded, fulls)), scorer=OSA.distance, score_cutoff=most, limit=None
+        )
+        for _, _, index in near:
+            alike = likeness(name, fulls[index])
+            if alike is not None and alike[0] == "typo" and is_slip_of_words(name, fulls[index]):
+                written = self._several[index]
+                yield self.counts[written], written
+
+
+def _used(connection: Connection, known: _Targets) -> Elsewhere | None:
+    node = connection.node.name
+    if known.has(connection.name, node):
+        return None
+    found = [(-count, written) for count, written in known.alike(connection.name, node)]
     if not found:
         return None
     count, written = min(found)
