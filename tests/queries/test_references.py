@@ -82,6 +82,30 @@ def test_argument_that_is_handed_on_with_all_others(tmp_path: Path) -> None:
     assert found == ["inc.launch:2 rate", "main.launch:2 rate*"]
 
 
+def test_argument_of_files_that_include_a_third(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <arg name="ra$0te" default="1"/>
+          <include file="{folder}/inc.launch" pass_all_args="true"/>
+        </launch>
+        //- other.launch
+        <launch>
+          <arg name="rate" default="2"/>
+          <include file="{folder}/inc.launch" pass_all_args="true"/>
+        </launch>
+        //- inc.launch
+        <launch>
+          <arg name="%s" default="3"/>
+        </launch>
+        """
+    assert referred(tmp_path / "a", text % "speed") == ["main.launch:2 rate*"]
+    assert referred(tmp_path / "b", text % "rate") == [
+        "main.launch:2 rate*",
+        "inc.launch:2 rate*",
+        "other.launch:2 rate*",
+    ]
+
+
 def test_argument_in_a_parameter_file(tmp_path: Path) -> None:
     found = referred(
         tmp_path,

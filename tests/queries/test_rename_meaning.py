@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -183,3 +184,41 @@ def nodes_renamed(workspace: Workspace, index: WorkspaceIndex, case: str) -> int
             assert started(now, {}) == started(was, new), (case, path, mention, edits)
             done += bool(own)
     return done
+
+
+def renamed_back(tree: LaunchTree, leaf: str) -> dict[str, Any]:
+    """What a launch comes to, with parameters under the name from before."""
+    found = started(tree, {})
+    params = sorted((name.replace(NEW, leaf), value) for name, value in found["params"])
+    nodes = [
+        (*node[:3], [(name.replace(NEW, leaf), value) for name, value in node[3]], *node[4:]) for node in found["nodes"]
+    ]
+    return {**found, "params": params, "nodes": nodes}
+
+
+def params_renamed(workspace: Workspace, index: WorkspaceIndex, case: str) -> int:
+    """How many renames of parameters changed nothing else."""
+    done, roots = 0, tuple(index.entries)
+    before = after(workspace, roots, ())
+    for path, mention, edits in renames(workspace, index, "param"):
+        leaf = re.split(r"[/~.]", mention.name)[-1]
+        for was, now in zip(before, after(workspace, roots, edits), strict=True):
+            assert renamed_back(now, leaf) == renamed_back(was, leaf), (case, path, mention, edits)
+            done += 1
+    return done
+
+
+def test_parameters(tmp_path: Path) -> None:
+    done = 0
+    for case in CASES:
+        workspace, _ = workspace_of(case, tmp_path / case.stem)
+        done += params_renamed(workspace, index_of(workspace, tmp_path / case.stem), case.name)
+    assert done > 50
+
+
+def test_parameters_of_ros2(tmp_path: Path) -> None:
+    done = 0
+    for number, case in enumerate(ROS2_INCLUDING):
+        workspace = workspace_of_ros2(case, tmp_path / str(number))
+        done += params_renamed(workspace, index_of(workspace, tmp_path / str(number)), str(number))
+    assert done > 50

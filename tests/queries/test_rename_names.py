@@ -145,3 +145,47 @@ def test_a_parameter_of_ros2(tmp_path: Path) -> None:
         "main.launch": '<param name="gains.kp" value="1"/>',
         "params.yaml": "gains: {kp: 2, i: 1}",
     }
+
+
+def test_a_parameter_of_a_file_that_another_launch_reads(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="p" exec="t" name="talker">
+            <param name="ra$0te" value="1"/>
+            <param from="{folder}/params.yaml"/>
+          </node>
+        </launch>
+        //- other.launch.xml
+        <launch>
+          <node pkg="p" exec="t" name="talker">
+            <param from="{folder}/params.yaml"/>
+            <param name="rate" value="3"/>
+          </node>
+        </launch>
+        //- params.yaml
+        talker:
+          ros__parameters:
+            rate: 2
+    """
+    workspace = create_workspace(tmp_path, text, build_type="ament_python")
+    edits = rename(workspace.context, workspace.offset, "speed")
+    assert [(workspace.shown(e.location), e.reason, e.indirect) for e in edits] == [
+        ("main.launch:3 rate", "", False),
+        ("other.launch.xml:4 rate", "Also set for nodes of other.launch.xml", True),
+        ("params.yaml:3 rate", "Also set for nodes of other.launch.xml", True),
+    ]
+
+
+def test_a_topic_in_a_file_that_another_launch_includes(tmp_path: Path) -> None:
+    text = (REMAPS % "").replace(
+        "//- inc.launch",
+        """//- second.launch
+    <launch>
+      <include file="{folder}/inc.launch"/>
+      <node pkg="p" type="t" name="speaker" ns="lab"><remap from="chatter" to="words"/></node>
+    </launch>
+    //- inc.launch""",
+    )
+    found = renamed(tmp_path, text, "speech")
+    assert found["second.launch"].count('to="speech"') == 1
+    assert sorted(found) == ["inc.launch", "main.launch", "second.launch"]
