@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import shutil
 import signal
@@ -13,6 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 from support.build_once import VARIABLE, begin_run
+from support.logged_errors import LoggedErrors
 
 _QUICK = ("git", "bash", "script", Path(sys.executable).name, "ros-preflight")
 """What a test may start that is marked neither `ros` nor `editor`: `make quick` runs it where nothing else is."""
@@ -41,6 +43,20 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_xdist_auto_num_workers() -> int:
     """Tests wait for nodes and editors a third of the time."""
     return max(1, len(os.sched_getaffinity(0)) * 3 // 2)
+
+
+@pytest.fixture(autouse=True)
+def nothing_of_ours_fails(request: pytest.FixtureRequest) -> Iterator[None]:
+    """What breaks and costs a part of the result only is logged as an error; a test that wants that is marked."""
+    errors = LoggedErrors()
+    loggers = [logging.getLogger(name) for name in ("preflight_analysis", "preflight_server")]
+    for logger in loggers:
+        logger.addHandler(errors)
+    yield
+    for logger in loggers:
+        logger.removeHandler(errors)
+    if request.node.get_closest_marker("breaks") is None:
+        assert errors.messages == [], "something of ours failed"
 
 
 @pytest.fixture(autouse=True)

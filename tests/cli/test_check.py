@@ -38,7 +38,7 @@ def test_the_demo_in_text(harness: Harness, preflight: Run) -> None:
 def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     data = preflight("check", "launch/talker_listener.launch", "--format", "json").json
     assert set(data) == {
-        *("schema", "findings", "rules", "environment", "coverage", "files", "nodes", "traced"),
+        *("schema", "findings", "failures", "rules", "environment", "coverage", "files", "nodes", "traced"),
     }
     assert data["coverage"] == {
         **{"files": 1, "evaluated": 1, "not_evaluated": [], "untried": 0},

@@ -51,6 +51,7 @@ def test_json() -> None:
     (finding,) = data.pop("findings")
     assert data == {
         "schema": "ros-preflight/check/1",
+        "failures": [],
         "rules": {"TOP001": {"warning": 1}},
         "environment": {"complete": True, "missing": [], "commands": [], "problems": []},
         "coverage": {

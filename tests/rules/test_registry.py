@@ -12,6 +12,7 @@ from pathlib import Path
 import preflight_analysis.rules as package
 import pytest
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules import reference
@@ -126,13 +127,25 @@ def _raise(rule: Rule, context: Context) -> Iterator[Finding]:
     yield  # a generator, as checks are
 
 
-def test_a_rule_that_raises_costs_that_rule_only(caplog: pytest.LogCaptureFixture) -> None:
+@pytest.mark.breaks
+def test_a_rule_that_raises_costs_that_rule_only_and_is_named(caplog: pytest.LogCaptureFixture) -> None:
     context = analyse(read_fixture(BROKEN))
     rules = [replace(rule, check=_raise) if rule.id == "LCH004" else rule for rule in all_rules()]
+    failures: list[Failure] = []
     with caplog.at_level(logging.ERROR):
-        assert [finding.rule for finding in run_rules(context, rules)] == ["ARG001"]
+        assert [finding.rule for finding in run_rules(context, rules, failures)] == ["ARG001"]
     assert "LCH004" in caplog.text
     assert "a bug" in caplog.text
+    (failure,) = failures
+    assert (failure.rule, failure.file) == ("LCH004", "/main.launch")
+    assert re.fullmatch(r"RuntimeError: a bug \(test_registry\.py:\d+\)", failure.error)
+
+
+def test_a_rule_that_raises_fails_a_test() -> None:
+    context = analyse(read_fixture(BROKEN))
+    rules = [replace(rule, check=_raise) if rule.id == "LCH004" else rule for rule in all_rules()]
+    with pytest.raises(RuntimeError, match="a bug"):
+        run_rules(context, rules)
 
 
 def test_findings_are_sorted_unique_and_marked_with_their_root() -> None:
@@ -154,6 +167,11 @@ def test_the_reference_in_docs_is_up_to_date() -> None:
     folder = ROOT / "docs" / "rules"
     there = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.md")}
     assert there == reference.pages(), f"run: {reference.COMMAND}"
+
+
+def test_the_index_lists_every_rule() -> None:
+    listed = re.findall(r"^\| \[(\w+)\]\(\1\.md\) \|", reference.pages()["index.md"], re.MULTILINE)
+    assert listed == [rule.id for rule in all_rules()]
 
 
 def test_the_reference_is_written_and_stale_pages_go(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What is logged as an error: a rule that raises is logged and left out, which is a failure of a test."""
+"""What is logged as an error: something of ours failed and costs a part of the result, which is a failure of a test."""
 
 from __future__ import annotations
 

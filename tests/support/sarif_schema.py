@@ -75,11 +75,20 @@ _RULE = _object(
     defaultConfiguration=_object("level", level=_LEVEL),
 )
 _DRIVER = _object("name", name=_STRING, version=_STRING, rules=_list(_RULE, uniqueItems=True))
-_NOTIFICATION = _object("message", level=_LEVEL, message=_TEXT)
+_NOTIFICATION = _object(
+    "message",
+    level=_LEVEL,
+    message=_TEXT,
+    associatedRule=_object("id", id=_STRING),
+    locations=_list(
+        _object("physicalLocation", physicalLocation=_object("artifactLocation", artifactLocation=_ARTIFACT))
+    ),
+)
 _INVOCATION = _object(
     "executionSuccessful",
     executionSuccessful={"type": "boolean"},
     toolConfigurationNotifications=_list(_NOTIFICATION),
+    toolExecutionNotifications=_list(_NOTIFICATION),
 )
 _RUN = _object(
     "tool results",

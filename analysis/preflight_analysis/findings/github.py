@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
-from preflight_analysis.findings.report import Report, closing, place, positions, printable, relative
+from preflight_analysis.findings.report import Report, closing, failure_lines, place, positions, printable, relative
 
 _COMMANDS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "info": "notice", "hint": "notice"}
 
@@ -14,7 +14,11 @@ def to_github(report: Report, base: str) -> str:
     """A line for each finding, the most severe first: GitHub shows the first ten of a step only. Files below the folder
     `base`, where the repository was checked out, are relative to it."""
     ranked = sorted(report.findings, key=lambda finding: -SEVERITIES.index(finding.severity))
-    return "".join(f"{_command(finding, report, base)}\n" for finding in ranked) + "\n".join(closing(report)) + "\n"
+    failed = "".join(
+        f"::error title=ros-preflight::{_escaped(line)}\n" for line in failure_lines(report.failures, base)
+    )
+    found = "".join(f"{_command(finding, report, base)}\n" for finding in ranked)
+    return failed + found + "\n".join(closing(report)) + "\n"
 
 
 def _command(finding: Finding, report: Report, base: str) -> str:

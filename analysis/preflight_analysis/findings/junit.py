@@ -12,7 +12,8 @@ from preflight_analysis.findings.report import Report, closing, finding_lines, p
 def to_junit(report: Report, failing: Collection[Finding], checked: Sequence[str], base: str) -> str:
     """A test case for each rule that speaks in a file, one for each of the `checked` files in which none does.
 
-    `failing` are the findings that are failures; the others are in the output of a case that passes.
+    `failing` are the findings that are failures; the others are in the output of a case that passes. A rule of ours
+    that failed is an error.
     """
     cases: dict[tuple[str, str], list[Finding]] = {}
     for finding in report.findings:
@@ -34,7 +35,14 @@ def to_junit(report: Report, failing: Collection[Finding], checked: Sequence[str
             ET.SubElement(case, "failure", message=message, type=failed[0].severity).text = text
         else:
             ET.SubElement(case, "system-out").text = text
-    counts = {"tests": str(len(suite)), "failures": str(failures), "errors": "0", "skipped": "0"}
+    for broken in report.failures:
+        message = printable(broken.message(relative(broken.file, base)))
+        case = ET.SubElement(
+            suite, "testcase", classname=printable(relative(broken.file, base)), name=broken.rule or "analysis"
+        )
+        ET.SubElement(case, "error", message=message, type="ros-preflight").text = message
+    errors = str(len(report.failures))
+    counts = {"tests": str(len(suite)), "failures": str(failures), "errors": errors, "skipped": "0"}
     suite.attrib.update(counts)
     ET.SubElement(suite, "system-out").text = "\n\n".join(closing(report, base))
     suites = ET.Element("testsuites", {"name": "ros-preflight", **counts})

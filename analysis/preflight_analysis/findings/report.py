@@ -16,6 +16,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.clipping import clipped
 from preflight_analysis.findings.coverage import Coverage
+from preflight_analysis.findings.failure import Failure, failures_json
 from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Missing, commands, in_words, missing
 
@@ -42,7 +43,8 @@ _FEW = 10
 class Report:
     """What a check found. `documents` has the text of each file that a finding points into; one that is missing costs
     its source line and the right line number. `findings` are those of the robot, `missing` is what this machine lacks,
-    with `problems`, sentences about its ROS. `hidden` findings are not among them, as they are not severe enough."""
+    with `problems`, sentences about its ROS. `hidden` findings are not among them, as they are not severe enough;
+    `failures` are the parts of ours that raised, whose findings are missing."""
 
     findings: Sequence[Finding]
     documents: Mapping[str, Document] = field(repr=False)
@@ -50,6 +52,7 @@ class Report:
     missing: tuple[Missing, ...] = ()
     problems: tuple[str, ...] = ()
     hidden: int = 0
+    failures: tuple[Failure, ...] = ()
 
     @classmethod
     def of(
@@ -58,12 +61,13 @@ class Report:
         documents: Mapping[str, Document],
         coverage: Coverage,
         problems: Iterable[str] = (),
+        failures: Iterable[Failure] = (),
     ) -> Report:
         """The findings in order, and apart from them what is missing on this machine."""
         found = list(findings)
         lacks = missing((each.lack, each.location) for each in found if each.lack is not None)
         of_robot = sorted((each for each in found if each.lack is None), key=_rank)
-        return cls(of_robot, documents, coverage, lacks, tuple(problems))
+        return cls(of_robot, documents, coverage, lacks, tuple(problems), failures=tuple(dict.fromkeys(failures)))
 
     def at_least(self, severity: Severity) -> Report:
         """The report with the findings of this severity and worse."""
@@ -104,11 +108,13 @@ def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
     points. `findings` has one for each cause, but each name of those that are alike, with a `condition` where it needs
     other arguments than those of its root; `rules` counts all places. `coverage` is how much was looked at, `sources`
-    there how many nodes are known in which way; `environment` is what is missing."""
+    there how many nodes are known in which way; `environment` is what is missing. `failures` are errors of ours: the
+    findings of that rule, of all rules where it is null, are missing for that launch file."""
     coverage = report.coverage
     return {
         "schema": CHECK_SCHEMA,
         "findings": [_finding_json(finding, report.documents) for finding in by_cause(report.findings, alike=False)],
+        "failures": failures_json(report.failures),
         "rules": {rule: dict(Counter(severities)) for rule, severities in _by_rule(report).items()},
         "environment": {
             "complete": report.complete,
@@ -347,15 +353,6 @@ def _linked(location: Location, documents: Mapping[str, Document], base: str | N
     return f"\x1b]8;;{uri}\x1b\\{text}\x1b]8;;\x1b\\"
 
 
-def relative(file: str, base: str | None) -> str:
-    """The path from the folder `base` where the file lies below it; the name of one of the catalogue; else the path as
-    it is."""
-    if base is not None and file.startswith(base.rstrip("/") + "/"):
-        return file[len(base.rstrip("/")) + 1 :]
-    catalogued = catalogued_file(file)
-    return catalogued.label if catalogued is not None else file
-
-
 def _underlined(location: Location, documents: Mapping[str, Document], paint: str) -> Iterator[str]:
     """The source line and, below it, carets under the place, to the end of its first line; `paint` colours them."""
     document = documents.get(location.file)
@@ -390,6 +387,28 @@ def _widths(text: str) -> int:
         else:
             columns += 2 if unicodedata.east_asian_width(char) in "WF" else 1
     return columns
+
+
+def relative(file: str, base: str | None) -> str:
+    """The path from the folder `base` where the file lies below it; the name of one of the catalogue; else the path as
+    it is."""
+    if base is not None and file.startswith(base.rstrip("/") + "/"):
+        return file[len(base.rstrip("/")) + 1 :]
+    catalogued = catalogued_file(file)
+    return catalogued.label if catalogued is not None else file
+
+
+def failure_lines(failures: Sequence[Failure], base: str | None = None) -> list[str]:
+    """A line for each rule and error: a rule that fails on one launch mostly fails on many. Files below the folder
+    `base` are shown relative to it."""
+    same: dict[tuple[str | None, str], list[Failure]] = {}
+    for each in failures:
+        same.setdefault((each.rule, each.error), []).append(each)
+    lines = []
+    for first, *others in same.values():
+        more = f" and {len(others)} more" if others else ""
+        lines.append(printable(first.message(f"{relative(first.file, base)}{more}")))
+    return lines
 
 
 def printable(text: str) -> str:

@@ -12,6 +12,7 @@ from preflight_analysis import __version__
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.fingerprint import fingerprints
 from preflight_analysis.findings.report import Report, by_cause, environment_lines, positions, relative
@@ -41,7 +42,13 @@ def to_sarif(report: Report, rules: Sequence[RuleDescription], base: str) -> dic
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
         "originalUriBaseIds": {_BASE_ID: {"uri": PurePosixPath(base, "_").as_uri()[:-1]}},
-        "invocations": [{"executionSuccessful": True, "toolConfigurationNotifications": _notes(report)}],
+        "invocations": [
+            {
+                "executionSuccessful": not report.failures,
+                "toolConfigurationNotifications": _notes(report),
+                "toolExecutionNotifications": [_failed(failure, base) for failure in report.failures],
+            }
+        ],
         "results": results,
     }
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
@@ -51,6 +58,15 @@ def _notes(report: Report) -> list[dict[str, Any]]:
     """What is missing on this machine, and how much was looked at: no results, as they are nobody's mistakes."""
     missing = () if report.complete else ("\n".join(environment_lines(report)),)
     return [{"level": "note", "message": {"text": text}} for text in (*missing, str(report.coverage))]
+
+
+def _failed(failure: Failure, base: str) -> dict[str, Any]:
+    return {
+        "level": "error",
+        "message": {"text": failure.message(relative(failure.file, base))},
+        **({"associatedRule": {"id": failure.rule}} if failure.rule is not None else {}),
+        "locations": [{"physicalLocation": {"artifactLocation": _artifact(failure.file, base)}}],
+    }
 
 
 def _rule(rule: RuleDescription) -> dict[str, Any]:

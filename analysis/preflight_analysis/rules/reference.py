@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 from pathlib import Path
 
 from preflight_analysis.rules.fix_availability import AVAILABILITY, fix_availability
@@ -24,18 +25,25 @@ SECTIONS = (
     "References",
 )
 """The headings of each page, in their order."""
-_FAMILIES = {
+_TITLES = {
     "ACT": "Actions",
     "ARG": "Arguments",
+    "BRG": "Bridges to Gazebo",
+    "BTR": "Behavior trees",
+    "CTL": "Controllers",
+    "FRM": "Coordinate frames",
     "GRF": "The graph",
     "LCH": "Launch files",
+    "MVT": "MoveIt",
     "PKG": "Packages and executables",
     "PRM": "Parameters",
     "QOS": "Quality of service",
     "SRV": "Services",
     "TOP": "Topics",
     "TRC": "Tracing",
+    "URD": "Robot descriptions",
 }
+"""Of the families of rules. Which there are follows from the rules; each has to have one."""
 _IN_BRANCHES = (
     "\n\nTags under a false condition are checked too. The finding names the arguments that make the condition true."
 )
@@ -122,15 +130,13 @@ def main(arguments: Sequence[str]) -> int:
 
 def _index(rules: Sequence[Rule]) -> str:
     lines = [_GENERATED, "# Rules\n"]
-    for prefix, family in _FAMILIES.items():
-        members = [rule for rule in rules if rule.id.startswith(prefix)]
-        if members:
-            lines += [f"## {family}\n", "| rule | name | severity | fix |", "| --- | --- | --- | --- |"]
-            lines += [
-                f"| [{rule.id}]({rule.id}.md) | {rule.name} | {rule.severity} | {fix_availability(rule)} |"
-                for rule in members
-            ]
-            lines.append("")
+    for family, members in groupby(rules, lambda rule: rule.id[:3]):
+        lines += [f"## {_TITLES[family]}\n", "| rule | name | severity | fix |", "| --- | --- | --- | --- |"]
+        lines += [
+            f"| [{rule.id}]({rule.id}.md) | {rule.name} | {rule.severity} | {fix_availability(rule)} |"
+            for rule in members
+        ]
+        lines.append("")
     return "\n".join(lines)
 
 

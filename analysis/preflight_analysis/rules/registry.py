@@ -22,6 +22,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
@@ -52,14 +53,17 @@ def rule_by_id(rule_id: str) -> Rule | None:
     return next((rule for rule in all_rules() if rule.id == rule_id), None)
 
 
-def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Finding]:
+def run_rules(
+    context: Context, rules: Sequence[Rule] | None = None, failures: list[Failure] | None = None
+) -> list[Finding]:
     """The findings of all rules (or of `rules`), without repetitions and suppressed ones, sorted by place.
 
     Of a file with very many the most severe, and one that counts the others.
-    Each is marked as holding in `context.root`. A rule that raises is logged and costs its own findings alone.
+    Each is marked as holding in `context.root`. A rule that raises costs its own findings alone where `failures` are
+    given, to which it is added.
     """
     chosen = tuple(all_rules() if rules is None else rules)
-    found, ran = _found(context, chosen)
+    found, ran = _found(context, chosen, failures)
     if context.of_branches:
         said = {(finding.rule, finding.location) for finding in found}
         found += [each for each in context.of_branches if (each.rule, each.location) not in said]
@@ -89,11 +93,13 @@ def run_rules(context: Context, rules: Sequence[Rule] | None = None) -> list[Fin
     return sorted_findings
 
 
-def found_in_branch(context: Context, pause: Callable[[], object] = lambda: None) -> list[Finding]:
+def found_in_branch(
+    context: Context, pause: Callable[[], object] = lambda: None, failures: list[Failure] | None = None
+) -> list[Finding]:
     """What the rules that speak of branches say of a launch with other arguments, suppressed or not, each with the
     includes that lead there: of one with a graph those that need it, of any other one the rest. `pause` is called
-    before each rule: it may raise to stop here."""
-    found, _ = _found(context, _of_branches(context.graph is not None, pause))
+    before each rule: it may raise to stop here. `failures` as for `run_rules`."""
+    found, _ = _found(context, _of_branches(context.graph is not None, pause), failures)
     chains = _first_chains(context)
     return [_with_chain(each, chains.get(each.location.file, ())) for each in found]
 
@@ -105,7 +111,7 @@ def _of_branches(needs_graph: bool, pause: Callable[[], object]) -> Iterator[Rul
             yield rule
 
 
-def _found(context: Context, rules: Iterable[Rule]) -> tuple[list[Finding], list[str]]:
+def _found(context: Context, rules: Iterable[Rule], failures: list[Failure] | None) -> tuple[list[Finding], list[str]]:
     """All that rules say, and the ids of those that did not raise."""
     findings: list[Finding] = []
     ran: list[str] = []
@@ -117,8 +123,11 @@ def _found(context: Context, rules: Iterable[Rule]) -> tuple[list[Finding], list
         context.disk.db.leave_if_cancelled()
         try:
             found = list(rule.check(rule, context))
-        except Exception:
-            _log.exception("rule %s %s broke on %s; its findings are left out", rule.id, rule.name, context.root)
+        except Exception as error:
+            if failures is None:
+                raise
+            _log.exception("rule %s %s failed on %s; its findings are left out", rule.id, rule.name, context.root)
+            failures.append(Failure.of(error, context.root, rule.id))
             continue
         ran.append(rule.id)
         said = _in_order(rule, found, context) if rule.problems else found

@@ -25,6 +25,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.conditions import VARIABLE, named_arguments
 from preflight_analysis.evaluation.inversion import Assignment, assignments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import Action, LaunchFile
@@ -69,12 +70,14 @@ class WhatIf:
 class Branches:
     """What is found in the tags and files that a launch leaves out, each finding with the text that it is about.
     `documents` are those of the files that it speaks of, `untried` is the number of tags that were not looked into, as
-    there are so many. `asked` are the runs of Python launch files that it takes, made or not."""
+    there are so many. `asked` are the runs of Python launch files that it takes, made or not. `failures` are the rules
+    that raised meanwhile."""
 
     findings: tuple[tuple[Finding, str], ...] = ()
     documents: Mapping[str, Document] = field(default_factory=dict, compare=False, repr=False)
     untried: int = 0
     asked: tuple[str, ...] = field(default=(), compare=False, repr=False)
+    failures: tuple[Failure, ...] = ()
 
     def with_others(self, found: Iterable[Finding], disk: Disk) -> Branches:
         """With findings of other files that the launch leaves out."""

@@ -29,6 +29,7 @@ from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
@@ -106,13 +107,26 @@ class Analysis:
         """Why no node was run, None when they were."""
         return self.context.why_not_run
 
-    @cached_property
+    failures_of_branches: tuple[Failure, ...] = ()
+    """The rules that raised on the tags that the launch leaves out."""
+
+    @property
     def findings(self) -> tuple[Finding, ...]:
         """What all rules say. They are run when this is first asked for."""
-        found = run_rules(self.context)
+        return self._judgement[0]
+
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """The rules that raised, whose findings are missing; all rules are run for that, too."""
+        return tuple(dict.fromkeys((*self._judgement[1], *self.failures_of_branches)))
+
+    @cached_property
+    def _judgement(self) -> tuple[tuple[Finding, ...], tuple[Failure, ...]]:
+        failures: list[Failure] = []
+        found = run_rules(self.context, failures=failures)
         if self.tree.edited:
             found = [each for each in found if not self._of_replaced_text(each)]
-        return adjusted(found, self.severities)
+        return adjusted(found, self.severities), tuple(failures)
 
     def _of_replaced_text(self, finding: Finding) -> bool:
         """Whether it speaks of what a Python file was, where it was edited since."""
@@ -121,11 +135,11 @@ class Analysis:
 
     def with_branches(self, branches: Branches) -> Analysis:
         """The analysis with what was found in tags that it leaves out, as far as its text is still the same."""
-        if not branches.findings:
+        if not branches.findings and not branches.failures:
             return self
         context = replace(self.context, documents={**branches.documents, **self.documents})
         found = tuple(finding for finding, text in branches.findings if context.text(finding.location) == text)
-        return replace(self, context=replace(context, of_branches=found))
+        return replace(self, context=replace(context, of_branches=found), failures_of_branches=branches.failures)
 
     def document(self, path: str) -> Document | None:
         """The text of a launch file or of one that is handed over, as the analysis has it; None of any other."""
@@ -334,18 +348,25 @@ class Workspace:
         somebody writes meanwhile."""
         db, path = self.sources.db, analysis.root
 
+        failures: dict[Failure, None] = {}
+
         def ask(args: Assignment, assumed: frozenset[Location]) -> WhatIf:
             if stops():
                 raise Cancelled
-            return _what_if(db, self, path, tuple(sorted(args.items())), assumed)[0]
+            what_if, _, failed = _what_if(db, self, path, tuple(sorted(args.items())), assumed)
+            failures.update(dict.fromkeys(failed))
+            return what_if
 
         def ask_params(args: Assignment, assumed: frozenset[Location]) -> tuple[Finding, ...]:
             if stops():
                 raise Cancelled
-            return _params_if(db, self, path, tuple(sorted(args.items())), assumed)
+            found, failed = _params_if(db, self, path, tuple(sorted(args.items())), assumed)
+            failures.update(dict.fromkeys(failed))
+            return found
 
         found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask, ask_params)
-        return found.with_others(findings_of_loose_files(analysis.context), self.sources)
+        found = found.with_others(findings_of_loose_files(analysis.context), self.sources)
+        return replace(found, failures=tuple(failures))
 
     def with_interfaces(
         self,
@@ -496,7 +517,7 @@ def _what_if(
     path: str,
     args: tuple[tuple[str, str], ...],
     assumed: frozenset[Location],
-) -> tuple[WhatIf, Context]:
+) -> tuple[WhatIf, Context, tuple[Failure, ...]]:
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
     given, variables = arguments_and_variables(dict(args))
@@ -511,8 +532,9 @@ def _what_if(
     context = Context(path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
     # Whoever waits to write does not wait for all rules: reading anything raises then.
     pause = partial(_executables, db, workspace, environment)
-    found = tuple(each for each in found_in_branch(context, pause) if each.lack is None)
-    return WhatIf(tree, documents, launch_files, found), context
+    failures: list[Failure] = []
+    found = tuple(each for each in found_in_branch(context, pause, failures) if each.lack is None)
+    return WhatIf(tree, documents, launch_files, found), context, tuple(failures)
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)
@@ -522,15 +544,16 @@ def _params_if(
     path: str,
     args: tuple[tuple[str, str], ...],
     assumed: frozenset[Location],
-) -> tuple[Finding, ...]:
+) -> tuple[tuple[Finding, ...], tuple[Failure, ...]]:
     """What the rules of parameters say of a launch with other arguments, of whose nodes none was run for that."""
-    _, context = _what_if(db, workspace, path, args, assumed)
+    _, context, _ = _what_if(db, workspace, path, args, assumed)
     documents, launch_files, environment = context.documents, context.launch_files, context.environment
     analysis = Analysis(path, args, context.tree, documents, launch_files, environment, context, ())
     interfaces = [not_run(node, context.executables) for node in context.tree.nodes]
     known = workspace.with_interfaces(analysis, interfaces, None).context
     pause = partial(_executables, db, workspace, environment)
-    return tuple(each for each in found_in_branch(known, pause) if each.lack is None)
+    failures: list[Failure] = []
+    return tuple(each for each in found_in_branch(known, pause, failures) if each.lack is None), tuple(failures)
 
 
 @query(limit=MAX_ANALYSES)

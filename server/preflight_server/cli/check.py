@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -17,6 +19,7 @@ from preflight_analysis.environment.writing import write_file
 from preflight_analysis.findings.baseline import read_baseline, to_baseline, without_known
 from preflight_analysis.findings.contexts import RootFindings, causes_first
 from preflight_analysis.findings.coverage import Coverage
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.report import Report, printable, relative, to_json, to_text
 from preflight_analysis.rules.registry import all_rules
@@ -28,14 +31,15 @@ from preflight_analysis.workspace.workspace import Analysis
 from preflight_server.cli import options
 from preflight_server.cli.again import Looked, again_and_again
 from preflight_server.cli.changes import changed_since, touched
-from preflight_server.cli.errors import CLEAN, CannotDoError
+from preflight_server.cli.errors import BROKEN, CLEAN, CannotDoError
 from preflight_server.cli.garbage import uncollected
 from preflight_server.cli.launches import Launches, launches
-from preflight_server.cli.output import colours, links, print_json, print_text, say
+from preflight_server.cli.output import colours, links, print_json, print_text, say, say_failures
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.progress import Progress
 from preflight_server.cli.project import Project, run_nodes_together
 
+_log = logging.getLogger(__name__)
 TOGETHER = 32
 """Launches of which all is run side by side, commands, Python launch files and nodes; their analyses are at hand
 meanwhile."""
@@ -61,6 +65,7 @@ class _Launched:
     """What is wrong with the ROS that it is for."""
     nodes: tuple[tuple[str, str], ...]
     """The name of each node, and how it is known what it does; other processes have no interface to be known."""
+    failures: tuple[Failure, ...]
     untried: int
     """How many tags that it leaves out were not looked into."""
     left_out: frozenset[str]
@@ -83,6 +88,7 @@ class _Launched:
                 for node, interface in zip(tree.nodes, interfaces, strict=True)
                 if node.kind != "process"
             ),
+            failures=analysis.failures,
             untried=untried,
             left_out=frozenset(problem.location.file for problem in tree.problems if problem.kind.leaves_out),
         )
@@ -135,15 +141,17 @@ def _look(args: argparse.Namespace) -> Looked:
     homes = [launch.home for launch in chosen]
     report, checked = look_at(chosen, args)
     if args.write_baseline:
+        say_failures(report.failures)
         return Looked(_write_baseline(report, args.write_baseline), homes, checked)
     if args.baseline:
         total = len(report.findings)
         report = without_known(report, known, _folder(args.baseline))
         say(f"ros-preflight: {total - len(report.findings)} of {total} findings are in {args.baseline}")
+    say_failures(report.failures)
     failing = options.failing(report.findings, args.fail_on)
     _print(report.at_least(args.severity), failing, checked, homes, args)
-    code = int(bool(failing) or (args.require_complete and not report.complete))
-    return Looked(code, homes, {*checked, *report.documents})
+    found = int(bool(failing) or (args.require_complete and not report.complete))
+    return Looked(BROKEN if report.failures else found, homes, {*checked, *report.documents})
 
 
 @uncollected()
@@ -152,6 +160,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     changed = {each.home: changed_since(args.changed_since, each.home) for each in chosen} if args.changed_since else {}
     progress = Progress(sum(len(each.roots) for each in chosen))
     found: list[_Launched] = []
+    failed: list[Failure] = []
     done = 0
     try:
         for launch in chosen:
@@ -163,15 +172,18 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                 for root in together:
                     progress.step(done, printable(relative(root.label, os.getcwd())))
                     done += 1
-                    project = launch.workspace.analysed(root.path, dict(root.args))
-                    if not changed or touched(project.analysis, changed[launch.home], settings):
-                        branches = launch.workspace.branches(project.analysis)
-                        launch.workspace.workspace.set_branches(project.analysis.launch, branches)
-                        looked_at.append((root, project, branches.untried))
+                    with _noted(failed, root):
+                        project = launch.workspace.analysed(root.path, dict(root.args))
+                        if not changed or touched(project.analysis, changed[launch.home], settings):
+                            branches = launch.workspace.branches(project.analysis)
+                            launch.workspace.workspace.set_branches(project.analysis.launch, branches)
+                            looked_at.append((root, project, branches.untried))
                 run_nodes_together(
                     [project for _, project, _ in looked_at], args, report=progress.part, running=progress.running
                 )
-                found += [_Launched.of(root, project.with_results(), untried) for root, project, untried in looked_at]
+                for root, project, untried in looked_at:
+                    with _noted(failed, root):
+                        found.append(_Launched.of(root, project.with_results(), untried))
     finally:
         progress.end()
     kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))
@@ -188,7 +200,20 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
         unknown_nodes=tuple(sorted({name for name, source in nodes if source == "none"})),
     )
     problems = dict.fromkeys(problem for each in kept for problem in each.problems)
-    return Report.of(_merged(kept), documents, coverage, problems), files
+    failed += [failure for each in kept for failure in each.failures]
+    return Report.of(_merged(kept), documents, coverage, problems, failed), files
+
+
+@contextmanager
+def _noted(failed: list[Failure], root: Root) -> Iterator[None]:
+    """Of many launches, one that we cannot analyse for an error of ours costs its own findings alone."""
+    try:
+        yield
+    except CannotDoError:
+        raise
+    except Exception as error:
+        _log.exception("the analysis of %s failed", root.label)
+        failed.append(Failure.of(error, root.path))
 
 
 def _not_included(found: Sequence[_Launched], asked: Collection[Root]) -> list[_Launched]:
@@ -228,7 +253,7 @@ def _write_baseline(report: Report, file: str) -> int:
         raise CannotDoError(f"{file} cannot be written: {error.strerror}") from None
     count = len(report.findings)
     say(f"ros-preflight: {file} has {count} finding{'' if count == 1 else 's'}")
-    return CLEAN
+    return BROKEN if report.failures else CLEAN
 
 
 def _print(

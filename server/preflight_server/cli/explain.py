@@ -16,9 +16,9 @@ from preflight_analysis.rules.registry import all_rules
 
 from preflight_server.cli import options
 from preflight_server.cli.check import look_at
-from preflight_server.cli.errors import CLEAN, CannotDoError
+from preflight_server.cli.errors import BROKEN, CLEAN, CannotDoError
 from preflight_server.cli.launches import launches
-from preflight_server.cli.output import colours, links, print_json, print_text
+from preflight_server.cli.output import colours, links, print_json, print_text, say_failures
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.rules import rule_ids, rule_json, rule_page, rules_named
 
@@ -63,6 +63,8 @@ def run(args: argparse.Namespace) -> int:
         raise CannotDoError(f"{args.what} is neither a rule nor a finding; `ros-preflight rules` lists the rules")
     chosen = launches(args)
     report, _ = look_at(chosen, args)
+    say_failures(report.failures)
+    code = BROKEN if report.failures else CLEAN
     found = [*_named(report, args.what)]
     if not found:
         raise CannotDoError(f"there is no finding at {args.what}; `ros-preflight check` lists them")
@@ -73,11 +75,11 @@ def run(args: argparse.Namespace) -> int:
         data: dict[str, Any] = {"schema": SCHEMA, "findings": document["findings"]}
         data["rules"] = [rule_json(rule) for rule in rules]
         print_json(with_paths(data, args, [each.home for each in chosen]))
-        return CLEAN
+        return code
     blocks = ["\n".join(_lines(finding, report)) for finding in found]
     pages = [rule_page(rule) for rule in rules]
     print_text("\n\n".join(blocks) + "\n\n" + "\n".join(pages), painted=colours())
-    return CLEAN
+    return code
 
 
 def _named(report: Report, what: str) -> Iterator[Finding]:

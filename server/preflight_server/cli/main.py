@@ -10,10 +10,12 @@ import sys
 from collections.abc import Sequence
 
 from preflight_analysis import __version__
+from preflight_analysis.findings.failure import error_line
 
-from preflight_server.cli.errors import FAILED, CannotDoError
+from preflight_server.cli.errors import BROKEN, FAILED, CannotDoError
 from preflight_server.cli.output import LogFormatter, say
 
+_log = logging.getLogger(__name__)
 VERBS = {
     "check": "find problems in launch files",
     "explain": "explain a rule or one finding",
@@ -38,7 +40,7 @@ _SEVERAL_FILES = ("check", "diff", "explain", "where", "why")
 """The verbs whose positional arguments are files or names too, in `launch_args`."""
 _COMPLETING = "_ARGCOMPLETE"
 """The variable that a shell sets when it asks argcomplete for words."""
-_EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 the command failed"
+_EPILOG = "exit codes: 0 clean, 1 findings at or above --fail-on, 2 the command failed, 3 an error of ros-preflight"
 
 
 def version() -> str:
@@ -69,6 +71,10 @@ def main(argv: Sequence[str] | None = None, *, program: str = "ros-preflight") -
     except KeyboardInterrupt:
         say("ros-preflight: interrupted")
         return FAILED
+    except Exception as error:
+        _log.exception("internal error")
+        say(f"ros-preflight: internal error: {error_line(error)}. Please report this.")
+        return BROKEN
     return code
 
 

@@ -7,10 +7,12 @@ import logging
 import os
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from preflight_analysis.documents.json_text import dumps
+from preflight_analysis.findings.failure import Failure
+from preflight_analysis.findings.report import failure_lines
 
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 """All but line break and tab, and what changes the direction of the text around it."""
@@ -73,6 +75,12 @@ def links() -> str | None:
 def say(text: str) -> None:
     """A line on standard error."""
     print(visible(text), file=sys.stderr)
+
+
+def say_failures(failures: Sequence[Failure]) -> None:
+    """The errors of ours that cost findings."""
+    for line in failure_lines(failures, os.getcwd()):
+        say(f"ros-preflight: {line}")
 
 
 class LogFormatter(logging.Formatter):

@@ -29,7 +29,8 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 from preflight_server.cli import options
-from preflight_server.cli.output import say
+from preflight_server.cli.errors import BROKEN
+from preflight_server.cli.output import say, say_failures
 from preflight_server.cli.progress import Progress
 
 if TYPE_CHECKING:
@@ -240,5 +241,9 @@ def say_errors(analysis: Analysis) -> None:
 
 
 def exit_code(analysis: Analysis, fail_on: str) -> int:
-    """1 if the launcher would stop, however severe that is, for verbs that show something else than findings."""
+    """1 if the launcher would stop, however severe that is, for verbs that show something else than findings. Errors of
+    ours are said first."""
+    say_failures(analysis.failures)
+    if analysis.failures:
+        return BROKEN
     return int(fail_on != options.NEVER and any(finding.stops_launch for finding in analysis.findings))

@@ -16,6 +16,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing
 from preflight_analysis.workspace.branches import Branches
@@ -183,9 +184,9 @@ class Analyses:
                         found = await self._session.in_pool(
                             partial(branches_of, workspace, root, lambda: self._session.is_closed)
                         )
-                    except Exception:
+                    except Exception as error:
                         _log.exception("the branches of %s could not be evaluated", root)
-                        found = Branches()
+                        found = Branches(failures=(Failure.of(error, root.path),))
                     if not self._settled.is_set() or not self._session.uses(workspace):
                         return  # likewise
                 if await self._session.in_pool(partial(workspace.set_branches, root, found)):
@@ -211,8 +212,10 @@ class Analyses:
         snapshot = self._snapshot(asked, only_news)
         try:
             round_ = await self._session.in_pool(lambda: snapshot.round(workspace))
-        except Exception:
+        except Exception as error:
             _log.exception("the findings of %s could not be merged", asked)
+            for root in asked:
+                self._server.report_failure(Failure.of(error, root.path))
             return not self._news.is_set()
         if round_ is None or self._news.is_set() or self._session.is_closed:
             return False  # superseded by a newer text
@@ -239,6 +242,8 @@ class Analyses:
 
     def _commit(self, round_: Round) -> None:
         self._last = round_
+        for failure in round_.failures:
+            self._server.report_failure(failure)
         current = [a.tree.inputs for root, a in round_.analyses.items() if root not in round_.outdated]
         clean = {
             path: list[types.Diagnostic]()

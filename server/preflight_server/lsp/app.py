@@ -14,6 +14,7 @@ from typing import Any
 
 from lsprotocol import types
 from preflight_analysis import __version__
+from preflight_analysis.findings.failure import Failure, error_line
 from pygls.lsp.server import LanguageServer
 
 from preflight_server.lsp import features
@@ -60,6 +61,8 @@ class PreflightServer(LanguageServer):
         """Held while the nodes of one folder are run: the machine has no more cores for several folders."""
         self.client_commands: frozenset[str] = frozenset()
         """Our commands that the client carries out itself."""
+        self._reported_failures: set[str] = set()
+        """What the user knows to have failed."""
         self._background: set[asyncio.Task[Any]] = set()
         for module in pkgutil.iter_modules(features.__path__):
             importlib.import_module(f"{features.__name__}.{module.name}").register(self)
@@ -112,6 +115,20 @@ class PreflightServer(LanguageServer):
         if not isinstance(error, RefusedError):
             _log.error("%s: %s", getattr(source, "__name__", source), error)
 
+    def report_failure(self, failure: Failure) -> None:
+        """An error of ours costs findings: say so once for each rule, whatever the file. Call it on the event loop."""
+        self._report_once(failure.rule or "analysis", failure.message(failure.file))
+
+    def report_internal_error(self, what: str, error: BaseException) -> None:
+        """Something else of ours failed, which the user would not see otherwise: say so once. On the event loop."""
+        self._report_once(what, f"{what}: {error_line(error)}. Please report this.")
+
+    def _report_once(self, what: str, message: str) -> None:
+        if what not in self._reported_failures:
+            self._reported_failures.add(what)
+            text = f"ros-preflight: {message} The log has the traceback."
+            self.window_show_message(types.ShowMessageParams(types.MessageType.Warning, text))
+
     def spawn(self, coroutine: Any) -> asyncio.Task[Any]:
         """Run a coroutine beside the handlers; what it raises goes to the log."""
         task = asyncio.get_running_loop().create_task(coroutine)
@@ -123,6 +140,8 @@ class PreflightServer(LanguageServer):
         self._background.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
             _log.error("a background task failed", exc_info=error)
+            if isinstance(error, Exception):
+                self.report_internal_error("a background task failed", error)
 
 
 def _environments(options: Mapping[str, Any]) -> dict[str, Mapping[str, str]]:

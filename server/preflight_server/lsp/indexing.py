@@ -126,8 +126,9 @@ class Indexing:
         index = None
         try:
             index = await loop.run_in_executor(self._pool, work)
-        except Exception:
+        except Exception as error:
             _log.exception("indexing failed; the index is unchanged")
+            self._server.report_internal_error("indexing failed", error)
         finally:
             if progress is not None:
                 progress.end(counted(len(index.files), "launch file") if index is not None else "")

@@ -8,6 +8,7 @@ import logging
 import threading
 from typing import TYPE_CHECKING, Any
 
+from preflight_analysis.findings.failure import error_line
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.live.model import Expected
 from preflight_analysis.live.report import event_json
@@ -100,14 +101,20 @@ class LiveWatch:
         while not watch.stopped.is_set():
             try:
                 events = watcher.look()
-            except Exception:
+            except Exception as error:
                 if not watch.stopped.is_set():
                     _log.exception("the running system could not be compared")
+                    with contextlib.suppress(RuntimeError):  # the event loop is closed
+                        loop.call_soon_threadsafe(self._failed, watch, f"internal error: {error_line(error)}")
                 return
             with contextlib.suppress(RuntimeError):  # the event loop is closed
                 for event in events:
                     loop.call_soon_threadsafe(self._report, watch, event)
             watch.stopped.wait(POLL_SECONDS)
+
+    def _failed(self, watch: _Watch, reason: str) -> None:
+        if watch is self._watch:
+            self.stop(reason)
 
     def _report(self, watch: _Watch, event: Event) -> None:
         if watch is not self._watch:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from lsprotocol import types
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.findings.contexts import RootFindings, causes_first, lacks_once
+from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing, missing
 from preflight_analysis.incremental.database import Cancelled
@@ -43,6 +44,8 @@ class Round:
     kept: Kept
     converter: Converter
     """What made them, for the next round."""
+    failures: tuple[Failure, ...] = ()
+    """The errors of ours that cost findings."""
     preliminary: bool = False
     """Whether the graph of one that was asked for is still missing."""
 
@@ -89,14 +92,16 @@ class Snapshot:
         known = self.before.analyses if self.before is not None else {}
         asked: dict[Root, Analysis] = {}
         preliminary = False
+        failures: list[Failure] = []
         for root in self.asked:
             args = dict(root.args)
             try:
                 is_new_and_large = root not in known and len(workspace.evaluated(root.path, args).tree.nodes) >= LARGE
                 ask = workspace.static if is_new_and_large else workspace.analysed
                 asked[root] = ask(root.path, args)
-            except Exception:
+            except Exception as error:
                 _log.exception("the analysis of %s failed; its findings are unchanged", root)
+                failures.append(Failure.of(error, root.path))
             else:
                 preliminary |= is_new_and_large
         if self.before is not None and self.only_news and self._is_known(asked, self.before):
@@ -104,7 +109,8 @@ class Snapshot:
         others = {root: known[root] for root in self.wanted if root in known and root not in asked}
         changed = {root: frozenset(_changed_files(workspace, analysis)) for root, analysis in others.items()}
         analyses = {root: either[root] for root in self.wanted if root in (either := {**others, **asked})}
-        return replace(self._published(analyses, changed), preliminary=preliminary)
+        failures += [failure for analysis in asked.values() for failure in analysis.failures]
+        return replace(self._published(analyses, changed), failures=tuple(failures), preliminary=preliminary)
 
     def _is_known(self, asked: Mapping[Root, Analysis], before: Round) -> bool:
         same = (asked.get(root) is before.analyses.get(root) for root in self.asked)

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 from typing import Any
 
+from preflight_analysis.findings.failure import Failure
+
 Document = Mapping[str, Any]
 MOST_BYTES = 200_000
 """Of a document as JSON."""
@@ -51,6 +53,8 @@ def _check(document: Document) -> Iterator[str]:
     counts = Counter(finding["severity"] for finding in document["findings"])
     total = ", ".join(f"{count} {severity}" for severity, count in counts.items()) or "no findings"
     yield f"{total}; {document['files']} launch files, {document['nodes']} nodes"
+    for failure in document["failures"]:
+        yield Failure(failure["rule"], failure["file"], failure["error"]).message(failure["file"])
     yield from map(_finding, document["findings"])
 
 

@@ -28,8 +28,8 @@ _PROGRAM = (
     "import json, sys; sys.path[:] = json.loads(sys.argv.pop(1)); "
     "from preflight_server.cli.main import main; sys.exit(main())"
 )
-_FAILED = 2
-"""The exit code for what could not be done."""
+_FAILED, _BROKEN = 2, 3
+"""The exit codes for what could not be done, and for an error of ours, which may cost a part of the document only."""
 _INSTRUCTIONS = """Answers questions about the ROS launch files of one workspace and changes nothing. Start with
 `check`. Use `explain` for a finding, `why` for two nodes that are not connected, `where` for a parameter with an
 unexpected value. {runs}"""
@@ -120,7 +120,7 @@ async def _output(workspace: Workspace, words: Sequence[str]) -> bytes:
             )
     except TimeoutError:
         raise BadArgumentError(f"no answer after {workspace.seconds:g} s") from None
-    if done.returncode in (0, 1):
+    if done.returncode in (0, 1) or (done.returncode == _BROKEN and done.stdout):
         return done.stdout
     said = done.stderr.decode(errors="replace").strip().splitlines()
     if done.returncode == _FAILED and said:
