@@ -148,8 +148,11 @@ async def test_malformed_messages_do_not_stop_the_server(harness: Harness) -> No
             b"no JSON at all",
             b'{"jsonrpc": "2.0", "id": [], "method": "textDocument/hover", "params": null}',
             b'{"jsonrpc": "2.0", "id": {}, "result": null}',
+            b"[" * 100_000,
+            b"\xff\xfe",
         ):
             writer.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
+        writer.write(b"Content-Length: abc\r\n\r\n{}\r\nContent-Length: -1\r\n\r\n{}")
         editor.open(harness.launch_file)
         await editor.having(harness.launch_file, "TRC004")
         assert [m.message for m in editor.client.messages] == []

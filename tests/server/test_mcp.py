@@ -7,8 +7,9 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+import threading
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
 from typing import Any, Literal
 
@@ -18,8 +19,10 @@ from mcp_types import CallToolResult, TextContent
 from preflight_server.cli import mcp as verb
 from preflight_server.mcp.results import MOST_BYTES, bounded, summary
 from preflight_server.mcp.tools import TOOLS, BadArgumentError, inside
+from preflight_server.mcp.transport import MOST_BYTES as MOST
 from support.command import run_command
 from support.editor_harness import ROOT, Harness, create_harness
+from support.waiting import PATIENCE
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -154,6 +157,85 @@ async def test_bad_calls(harness: Harness) -> None:
         assert "Traceback" not in text(result)
 
 
+@contextmanager
+def killed_late(process: subprocess.Popen[bytes]) -> Iterator[None]:
+    """What does not answer does not keep the tests waiting."""
+    timer = threading.Timer(PATIENCE, process.kill)
+    timer.start()
+    yield
+    timer.cancel()
+
+
+def raw(harness: Harness, *lines: bytes) -> list[dict[str, Any]]:
+    """What is answered to lines of standard input, which then ends, after the handshake."""
+    start = {
+        "protocolVersion": "2025-06-18",
+        "capabilities": {},
+        "clientInfo": {"name": "test", "version": "1"},
+    }
+    first = [
+        {"jsonrpc": "2.0", "id": "start", "method": "initialize", "params": start},
+        {"jsonrpc": "2.0", "method": "notifications/initialized"},
+    ]
+    process = subprocess.Popen(
+        [str(harness.server), "mcp", str(harness.workspace)],
+        env=harness.environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    with process, killed_late(process):
+        assert process.stdin is not None
+        assert process.stdout is not None
+        assert process.stderr is not None
+        answers = []
+        sent = [json.dumps(each).encode() for each in first] + [*lines]
+        for line in sent:
+            process.stdin.write(line + b"\n")
+            process.stdin.flush()
+            if line not in (sent[1],):
+                answers.append(json.loads(process.stdout.readline()))
+        process.stdin.close()
+        errors = process.stderr.read()
+    assert process.returncode == 0
+    assert b"Traceback" not in errors, errors.decode()
+    assert answers[0]["id"] == "start"
+    return answers[1:]
+
+
+def call_of(message_id: Any, tool: str, given: dict[str, Any]) -> bytes:
+    params = {"name": tool, "arguments": given}
+    return json.dumps({"jsonrpc": "2.0", "id": message_id, "method": "tools/call", "params": params}).encode()
+
+
+def test_what_is_no_message_is_answered(harness: Harness) -> None:
+    garbage = (b"garbage", b"\xff\xfe", b'{"jsonrpc": "2.0", "id": 1, ', b"[" * 100_000, b" " * MOST + b"{}")
+    invalid = (b"[]", b"7", b'{"id": 7}', b'{"jsonrpc": "2.0", "id": [1], "method": "ping"}')
+    surrogate = call_of(8, "tree", {"file": "a\ud800"})
+    answers = raw(harness, *garbage, *invalid, surrogate, call_of("next", "explain", {"what": "TOP001"}))
+    codes = [answer.get("error", {}).get("code") for answer in answers]
+    assert codes == [*[-32700] * len(garbage), *[-32600] * len(invalid), -32600, None]
+    assert [answer["id"] for answer in answers] == [*[None] * len(garbage), None, None, 7, None, 8, "next"]
+    assert answers[-1]["result"]["structuredContent"]["schema"] == "ros-preflight/explain/1"
+
+
+def test_what_a_command_line_cannot_have_is_an_error_of_the_call(harness: Harness) -> None:
+    given: tuple[dict[str, Any], ...] = ({"rate": "1\0"}, {"rate": "1" * 300_000})
+    calls = [call_of(number, "tree", {"file": FILE, "arguments": each}) for number, each in enumerate(given)]
+    answers = raw(harness, *calls)
+    assert all(answer["result"]["isError"] for answer in answers)
+    said = [answer["result"]["content"][0]["text"] for answer in answers]
+    assert "NUL" in said[0]
+    assert "Argument list too long" in said[1]
+
+
+def test_a_file_name_that_is_no_utf8_is_answered(harness: Harness) -> None:
+    path = os.fsencode(harness.workspace / "launch") + b"/gr\xf6.launch"
+    Path(os.fsdecode(path)).write_text("<launch><nod/></launch>")
+    (answer,) = raw(harness, call_of(1, "check", {"files": ["launch"]}))
+    assert any("gr?.launch" in finding["file"] for finding in answer["result"]["structuredContent"]["findings"])
+
+
 async def test_a_broken_file_has_findings(harness: Harness) -> None:
     (harness.workspace / "launch/broken.launch").write_text('<launch><node pkg="p" type="t" name="n"')
     async with connected(harness) as call:
@@ -233,7 +315,7 @@ def test_a_document_is_never_longer_than_allowed() -> None:
 def test_a_summary_is_short() -> None:
     at = {"start": {"line": 1, "column": 2}}
     finding = {"file": "a", "range": at, "severity": "error", "rule": "X", "message": "m"}
-    document = {"findings": [finding] * 50, "files": 1, "nodes": 2}
+    document = {"findings": [finding] * 50, "failures": [], "files": 1, "nodes": 2}
     lines = summary("check", document).splitlines()
     assert lines[0] == "50 error; 1 launch files, 2 nodes"
     assert lines[1] == "a:1:2: error X: m"

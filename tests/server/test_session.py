@@ -22,6 +22,7 @@ from preflight_server.lsp.settings import Settings
 from support.waiting import PATIENCE, answered
 
 
+@pytest.mark.breaks
 async def test_a_broken_analysis_is_tried_once_an_edit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tried: list[str] = []
 

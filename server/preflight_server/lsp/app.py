@@ -10,16 +10,18 @@ import os
 import pkgutil
 import sys
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, BinaryIO, cast
 
 from lsprotocol import types
 from preflight_analysis import __version__
 from preflight_analysis.findings.failure import Failure, error_line
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest, JsonRpcParseError
 from pygls.lsp.server import LanguageServer
 
 from preflight_server.lsp import features
 from preflight_server.lsp.convert import EditSupport
 from preflight_server.lsp.folders import Folders
+from preflight_server.lsp.frames import BadFrameError, Frames
 from preflight_server.lsp.live import LiveWatch
 from preflight_server.lsp.protocol import PreflightProtocol, RefusedError, is_failure
 from preflight_server.lsp.publisher import Publisher
@@ -30,6 +32,7 @@ from preflight_server.lsp.status import Status
 from preflight_server.lsp.text_store import TextStore, to_path
 
 _log = logging.getLogger(__name__)
+FAILED = 2
 _SWITCH = 0.001
 """Seconds after which a thread lets go of the interpreter where another wants it: each answer takes several turns, of
 which it waits for so long while something is analysed."""
@@ -110,8 +113,17 @@ class PreflightServer(LanguageServer):
         session = self.session_of(uri)
         return await session.view(uri, python=python) if session is not None else None
 
+    def refuse_frame(self, why: str) -> None:
+        """Answer a message that cannot be read, from whichever thread reads."""
+        _log.warning("a message of the client: %s", why)
+        self.protocol.refuse_message(None, JsonRpcParseError(why))
+
     def report_server_error(self, error: Exception, source: Any) -> None:
         """A handler broke: that belongs in the log, not in a message box for each keystroke."""
+        if source is JsonRpcException and not isinstance(error, JsonRpcException):
+            is_json = not isinstance(error, ValueError | RecursionError)
+            answer = JsonRpcInvalidRequest("not a message") if is_json else JsonRpcParseError(f"not JSON: {error}")
+            self.protocol.refuse_message(None, answer)
         if not isinstance(error, RefusedError):
             _log.error("%s: %s", getattr(source, "__name__", source), error)
 
@@ -156,7 +168,8 @@ def _environments(options: Mapping[str, Any]) -> dict[str, Mapping[str, str]]:
 
 
 def serve() -> int:
-    """Serve standard input and output until the client leaves. The exit code is LSP's: 1 without `shutdown` first.
+    """Serve standard input and output until the client leaves. The exit code is LSP's: 1 without `shutdown` first, and
+    2 where the client's messages cannot be read any further.
 
     Messages go to a descriptor of their own and standard output becomes standard error, so that neither a stray
     `print` nor an inherited PYTHONUNBUFFERED can break the stream.
@@ -174,7 +187,10 @@ def serve() -> int:
     with open(os.dup(1), "wb") as out:
         os.dup2(2, 1)
         try:
-            server.start_io(stdout=out)
+            server.start_io(cast("BinaryIO", Frames(sys.stdin.buffer, server.refuse_frame)), out)
+        except BadFrameError as error:
+            _log.error("the language server ends: %s", error)  # noqa: TRY400 - it is the client's error
+            return FAILED
         finally:
             if server.folders is not None:
                 server.folders.close()

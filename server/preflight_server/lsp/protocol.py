@@ -83,8 +83,22 @@ class PreflightProtocol(LanguageServerProtocol):
     def structure_message(self, data: dict[str, Any]) -> Any:
         """The message of a JSON object. An id is a number or a text: pygls looks requests up by whatever it is."""
         if "jsonrpc" in data and not isinstance(data.get("id"), str | int | None):
-            raise JsonRpcInvalidRequest("an id is a number or a text")
-        return super().structure_message(data)
+            error = JsonRpcInvalidRequest("an id is a number or a text")
+            self.refuse_message(None, error)
+            raise error
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as error:
+            # pygls answers to what its handlers raise alone, and the client would wait for ever.
+            if "method" in data and data.get("id") is not None:
+                self.refuse_message(data["id"], error)
+            raise
+
+    def refuse_message(self, msg_id: MsgId | None, error: JsonRpcException) -> None:
+        """Answer a message that cannot be handled; None for one whose id is not known."""
+        # pygls leaves out an id that is null.
+        answer = {"code": error.code, "message": error.message}
+        self._send_data({"jsonrpc": "2.0", "id": msg_id, "error": answer})
 
     def _execute_handler(
         self,

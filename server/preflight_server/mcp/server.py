@@ -6,6 +6,7 @@ A process of its own for each call can be cancelled, leaves no memory behind, an
 from __future__ import annotations
 
 import json
+import logging
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -17,13 +18,15 @@ from jsonschema import Draft202012Validator  # type: ignore[import-untyped]
 from jsonschema.exceptions import best_match  # type: ignore[import-untyped]
 from mcp.server.context import ServerRequestContext
 from mcp.server.lowlevel import Server
-from mcp.server.stdio import stdio_server
 from preflight_analysis import __version__
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.findings.failure import error_line
 
 from preflight_server.mcp.results import bounded, summary
 from preflight_server.mcp.tools import ITEMS, TOOLS, BadArgumentError, Tool
+from preflight_server.mcp.transport import standard_streams
 
+_log = logging.getLogger(__name__)
 _PROGRAM = (
     "import json, sys; sys.path[:] = json.loads(sys.argv.pop(1)); "
     "from preflight_server.cli.main import main; sys.exit(main())"
@@ -67,7 +70,10 @@ async def _serve(workspace: Workspace) -> None:
         try:
             return await _called(workspace, params.name, params.arguments or {})
         except BadArgumentError as error:
-            return types.CallToolResult(content=[types.TextContent(text=str(error))], is_error=True)
+            return _failed(str(error))
+        except Exception as error:
+            _log.exception("calling %s failed", params.name)
+            return _failed(f"internal error: {error_line(error)}. Please report this.")
 
     server: Server[Any] = Server(
         "ros-preflight",
@@ -76,8 +82,12 @@ async def _serve(workspace: Workspace) -> None:
         on_list_tools=list_tools,
         on_call_tool=call_tool,
     )
-    async with stdio_server() as (read, write):
+    async with standard_streams() as (read, write):
         await server.run(read, write, server.create_initialization_options())
+
+
+def _failed(why: str) -> types.CallToolResult:
+    return types.CallToolResult(content=[types.TextContent(text=why)], is_error=True)
 
 
 def _described(tool: Tool) -> types.Tool:
@@ -108,6 +118,8 @@ async def _called(workspace: Workspace, name: str, given: dict[str, Any]) -> typ
 
 async def _output(workspace: Workspace, words: Sequence[str]) -> bytes:
     """What the command prints. Raises `BadArgumentError` with its message where it fails."""
+    if any("\0" in word for word in words):
+        raise BadArgumentError("an argument has the character NUL, which no launch file and no name can have")
     # Isolated, and without the current folder, so that nothing of the workspace is imported.
     path = json.dumps([each for each in sys.path if each not in ("", workspace.folder)])
     try:
@@ -120,6 +132,8 @@ async def _output(workspace: Workspace, words: Sequence[str]) -> bytes:
             )
     except TimeoutError:
         raise BadArgumentError(f"no answer after {workspace.seconds:g} s") from None
+    except OSError as error:  # the arguments together may be longer than a command line
+        raise BadArgumentError(f"the command cannot be started: {error.strerror}") from None
     if done.returncode in (0, 1) or (done.returncode == _BROKEN and done.stdout):
         return done.stdout
     said = done.stderr.decode(errors="replace").strip().splitlines()
