@@ -63,7 +63,7 @@ def test_elements_and_comments_say_the_same(form: str) -> None:
         ('<topics><topic name="$(arg t)" class="pub"/></topics>', "$(arg t)", "substitutions are not evaluated"),
         ('<topics><topic name="a" class="out"/></topics>', "out", "allowed: pub, sub"),
         ('<topics><topic name="a"/></topics>', '<topic name="a"/>', "required attribute 'class'"),
-        ('<topics><topic name="a" type="String" class="pub"/></topics>', "String", "package/Name"),
+        ('<topics><topic name="a" type="std msgs/String" class="pub"/></topics>', "std msgs/String", "package/Name"),
         ('<topics><topic name="a" class="pub" qos="1"/></topics>', "1", "unknown attribute 'qos'"),
         ('<topics><service name="a" class="server"/></topics>', "service", "expected <topic>"),
     ],

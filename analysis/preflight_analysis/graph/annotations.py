@@ -51,7 +51,8 @@ GROUPS = tuple(ITEMS)
 
 _WRAPPER = "<_>"
 _STARTS_ANNOTATION = re.compile(rf"\s*<({'|'.join(GROUPS)})\b")
-_TYPE = re.compile(r"[A-Za-z]\w*/(?:(?:msg|srv|action)/)?[A-Za-z]\w*\Z|\*\Z")
+_TYPE = re.compile(r"(?:[A-Za-z]\w*/(?:(?:msg|srv|action)/)?)?[A-Za-z]\w*\Z|\*\Z")
+"""Without a package it is that of the known package that has it (`graph/bare_types.py`)."""
 
 
 @dataclass(frozen=True, slots=True)

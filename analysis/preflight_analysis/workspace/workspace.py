@@ -394,7 +394,8 @@ class Workspace:
             managed = with_spawned(of_source, analysis.documents)
             whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
         db.leave_if_cancelled()
-        graph = build_graph(managed, whole, project.external_topics, self.environment, analysis.documents, kept)
+        seen = self.environment_of(tree.file)
+        graph = build_graph(managed, whole, project.external_topics, seen, analysis.documents, kept, self.sources)
         document, problems = located_problems(project)
         own = self.own_knowledge
         context = replace(
