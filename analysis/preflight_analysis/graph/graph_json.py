@@ -54,7 +54,8 @@ def graph_json(graph: Graph) -> dict[str, Any]:
 def interface_json(
     interface: Interface, connections: Iterable[Connection], reads: Iterable[ParamRead]
 ) -> dict[str, Any]:
-    """One node: how it is known, how its run ended, and its ends under their final names."""
+    """One node: how it is known, how its run ended, and its ends under their final names. Those whose names are random
+    in each run are `unnamed`."""
     lists: dict[str, list[dict[str, Any]]] = {key: [] for key in _KEYS.values()}
     for connection in connections:
         endpoint = connection.endpoint
@@ -68,6 +69,7 @@ def interface_json(
         "outcome": interface.outcome.status,
         **{key: sorted(found, key=lambda end: (end["name"], str(end["type"]))) for key, found in lists.items()},
         "params_read": _params_read(reads),
+        **({"unnamed": [{"role": e.role, "type": e.type} for e in interface.unnamed]} if interface.unnamed else {}),
     }
 
 

@@ -104,7 +104,8 @@ def _values_of_node(node: LaunchNode) -> Mapping[str, Any]:
 def _lacks(interface: Interface) -> bool:
     outcome = interface.outcome
     ended_well = outcome.status == "exited" and outcome.exit_code == 0
-    return not (interface.complete or ended_well or interface.pending)
+    # Of what it makes under names of its own invention the source says no more.
+    return not (interface.complete or ended_well or interface.pending or interface.unnamed)
 
 
 def _is_placeless(interface: Interface, ros: Generation) -> bool:

@@ -302,6 +302,9 @@ class Interface:
     """Python modules that it imports and this machine does not have, sorted: others stood in for them."""
     elsewhere: Elsewhere | None = None
     """Where what is `similar` was seen."""
+    unnamed: tuple[Endpoint, ...] = ()
+    """What it was seen to make under names that it makes up in each run, at random: the name of each is that of one
+    run, and none of the others. They are not among the endpoints."""
     whole: bool = False
     """Whether its source, which it is known from, told all: each name is computed, each branch gone through."""
 
@@ -320,7 +323,8 @@ class Interface:
     def complete(self) -> bool:
         """Whether it is all that the node does: it was seen to spin, and not only after a made-up answer, or the user
         or the package's author declares it, in an annotation, the settings or NoDL."""
-        spins = self.known and self.outcome.status == "spinning" and not self.outcome.answers and not self.looks
+        seen_whole = not self.outcome.answers and not self.looks and not self.unnamed
+        spins = self.known and self.outcome.status == "spinning" and seen_whole
         return self.declared or spins
 
     @property
@@ -331,9 +335,9 @@ class Interface:
     @property
     def likely_complete(self) -> bool:
         """Whether nothing speaks for more ends than are known: it is complete, came to its event loop with the help of
-        made-up answers, or ended by itself without an error; and it did not ask who else is there."""
+        made-up answers, or ended by itself without an error; and it did not ask who else is there, nor make up names."""
         outcome = self.outcome
-        if self.looks and not self.declared:
+        if (self.looks or self.unnamed) and not self.declared:
             return False
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
         return self.known_in_full or (self.known and done)

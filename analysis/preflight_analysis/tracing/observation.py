@@ -36,6 +36,8 @@ class Observation:
     dependencies: Dependencies
     lasting: bool
     wrote: tuple[str, ...] = ()
+    drawn: tuple[str, ...] = ()
+    """What its own code drew at random."""
 
 
 def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
@@ -115,7 +117,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     )
     dependencies = Dependencies(tuple(found.files), tuple(param_dependencies), frozenset(asked), tuple(found.searched))
     lasting = not raw.killed and not raw.cancelled and not _was_held_up(outcome, found.end)
-    return Observation(interface, dependencies, lasting, tuple(found.wrote))
+    return Observation(interface, dependencies, lasting, tuple(found.wrote), tuple(found.drawn))
 
 
 def _was_held_up(outcome: Outcome, end: Mapping[str, Any] | None) -> bool:

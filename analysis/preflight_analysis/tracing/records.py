@@ -22,6 +22,7 @@ MAX_FRAMES = 500
 MAX_NODES = 100
 MAX_FILES = 10_000
 MAX_ANSWERS = 20
+MAX_DRAWN = 64
 MAX_STAND_INS = 200
 MAX_DEPTH = 20
 """Of a default value."""
@@ -98,6 +99,8 @@ class Gathered:
     """Modules that were missing and that the program itself did without."""
     searched: dict[str, None] = field(default_factory=dict)
     """Where they could turn up."""
+    drawn: list[str] = field(default_factory=list)
+    """What its own code drew at random, as text."""
     loading: bool = False
     """Whether it was asked to."""
     loaded: str | None = None
@@ -153,6 +156,11 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
             found.lacked.add(name)
         case "asked" if record.get("what") in ("name", "namespace", "remaps"):
             found.asked.add(str(record["what"]))
+        case "drew":
+            value = record.get("value")
+            if not isinstance(value, str) or len(found.drawn) >= MAX_DRAWN:
+                return False
+            found.drawn.append(_UNSAYABLE.sub("", value[:100]))
         case "files":
             _add_files(paths(record.get("paths")), found)
         case "wrote":

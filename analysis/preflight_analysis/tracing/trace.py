@@ -15,7 +15,17 @@ from dataclasses import replace
 from preflight_analysis.environment import catkin_python
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.tracing import compiled, interior, limits, nodelets, run, sandbox, stand_ins, x_server
+from preflight_analysis.tracing import (
+    compiled,
+    interior,
+    limits,
+    nodelets,
+    random_names,
+    run,
+    sandbox,
+    stand_ins,
+    x_server,
+)
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.file_lock import file_lock
@@ -108,6 +118,13 @@ class Tracer(KeptTraces):
         if screen is not None:
             raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents, screen)
         observed = observe(raw, recipe, request)
+        if random_names.may_make_up(observed) and not cancel.is_set():
+            changed = random_names.otherwise(recipe, observed)
+            again = observe(
+                run.execute(changed, request.params, shown, interpreter, cancel, agents, screen), changed, request
+            )
+            named = random_names.without_made_up(observed.interface, again.interface)
+            observed = replace(observed, interface=named, lasting=observed.lasting and again.lasting)
         if blind and screen is None:
             observed = replace(observed, lasting=False, interface=x_server.explained(observed.interface))
         observed = replace(observed, interface=limits.explained(observed, visible))

@@ -37,6 +37,7 @@ def _node(node: LaunchNode, interface: Interface) -> dict[str, Any]:
         },
         "endpoints": [_endpoint(endpoint) for endpoint in interface.endpoints],
         "params": [_param(use) for use in interface.params],
+        **({"unnamed": [_unnamed(endpoint) for endpoint in interface.unnamed]} if interface.unnamed else {}),
         "notes": list(interface.notes),
         **({"looks": True} if interface.looks else {}),
         **({"stand_ins": list(interface.stand_ins)} if interface.stand_ins else {}),
@@ -56,6 +57,11 @@ def _endpoint(endpoint: Endpoint) -> dict[str, Any]:
         **({"node": endpoint.node} if endpoint.node is not None else {}),
         **_made_at(endpoint),
     }
+
+
+def _unnamed(endpoint: Endpoint) -> dict[str, Any]:
+    """One whose name is random: the name is that of one run."""
+    return {"role": endpoint.role, "type": endpoint.type, "seen": endpoint.name, **_made_at(endpoint)}
 
 
 def _param(use: ParamUse) -> dict[str, Any]:

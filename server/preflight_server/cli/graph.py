@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from preflight_analysis.findings.report import printable
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.graph.model import Channel, Graph
+from preflight_analysis.tracing.interface import DOES
 from preflight_analysis.view.dot import dot
 from preflight_analysis.view.graph_page import graph_page
 from preflight_analysis.view.layout import lay_out
@@ -71,6 +72,8 @@ def _lines(graph: Graph) -> Iterator[str]:
     for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
         reason = f": {interface.outcome.reason}" if interface.outcome.reason else ""
         yield f"node {node.name}  {interface.source}, {interface.outcome.status}{reason}"
+        for each in interface.unnamed:
+            yield f"  {DOES[each.role]} an unresolved name, random in each run  {each.type or 'unknown type'}"
     for kind, channels in (("topic", graph.topics), ("service", graph.services), ("action", graph.actions)):
         yield from _channels(kind, channels)
 

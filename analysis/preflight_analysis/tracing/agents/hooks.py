@@ -11,7 +11,7 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any, Optional, Sequence
 
-from . import channel, genpy_weave
+from . import channel, genpy_weave, randomness
 from .variables import AGAIN, SOURCES, STAND_INS
 
 WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer", genpy_weave.NAME)
@@ -115,6 +115,8 @@ class _WeavingLoader(Loader):
                 from . import rclpy_weave  # noqa: PLC0415
 
                 rclpy_weave.weave(module, self._files.flush)
+            elif module.__name__ in randomness.MODULES:
+                randomness.weave(module)
             elif module.__name__ == genpy_weave.NAME:
                 genpy_weave.weave(module)
             else:
@@ -180,7 +182,8 @@ def install(library: str) -> None:
     files = Files()
     sys.addaudithook(files.hook)
     sys.meta_path.insert(0, genpy_weave.WithoutNumpy())
-    for name in (*WOVEN, *RCLPY):
+    randomness.install()
+    for name in (*WOVEN, *RCLPY, *(name for name in randomness.MODULES if name not in sys.modules)):
         sys.meta_path.insert(0, _Finder(name, library, files))
     atexit.register(files.flush)
     # Last of all: what is built or installed is found first.

@@ -35,6 +35,7 @@ EVENTS = frozenset(
         "wrote",
         "stood-in",
         "lacked",
+        "drew",
         "woven",
         "weave-failed",
     )

@@ -19,5 +19,7 @@ SOURCES = "PREFLIGHT_SOURCES"
 STAND_INS = "PREFLIGHT_STAND_INS"
 """The environment variable with a file by which what a node imports and is not there has stand-ins: a JSON object with
 the `generation` of ROS and the `packages` that are known, name to folder."""
+DRAWN = "PREFLIGHT_DRAWN"
+"""The environment variable with what a run before this one drew at random, a JSON list: see `randomness`."""
 AGAIN = "PREFLIGHT_AGAIN"
 """The environment variable of a program that was started again in its own place, for rclpy's stand-in."""
