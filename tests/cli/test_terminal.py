@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import logging
 import re
+import sys
 from pathlib import Path
 
 import pytest
 from preflight_server.cli.main import main
+from preflight_server.cli.output import LogFormatter
 
 CLIPBOARD = "\x1b]52;c;b3duZWQ=\x07"
 C1 = "\x9b31m"
 REVERSED = "\u202e"
+COMMAND = "\n::error file=x::y\n  ::error::##[error]z"
 HOSTILE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
@@ -23,7 +27,8 @@ def workspace(tmp_path: Path) -> Path:
         '<package format="3"><name>pkg</name><export><build_type>ament_cmake</build_type></export></package>'
     )
     odd = "".join(
-        f"\\x{ord(char):02x}" if ord(char) < 256 else f"\\u{ord(char):04x}" for char in CLIPBOARD + C1 + REVERSED
+        f"\\x{ord(char):02x}" if ord(char) < 256 else f"\\u{ord(char):04x}"
+        for char in CLIPBOARD + C1 + REVERSED + COMMAND
     )
     (package / "a.launch.yaml").write_text(
         f"""launch:
@@ -52,6 +57,9 @@ CALLS = [
     *(["tree", "FILE", "--format", form] for form in ("text", "json", "html")),
     *(["graph", "FILE", "--format", form] for form in ("text", "json", "dot", "mermaid", "svg", "html")),
     ["trace", "FILE"],
+    ["frames", "FILE"],
+    ["where", "FILE", "p"],
+    ["why", "FILE", "n"],
     ["snapshot", "FILE"],
     ["diff", "FILE", "ODD"],
     ["diff", "FILE", "nothing" + CLIPBOARD + ":x"],
@@ -85,6 +93,11 @@ def test_no_control_characters(
     painted = r"\x1b\[[0-9;]*m|\x1b\]8;;(?:file://[!-~]*)?\x1b\\"
     out = re.sub(painted, "", done.out) if colour else done.out
     assert HOSTILE.findall(out + done.err) == []
+    # GitHub's runner takes off space before it looks for commands.
+    ours = "::" if "github" in call else None
+    lines = (out + done.err).splitlines()
+    assert [line for line in lines if line.lstrip().startswith("::") and not line.startswith(ours or "\0")] == []
+    assert [line for line in lines if "##[" in line and not line.startswith(ours or "\0")] == []
 
 
 def test_what_is_hidden_can_be_seen(
@@ -93,3 +106,15 @@ def test_what_is_hidden_can_be_seen(
     monkeypatch.chdir(workspace)
     assert main(["check", "missing" + CLIPBOARD]) == 2
     assert "missing␛]52;c;b3duZWQ=␇ does not exist" in capsys.readouterr().err
+
+
+def test_a_log_line_is_no_command() -> None:
+    try:
+        raise ValueError("a\n::error file=x::y")
+    except ValueError:
+        said = ("b\n::error::##[error]z",)
+        record = logging.LogRecord("x", logging.ERROR, "f", 1, "broke on %s", said, sys.exc_info())
+    lines = LogFormatter("%(message)s").format(record).splitlines()
+    assert lines[0] == "broke on b"
+    assert [line for line in lines if line.lstrip().startswith("::") or "##[" in line] == []
+    assert lines[-1] == "| ::error file=x::y"

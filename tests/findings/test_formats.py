@@ -156,8 +156,8 @@ def test_github_has_an_annotation_for_each_finding_the_worst_first() -> None:
     assert [line.split(" ")[0] for line in lines] == ["::error", "::error", "::warning", "::notice", "::notice"]
     assert lines[2] == (
         "::warning file=a b.launch,line=2,endLine=2,col=29,endColumn=35,title=TOP001 subscribed-not-published (likely)"
-        "::nobody publishes\N{REPLACEMENT CHARACTER} '/chater', 100%25"
-        "%0A/opt/other, 100%25.launch:1:12: /talker publishes,\N{REPLACEMENT CHARACTER}/chatter"
+        "::nobody publishes␇ '/chater', 100%25"
+        "%0A/opt/other, 100%25.launch:1:12: /talker publishes,␊/chatter"
         "%0Afix: Replace it%0Afix: In words"
     )
     assert "file=/opt/other%2C 100%25.launch," in lines[0]

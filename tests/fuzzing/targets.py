@@ -42,6 +42,7 @@ from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.findings.baseline import read_baseline
 from preflight_analysis.findings.github import to_github
 from preflight_analysis.findings.junit import to_junit
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, to_json, to_text
 from preflight_analysis.findings.sarif import to_sarif
 from preflight_analysis.graph.graph_json import graph_json
@@ -91,7 +92,7 @@ from preflight_analysis.workspace.project_settings import located_problems, read
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
-from preflight_server.cli.output import dumps_json, visible
+from preflight_server.cli.output import dumps_json
 from support.logged_errors import LoggedErrors
 from support.open_buffers import disk_with
 from support.scripted_master import master
@@ -208,7 +209,7 @@ def check_printable(text: str) -> None:
     """Neither a terminal nor UTF-8 stumbles over it."""
     if found := _UNSEEN.search(text):
         raise Wrong(f"{found[0]!r} would be printed: {text[max(0, found.start() - 60) : found.end() + 20]!r}")
-    visible(text).encode()
+    printable(text).encode()
 
 
 def check_json(data: Mapping[str, Any]) -> None:
@@ -431,7 +432,7 @@ def decoding(data: bytes) -> None:
     """The bytes of a file of any encoding."""
     found = _decode("/x.launch", data)
     if isinstance(found, Unreadable):
-        check_printable(visible(found.reason))
+        check_printable(printable(found.reason))
     else:
         found.text.encode("utf-8", "surrogatepass")
 
@@ -521,7 +522,7 @@ def settings(data: bytes) -> None:
     found = read_project_settings(str(folder))
     document, problems = located_problems(found)
     for message, location in problems:
-        visible(message).encode("utf-8", "surrogatepass")
+        printable(message).encode("utf-8", "surrogatepass")
         check_spans(location.span, document.text if document else "")
 
 
@@ -607,7 +608,7 @@ def master_answers(data: bytes) -> None:
         try:
             found = observer.observe(2.0)
         except CannotObserveError as error:
-            visible(str(error)).encode("utf-8", "surrogatepass")
+            printable(str(error)).encode("utf-8", "surrogatepass")
             return
         finally:
             observer.close()
@@ -648,12 +649,12 @@ def snapshots(data: bytes) -> None:
     try:
         found = from_yaml(text)
     except NotASnapshotError as error:
-        visible(str(error)).encode("utf-8", "surrogatepass")
+        printable(str(error)).encode("utf-8", "surrogatepass")
         return
     for other in (found, _empty()):
         between = difference(other, found)
         check_json(snapshot_report.to_json(between))
-        visible(snapshot_report.to_text(between, "a", "b"))
+        printable(snapshot_report.to_text(between, "a", "b"))
         snapshot_report.to_markdown(between, "a", "b")
     from_yaml(to_yaml(found))
 

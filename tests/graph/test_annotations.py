@@ -7,6 +7,7 @@ import pytest
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.evaluation.tree import Tag
 from preflight_analysis.findings.finding import Edit
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.annotations import (
     annotated,
     annotation_edit,
@@ -202,5 +203,4 @@ def test_no_name_breaks_the_comment(name: str) -> None:
     comment = annotation_text(interface)
     ET.fromstring(f"<launch>{comment}</launch>")
     inside = ET.fromstring(f"<launch>{comment.removeprefix('<!--').removesuffix('-->')}</launch>")
-    shown = "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)
-    assert [topic.get("name") for topic in inside.iter("topic")] == [shown]
+    assert [topic.get("name") for topic in inside.iter("topic")] == [printable(name)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from typing import Any
 
 import pytest
 from preflight_analysis.tracing import run as runs
@@ -93,33 +94,37 @@ def test_in_ros_2(tmp_path: Path) -> None:
 def test_the_cache_remembers_it(tmp_path: Path) -> None:
     script = write_node(tmp_path, NODE.format(imports="import random", value="random.randint(0, 1)"))
     cache = TraceCache(tmp_path / "cache")
-    first, second = (
-        Tracer(without_rospy(tmp_path), cache).trace(request(script), threading.Event()) for _ in range(2)
-    )
+    first, second = (Tracer(without_rospy(tmp_path), cache).trace(request(script), threading.Event()) for _ in range(2))
     assert (first.cached, second.cached) == (False, True)
     assert second.unnamed == first.unnamed != ()
 
 
 @pytest.mark.ros
-def test_only_a_node_that_draws_runs_twice(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("extra", "wanted"), [("", 1), ("import random; random.random()", 2), ("import time; time.time()", 1)]
+)
+def test_only_a_node_that_draws_runs_twice(
+    tmp_path: Path, extra: str, wanted: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     body = """
         import rospy
         from std_msgs.msg import String
-        open('/tmp/count', 'a').write('x')
         {}
         rospy.init_node('n', anonymous=True)
         rospy.Publisher('a', String, queue_size=1)
         rospy.spin()
     """
-    cases = [("", 1), ("import random; random.random()", 2), ("import time; time.time()", 1)]
-    for extra, wanted in cases:
-        script = write_node(tmp_path, body.format(extra))
-        started: list[object] = []
-        execute = runs.execute
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(runs, "execute", lambda *args, **more: (started.append(args), execute(*args, **more))[1])
-            Tracer(without_rospy(tmp_path), None).trace(request(script), threading.Event())
-        assert len(started) == wanted, extra
+    script = write_node(tmp_path, body.format(extra))
+    started: list[object] = []
+    execute = runs.execute
+
+    def counted(*args: Any) -> runs.RawRun:
+        started.append(args)
+        return execute(*args)
+
+    monkeypatch.setattr(runs, "execute", counted)
+    Tracer(without_rospy(tmp_path), None).trace(request(script), threading.Event())
+    assert len(started) == wanted
 
 
 def test_nothing_follows_from_a_run_that_ended_otherwise() -> None:

@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from preflight_analysis.findings.fingerprint import fingerprints
-from preflight_analysis.findings.report import Report, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import Report, relative
 
 BASELINE_SCHEMA = "ros-preflight/baseline/1"
 

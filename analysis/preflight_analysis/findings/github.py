@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
-from preflight_analysis.findings.report import Report, closing, failure_lines, place, positions, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import Report, closing, failure_lines, place, positions, relative
 
 _COMMANDS: Mapping[Severity, str] = {"error": "error", "warning": "warning", "info": "notice", "hint": "notice"}
 

@@ -7,7 +7,8 @@ from typing import Any
 
 from preflight_analysis.findings.finding import Severity
 from preflight_analysis.findings.fingerprint import fingerprints
-from preflight_analysis.findings.report import Report, by_cause, place, positions, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import Report, by_cause, place, positions, relative
 
 _SEVERITIES: Mapping[Severity, str] = {"error": "critical", "warning": "major", "info": "minor", "hint": "info"}
 

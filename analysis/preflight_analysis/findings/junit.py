@@ -6,7 +6,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection, Sequence
 
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.findings.report import Report, closing, finding_lines, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import Report, closing, finding_lines, relative
 
 
 def to_junit(report: Report, failing: Collection[Finding], checked: Sequence[str], base: str) -> str:

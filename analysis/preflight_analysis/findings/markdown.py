@@ -9,14 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from preflight_analysis.findings.printable import printable
+
 _SHOWN = re.compile(
     r"^(?P<ticks>`{3,})\w*\n(?P<block>.*?)\n(?P=ticks)$"
     r"|(?P<fence>`+)(?!`)(?P<code>.+?)(?<!`)(?P=fence)(?!`)"
     r"|\[(?P<label>(?:[^\]\\]|\\.)*)\]\([^)]*\)|\*\*|\\(?P<char>[!-/:-@\[-`{-~])",
     re.DOTALL | re.MULTILINE,
 )
-_TURNS = re.compile("[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
-"""What changes the direction of the text around it, also outside of a code span (UAX #9)."""
 _RUNS = re.compile("`+")
 _MARKS = re.compile(r"[\\`*_\[\]<>&~|]|^[-+=#]")
 _NUMBERED = re.compile(r"^(\d{1,9})(?=[.)])")
@@ -25,7 +25,7 @@ _NUMBERED = re.compile(r"^(\d{1,9})(?=[.)])")
 
 def code(text: object) -> str:
     """A code span that shows the text as it is, in one line."""
-    shown = _seen(" ".join(str(text).splitlines())) or " "
+    shown = printable(" ".join(str(text).splitlines()), lines=True) or " "
     fence = "`" * _beyond(shown, 1)
     # One space on either side goes where both are there: needed where the text itself begins or ends with a fence.
     space = " " if shown.startswith("`") or shown.endswith("`") or (shown[0] == shown[-1] == " " != shown) else ""
@@ -34,23 +34,19 @@ def code(text: object) -> str:
 
 def block(lines: Iterable[str], language: str = "text") -> str:
     """A fenced block of lines."""
-    shown = _seen("\n".join(lines))
+    shown = printable("\n".join(lines), lines=True)
     fence = "`" * _beyond(shown, 3)
     return f"{fence}{language}\n{shown}\n{fence}"
 
 
 def escaped(text: str) -> str:
     """Text that is shown as it is: no marks, links, pictures or HTML."""
-    return _NUMBERED.sub(r"\1\\", _MARKS.sub(r"\\\g<0>", _seen(" ".join(text.split()))))
+    return _NUMBERED.sub(r"\1\\", _MARKS.sub(r"\\\g<0>", printable(" ".join(text.split()))))
 
 
 def plain(markdown: str) -> str:
     """What is read where Markdown is not shown: the same words without marks, links as their labels."""
     return _SHOWN.sub(_said, markdown)
-
-
-def _seen(text: str) -> str:
-    return _TURNS.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
 def _said(found: re.Match[str]) -> str:

@@ -19,6 +19,7 @@ from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.failure import Failure, failures_json
 from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Missing, commands, in_words, missing
+from preflight_analysis.findings.printable import printable
 
 CHECK_SCHEMA = "ros-preflight/check/1"
 _COLOURS: Mapping[Severity, str] = {"error": "31", "warning": "33", "info": "34", "hint": "36"}
@@ -409,13 +410,6 @@ def failure_lines(failures: Sequence[Failure], base: str | None = None) -> list[
         more = f" and {len(others)} more" if others else ""
         lines.append(printable(first.message(f"{relative(first.file, base)}{more}")))
     return lines
-
-
-def printable(text: str) -> str:
-    """Without control characters: a file's text must not drive the terminal on which it is printed."""
-    if text.isprintable():
-        return text
-    return "".join(char if char.isprintable() or char == " " else "\N{REPLACEMENT CHARACTER}" for char in text)
 
 
 def summary(report: Report) -> str:

@@ -27,6 +27,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Edit
 from preflight_analysis.findings.insertion import insert_child, insert_comment_above
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.launch.model import Action
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
@@ -352,5 +353,4 @@ def _one_of(words: Sequence[str]) -> str:
 def _quoted(value: str) -> str:
     # A comment of XML must not hold two hyphens in a row; a line break or another control character would end what
     # begins with a hash, or be no XML at all. No legal name or type has any of them, but a node may send what it likes.
-    shown = "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in value)
-    return quoted_attribute(shown, {'"': "&quot;", "--": "-&#45;"})
+    return quoted_attribute(printable(value), {'"': "&quot;", "--": "-&#45;"})

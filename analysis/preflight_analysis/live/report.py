@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from preflight_analysis.documents.span import Place
-from preflight_analysis.findings.report import printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import relative
 from preflight_analysis.live.model import Comparison, Issue
 from preflight_analysis.live.watcher import Attached, Event, State, Waiting
 from preflight_analysis.tracing.interface import DOES

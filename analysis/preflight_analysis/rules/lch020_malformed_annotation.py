@@ -32,9 +32,7 @@ def _bare_types(rule: Rule, node: LaunchNode, context: Context) -> Iterator[Find
             what = item.what
             if not isinstance(what, Endpoint) or what.type is None or not is_bare(what.type):
                 continue
-            full = full_types(
-                context.disk, context.environment, context.tree.generation, KINDS[what.role], what.type
-            )
+            full = full_types(context.disk, context.environment, context.tree.generation, KINDS[what.role], what.type)
             place = context.location(node.location.file, item.values["type"])
             yield rule.finding(
                 f"type '{what.type}' has no package; {_meant(full)}",

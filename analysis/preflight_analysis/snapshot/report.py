@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from preflight_analysis.findings.markdown import code, escaped
-from preflight_analysis.findings.report import printable
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.snapshot.difference import Change, Difference
 from preflight_analysis.snapshot.model import GROUPS, Snapshot
 

@@ -335,7 +335,8 @@ class Interface:
     @property
     def likely_complete(self) -> bool:
         """Whether nothing speaks for more ends than are known: it is complete, came to its event loop with the help of
-        made-up answers, or ended by itself without an error; and it did not ask who else is there, nor make up names."""
+        made-up answers, or ended by itself without an error; and it neither asked who else is there nor made up names.
+        """
         outcome = self.outcome
         if (self.looks or self.unnamed) and not self.declared:
             return False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Severity
-from preflight_analysis.findings.report import printable
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.view.model import TOWARDS_CHANNEL, GraphView, Kind
 
 _SHAPES: dict[Kind, str] = {"topic": "ellipse", "service": "diamond", "action": "cds"}

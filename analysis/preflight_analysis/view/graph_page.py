@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-from preflight_analysis.findings.report import printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import relative
 from preflight_analysis.view.layout import lay_out
 from preflight_analysis.view.model import GraphView
 from preflight_analysis.view.page_parts import part, policy, script, template

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 
-from preflight_analysis.findings.report import printable
+from preflight_analysis.findings.printable import printable
 
 MAX_COLUMNS = 38
 """A longer name is cut in the middle; its end is what tells names apart."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from preflight_analysis.findings.report import printable
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.view.model import TOWARDS_CHANNEL, GraphView, Kind
 
 _SHAPES: dict[Kind, tuple[str, str]] = {"topic": ("([", "])"), "service": ("{{", "}}"), "action": ("[/", "/]")}

@@ -7,7 +7,8 @@ from math import hypot
 from xml.sax.saxutils import escape, quoteattr
 
 from preflight_analysis.findings.finding import Severity
-from preflight_analysis.findings.report import printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import relative
 from preflight_analysis.view.labels import columns, label
 from preflight_analysis.view.layout import (
     MARGIN,

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping
 from html import escape
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.findings.report import place, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import place, relative
 from preflight_analysis.queries.node_tree import Item, NodeTree
 from preflight_analysis.view.page_parts import part, policy, script, template
 from preflight_analysis.view.svg import COLOURS

@@ -21,7 +21,8 @@ from preflight_analysis.findings.contexts import RootFindings, causes_first
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding
-from preflight_analysis.findings.report import Report, printable, relative, to_json, to_text
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import Report, relative, to_json, to_text
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
@@ -278,7 +279,7 @@ def _print(
         case "github":
             from preflight_analysis.findings.github import to_github  # noqa: PLC0415, likewise
 
-            print_text(to_github(report, base))
+            print_text(to_github(report, base), commands=True)
         case "gitlab":
             from preflight_analysis.findings.gitlab import to_gitlab  # noqa: PLC0415, likewise
 

@@ -11,7 +11,8 @@ from typing import Any
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.fingerprint import fingerprints
-from preflight_analysis.findings.report import Report, finding_lines, place, printable, to_json
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import Report, finding_lines, place, to_json
 from preflight_analysis.rules.registry import all_rules
 
 from preflight_server.cli import options

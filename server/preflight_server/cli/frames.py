@@ -7,7 +7,8 @@ import os
 from collections.abc import Iterator
 
 from preflight_analysis.environment.detect import workspace_of
-from preflight_analysis.findings.report import place, printable
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import place
 from preflight_analysis.frames.forest import branches, forest
 from preflight_analysis.frames.model import Frames
 from preflight_analysis.queries.frames_json import frames_json

@@ -6,7 +6,7 @@ import argparse
 import os
 from collections.abc import Callable, Iterator, Mapping
 
-from preflight_analysis.findings.report import printable
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.graph_json import graph_json
 from preflight_analysis.graph.model import Channel, Graph
 from preflight_analysis.tracing.interface import DOES

@@ -12,30 +12,20 @@ from typing import Any
 
 from preflight_analysis.documents.json_text import dumps
 from preflight_analysis.findings.failure import Failure
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import failure_lines
 
-_CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
-"""All but line break and tab, and what changes the direction of the text around it."""
-_PICTURES = 0x2400
-"""U+2400 and the 32 after it show the control characters of ASCII."""
+_ESCAPED = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]|#(?=#\\[)")
+"""What is escaped in JSON: it would drive a terminal, or be a command of GitHub's runner."""
+_COMMAND = re.compile(r"^(\s*:)(?=:)|(#)(?=#\[)", re.MULTILINE)
+"""What GitHub's runner takes for a command, in whatever a step prints: `::error file=...` at the start of a line,
+`##[error]` anywhere (https://github.com/actions/runner, ActionCommand.cs)."""
 _PAINT = re.compile(r"(\x1b\[[0-9;]*[mJH]|\x1b\]8;;(?:file://[!-~]*)?\x1b\\)")
 """Colours, an empty screen, and links to files (OSC 8)."""
 
 
-def visible(text: str) -> str:
-    """The text with control characters as characters that can be seen: ESC as ␛."""
-    return _CONTROL.sub(_picture, text)
-
-
-def _picture(found: re.Match[str]) -> str:
-    code = ord(found[0])
-    return (
-        chr(_PICTURES + code)
-        if code < 0x20
-        else "\N{SYMBOL FOR DELETE}"
-        if code == 0x7F
-        else "\N{REPLACEMENT CHARACTER}"
-    )
+def _no_command(text: str) -> str:
+    return _COMMAND.sub(lambda found: f"{found[0]} ", text)
 
 
 def print_json(data: Mapping[str, Any] | list[dict[str, Any]], *, indent: int | None = 2) -> None:
@@ -45,14 +35,15 @@ def print_json(data: Mapping[str, Any] | list[dict[str, Any]], *, indent: int | 
 
 def dumps_json(data: Mapping[str, Any] | list[dict[str, Any]], *, indent: int | None = 2) -> str:
     """A JSON document with sorted keys, and a newline. What would drive a terminal is escaped as JSON has it."""
-    return _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", dumps(data, indent=indent)) + "\n"
+    return _ESCAPED.sub(lambda found: f"\\u{ord(found[0]):04x}", dumps(data, indent=indent)) + "\n"
 
 
-def print_text(text: str, *, painted: bool = False) -> None:
+def print_text(text: str, *, painted: bool = False, commands: bool = False) -> None:
     """Text for reading, whatever the terminal's encoding can show of it. `painted`: what paints it is meant to be
-    there."""
+    there; `commands`: so are commands of GitHub's runner."""
     parts = _PAINT.split(text) if painted else [text]
-    text = "".join(part if index % 2 else visible(part) for index, part in enumerate(parts))
+    text = "".join(part if index % 2 else printable(part, lines=True) for index, part in enumerate(parts))
+    text = text if commands else _no_command(text)
     stream = sys.stdout
     try:
         stream.write(text)
@@ -73,8 +64,8 @@ def links() -> str | None:
 
 
 def say(text: str) -> None:
-    """A line on standard error."""
-    print(visible(text), file=sys.stderr)
+    """One line on standard error, whatever the text has of line breaks."""
+    print(_no_command(printable(text)), file=sys.stderr)
 
 
 def say_failures(failures: Sequence[Failure]) -> None:
@@ -87,5 +78,6 @@ class LogFormatter(logging.Formatter):
     """What is logged, as lines on standard error."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """One record."""
-        return visible(super().format(record))
+        """One record. The lines of a traceback are marked: none of them begins with what an exception says."""
+        first, *more = printable(super().format(record), lines=True).splitlines() or [""]
+        return _no_command("\n".join([first, *(f"| {line}" for line in more)]))

@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from preflight_server.cli.output import visible
+from preflight_analysis.findings.printable import printable
 
 _BAR = 20
 
@@ -57,5 +57,5 @@ class Progress:
             columns = os.get_terminal_size(sys.stderr.fileno()).columns or 80
         except OSError:
             columns = 80
-        sys.stderr.write(f"\r\x1b[K{visible(line)[: columns - 1]}")
+        sys.stderr.write(f"\r\x1b[K{printable(line)[: columns - 1]}")
         sys.stderr.flush()

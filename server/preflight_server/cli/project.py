@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.findings.report import place, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import place, relative
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.kept_traces import KeptTraces

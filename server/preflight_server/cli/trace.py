@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.report import printable
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.trace_json import trace_json
 

@@ -11,7 +11,8 @@ from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchTree, Param
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.findings.report import place, printable
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import place
 from preflight_analysis.queries.node_tree import node_tree
 from preflight_analysis.view.tree_page import tree_page
 from preflight_analysis.workspace.tree_json import tree_json

@@ -10,7 +10,8 @@ from typing import Any
 from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import CommandValue, Param, ParamValue
-from preflight_analysis.findings.report import place, printable, relative
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import place, relative
 from preflight_analysis.queries.param_texts import type_text
 from preflight_analysis.queries.parameters import NoSuchParameterError, Parameter, parameters, section
 from preflight_analysis.tracing.interface import ParamUse

@@ -10,7 +10,8 @@ from typing import Any
 from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.evaluation.inversion import Assignment
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.findings.report import place, printable
+from preflight_analysis.findings.printable import printable
+from preflight_analysis.findings.report import place
 from preflight_analysis.live.model import CannotObserveError, Observation
 from preflight_analysis.live.settled import settled
 from preflight_analysis.live.watcher import observer

@@ -189,7 +189,7 @@ def serve() -> int:
         try:
             server.start_io(cast("BinaryIO", Frames(sys.stdin.buffer, server.refuse_frame)), out)
         except BadFrameError as error:
-            _log.error("the language server ends: %s", error)  # noqa: TRY400 - it is the client's error
+            _log.error("the language server ends: %s", error)
             return FAILED
         finally:
             if server.folders is not None:

@@ -8,6 +8,7 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
+from preflight_analysis.findings.printable import printable
 from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest
 from pygls.protocol import LanguageServerProtocol
 from pygls.protocol.language_server import lsp_method
@@ -61,6 +62,23 @@ def pulls_diagnostics(capabilities: types.ClientCapabilities) -> bool:
     return bool(document and document.diagnostic and refresh and refresh.refresh_support)
 
 
+_IN_ONE_LINE = frozenset({"title", "label", "detail", "name", "description"})
+_IN_LINES = frozenset({"message", "documentation", "contents", "value", "tooltip"})
+"""The keys of texts that a client shows. Others are edits, texts, URIs and what comes back with a request."""
+
+
+def _shown(data: Any, key: str = "") -> Any:
+    if isinstance(data, str):
+        if key in _IN_ONE_LINE or key in _IN_LINES:
+            return printable(data, lines=key in _IN_LINES)
+        return data
+    if isinstance(data, dict):
+        return {name: _shown(value, name) for name, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_shown(each, key) for each in data]
+    return data
+
+
 class _Futures(dict[Any, Future[Any]]):
     """Those of messages that are being handled. pygls goes through them at `shutdown`, while they end one by one."""
 
@@ -93,6 +111,10 @@ class PreflightProtocol(LanguageServerProtocol):
             if "method" in data and data.get("id") is not None:
                 self.refuse_message(data["id"], error)
             raise
+
+    def _serialize_message(self, data: Any) -> Any:
+        """A message as plain data; what the client shows of it is harmless, wherever it comes from."""
+        return _shown(super()._serialize_message(data))
 
     def refuse_message(self, msg_id: MsgId | None, error: JsonRpcException) -> None:
         """Answer a message that cannot be handled; None for one whose id is not known."""

@@ -9,6 +9,7 @@ from itertools import islice
 from typing import Any
 
 from preflight_analysis.findings.failure import Failure
+from preflight_analysis.findings.printable import printable
 
 Document = Mapping[str, Any]
 MOST_BYTES = 200_000
@@ -46,7 +47,7 @@ def summary(verb: str, document: Document) -> str:
         lines[_LINES] = "..."
     if cut := document.get("cut"):
         lines.append("The result is cut: " + ", ".join(f"{count} {key}" for key, count in cut.items()) + " in all.")
-    return "\n".join(lines)[:_MOST_TEXT]
+    return printable("\n".join(lines), lines=True)[:_MOST_TEXT]
 
 
 def _check(document: Document) -> Iterator[str]:

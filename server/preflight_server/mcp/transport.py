@@ -1,4 +1,4 @@
-"""Messages on standard input and output, one a line: what is no message is answered as JSON-RPC 2.0 has it (section 5.1).
+"""Messages on standard input and output, one a line: what is no message is answered as JSON-RPC 2.0 has it (5.1).
 
 The SDK's own transport drops a line that it cannot parse, and its client waits for ever.
 """
@@ -8,8 +8,8 @@ from __future__ import annotations
 import json
 import logging
 import os
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from typing import Any, BinaryIO
 
 import anyio
@@ -31,9 +31,7 @@ class NoMessageError(Exception):
 
     def __init__(self, code: int, why: str, message_id: int | str | None = None) -> None:
         super().__init__(why)
-        self.answer = types.JSONRPCError(
-            jsonrpc="2.0", id=message_id, error=types.ErrorData(code=code, message=why)
-        )
+        self.answer = types.JSONRPCError(jsonrpc="2.0", id=message_id, error=types.ErrorData(code=code, message=why))
 
 
 @asynccontextmanager
@@ -41,15 +39,21 @@ async def standard_streams() -> AsyncIterator[tuple[Received, Sent]]:
     """What the client sends, and where answers go, until it closes standard input. Standard input is empty then and
     standard output is standard error, so that neither a stray `print` nor a program that is started breaks the
     stream."""
-    with open(os.dup(0), "rb") as stdin, open(os.dup(1), "wb") as stdout, open(os.devnull, "rb") as nothing:
-        os.dup2(nothing.fileno(), 0)
-        os.dup2(2, 1)
+    with _taken() as (stdin, stdout):
         sender, received = anyio.create_memory_object_stream[SessionMessage | Exception]()
         sent, answers = anyio.create_memory_object_stream[SessionMessage]()
         async with anyio.create_task_group() as tasks:
             tasks.start_soon(_read, stdin, sender, sent.clone())
             tasks.start_soon(_write, answers, stdout)
             yield received, sent
+
+
+@contextmanager
+def _taken() -> Iterator[tuple[BinaryIO, BinaryIO]]:
+    with open(os.dup(0), "rb") as stdin, open(os.dup(1), "wb") as stdout, open(os.devnull, "rb") as nothing:
+        os.dup2(nothing.fileno(), 0)
+        os.dup2(2, 1)
+        yield stdin, stdout
 
 
 async def _read(stdin: BinaryIO, sender: MemoryObjectSendStream[SessionMessage | Exception], sent: Sent) -> None:

@@ -36,9 +36,8 @@ _LONGEST = 60
 _TRIES = 50
 _LATER = 100_007
 """Seconds by which the clock of a second run is ahead, and its process ids."""
-_NOT_OWN = tuple(
-    os.path.dirname(os.path.abspath(file)) + os.sep for file in (os.__file__, os.path.dirname(os.path.abspath(__file__)))
-)
+_OURS = os.path.dirname(os.path.abspath(__file__))
+_NOT_OWN = tuple(os.path.dirname(os.path.abspath(file)) + os.sep for file in (os.__file__, _OURS))
 """The standard library, and us with our stand-ins."""
 
 _drawn: list[str] = []
