@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+TOOLS := out/release-tools
 DEMO := fixtures/ros1/demo
 SIDE_BY_SIDE := --numprocesses=auto --dist=worksteal
 LINTERS := .ci/lint/node_modules
@@ -13,7 +14,7 @@ LUA = $(shell git ls-files '*.lua')
 PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -120,21 +121,28 @@ endurance: setup ## EDITS=100000 through the protocol of one server, and what it
 wheel: $(READY) ## dist/*.whl, with the libraries for nodes in C++ compiled for x86-64 and arm64
 	ROS_PREFLIGHT_PREBUILT=1 $(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist .
 
-release: setup ## all that a release consists of, in dist/, checked; DRY=1 before its tag: RELEASING.md
-	$(BIN)/python -m pip install --quiet --group release
-	$(BIN)/python packaging/release.py $(if $(DRY),--dry-run)
+$(TOOLS)/.ready: packaging/build-requirements.txt
+	$(PYTHON) -m venv --clear $(TOOLS)
+	$(TOOLS)/bin/python -m pip install --quiet --require-hashes --requirement packaging/build-requirements.txt
+	touch $@
+
+release: apt $(TOOLS)/.ready ## all that a release consists of, in dist/, checked; DRY=1 before its tag: RELEASING.md
+	$(TOOLS)/bin/python packaging/release.py $(if $(DRY),--dry-run)
+
+pin: ## actions and images of workflows and Dockerfile by digest, asked of GitHub and the registries
+	$(PYTHON) packaging/pin.py
 
 vsix test-editors lint format release: export PATH := $(CURDIR)/out/tools/node/bin:$(PATH)
 
-vsix: $(READY) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
+vsix: $(if $(BUILD),,$(READY)) ## the VS Code extension with the server's wheel in it, out/ros-preflight.vsix
 	tests/editors/install.sh node
 	rm -rf vscode-client/server
-	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir vscode-client/server .
+	$(or $(BUILD),$(BIN)/python) -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir vscode-client/server .
 	cd vscode-client/server && { cat ../server-requirements.txt; sha256sum ros_preflight-*.whl | \
 	  sed -E 's/^([0-9a-f]+)  ros_preflight-([^-]+)-.*/ros-preflight==\2 --hash=sha256:\1/'; } > requirements.txt
 	cd vscode-client && npm ci --ignore-scripts && npm run check && npm test && npm run package
 
-lock: $(READY) ## what the extension installs the server with, newest versions, pinned with hashes in vscode-client/server-requirements.txt
+lock: $(READY) ## what the extension installs the server with, and what builds a release, newest versions, pinned with hashes
 	$(BIN)/python -m pip install --quiet --group lock
 	$(BIN)/python .ci/lock.py
 

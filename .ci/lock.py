@@ -1,4 +1,5 @@
-"""Pins what the VS Code extension installs the server with: `make lock` writes vscode-client/server-requirements.txt.
+"""Pins what the VS Code extension installs the server with, and what builds a release: `make lock` writes
+vscode-client/server-requirements.txt and packaging/build-requirements.txt.
 
 Each file is named by its SHA-256, so that pip (`--require-hashes`) takes it and no other. Wheels for Linux alone: what
 is built from source runs code that no digest covers. The resolution is uv's, for all Python versions and processors at
@@ -24,8 +25,9 @@ LOCKED = ROOT / "vscode-client/server-requirements.txt"
 PYTHONS = ("3.10", "3.11", "3.12", "3.13", "3.14")
 PLATFORMS = ("x86_64-manylinux_2_31", "aarch64-manylinux_2_31")
 """glibc 2.31 is that of Ubuntu 20.04, ROS 1's last."""
+BUILD = ROOT / "packaging/build-requirements.txt"
 HEADER = """\
-# What the extension installs the server with, for pip's --require-hashes. `make lock` writes this file.
+# What {}, for pip's --require-hashes. `make lock` writes this file.
 # Above each requirement stand the wheels that its hashes are of, in that order.
 """
 
@@ -36,11 +38,11 @@ def uv(*arguments: str) -> None:
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
 
-def resolved(folder: Path) -> dict[str, Any]:
-    """What the server needs, for all Pythons and platforms, as a `pylock.toml` (PEP 751)."""
+def resolved(folder: Path, *what: str) -> dict[str, Any]:
+    """What is needed for that, for all Pythons and platforms, as a `pylock.toml` (PEP 751)."""
     lock = folder / "pylock.toml"
     how = ("--quiet", "--universal", "--python-version", PYTHONS[0], "--format", "pylock.toml")
-    uv("compile", *how, "--output-file", str(lock), str(ROOT / "pyproject.toml"))
+    uv("compile", *how, "--output-file", str(lock), *what)
     return tomllib.loads(lock.read_text(encoding="utf-8"))
 
 
@@ -64,12 +66,18 @@ def tried(requirements: Path, folder: Path) -> None:
 
 def main() -> None:
     """Resolve, try, write."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        made = folder / LOCKED.name
-        made.write_text(HEADER + "".join(map(requirement, resolved(folder)["packages"])), encoding="utf-8")
-        tried(made, folder)
-        LOCKED.write_bytes(made.read_bytes())
+    project = str(ROOT / "pyproject.toml")
+    for file, says, what in (
+        (LOCKED, "the extension installs the server with", (project,)),
+        (BUILD, "builds and uploads a release", ("--group", f"{project}:release")),
+    ):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            made = folder / file.name
+            packages = resolved(folder, *what)["packages"]
+            made.write_text(HEADER.format(says) + "".join(map(requirement, packages)), encoding="utf-8")
+            tried(made, folder)
+            file.write_bytes(made.read_bytes())
 
 
 if __name__ == "__main__":

@@ -30,6 +30,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import apply  # beside this file
+import pin
 from apply import Project
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,6 +85,7 @@ def check_ready(known: Project, date: str) -> None:
         *(["the address in packaging/project.toml is a placeholder"] if _PLACEHOLDER in known.repository else []),
         *([] if re.fullmatch(r"\d{4}-\d\d-\d\d", date) else [f"CHANGELOG.md has '{date}' instead of a date"]),
         *([] if f"v{known.version}" in tags else [f"the commit has no tag v{known.version}"]),
+        *(f"{each} is named by a tag: run `make pin`" for each in pin.all_by_tag()),
         *(["there are uncommitted changes"] if run("git", "status", "--porcelain") else []),
     ]
     if reasons:
@@ -100,7 +102,8 @@ def build(known: Project) -> None:
     run(*hatch, "-t", "sdist", SOURCE_DATE_EPOCH=epoch)
     for prebuilt in ("0", *(f"{MANYLINUX}_{machine}" for machine in MACHINES)):
         run(*hatch, "-t", "wheel", SOURCE_DATE_EPOCH=epoch, ROS_PREFLIGHT_PREBUILT=prebuilt)
-    run("make", "--no-print-directory", "vsix", SOURCE_DATE_EPOCH=epoch, ROS_PREFLIGHT_PREBUILT="1")
+    vsix = ("make", "--no-print-directory", "vsix", f"BUILD={sys.executable}")
+    run(*vsix, SOURCE_DATE_EPOCH=epoch, ROS_PREFLIGHT_PREBUILT="1")
     shutil.copyfile(ROOT / "out/ros-preflight.vsix", DIST / f"ros-preflight-{known.version}.vsix")
     sbom = DIST / f"ros-preflight-{known.version}.cdx.json"
     tool = Path(sys.executable).with_name("cyclonedx-py")
@@ -128,7 +131,9 @@ def inspect(known: Project) -> None:
     with tempfile.TemporaryDirectory() as folder:
         venv.create(folder, with_pip=True)
         python = Path(folder, "bin/python")
-        run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", pure)
+        install = (python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check")
+        run(*install, "--require-hashes", "--requirement", ROOT / "vscode-client/server-requirements.txt")
+        run(*install, "--no-deps", pure)
         said = run(Path(folder, "bin/ros-preflight"), "--version").strip()
         _require(said == f"ros-preflight {known.version}", f"the installed wheel says {said}")
         demo = ROOT / "fixtures/ros1/demo/launch/fixed.launch"

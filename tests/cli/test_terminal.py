@@ -15,6 +15,7 @@ CLIPBOARD = "\x1b]52;c;b3duZWQ=\x07"
 C1 = "\x9b31m"
 REVERSED = "\u202e"
 COMMAND = "\n::error file=x::y\n  ::error::##[error]z"
+ODD = CLIPBOARD + C1 + REVERSED + COMMAND
 HOSTILE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
@@ -26,10 +27,7 @@ def workspace(tmp_path: Path) -> Path:
     (package / "package.xml").write_text(
         '<package format="3"><name>pkg</name><export><build_type>ament_cmake</build_type></export></package>'
     )
-    odd = "".join(
-        f"\\x{ord(char):02x}" if ord(char) < 256 else f"\\u{ord(char):04x}"
-        for char in CLIPBOARD + C1 + REVERSED + COMMAND
-    )
+    odd = "".join(f"\\x{ord(char):02x}" if ord(char) < 256 else f"\\u{ord(char):04x}" for char in ODD)
     (package / "a.launch.yaml").write_text(
         f"""launch:
 - arg: {{name: "a{odd}", default: "{odd}"}}
