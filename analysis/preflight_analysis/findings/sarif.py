@@ -15,6 +15,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.fingerprint import fingerprints
+from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, by_cause, environment_lines, positions, relative
 from preflight_analysis.findings.rule_description import RuleDescription
 
@@ -63,7 +64,7 @@ def _notes(report: Report) -> list[dict[str, Any]]:
 def _failed(failure: Failure, base: str) -> dict[str, Any]:
     return {
         "level": "error",
-        "message": {"text": failure.message(relative(failure.file, base))},
+        "message": {"text": printable(failure.message(relative(failure.file, base)))},
         **({"associatedRule": {"id": failure.rule}} if failure.rule is not None else {}),
         "locations": [{"physicalLocation": {"artifactLocation": _artifact(failure.file, base)}}],
     }
@@ -89,10 +90,14 @@ def _result(
         "ruleId": finding.rule,
         "ruleIndex": rule_index,
         "level": _LEVELS[finding.severity],
-        "message": {"text": finding.message},
+        "message": {"text": printable(finding.message)},
         "locations": [{"physicalLocation": _physical(finding.location, documents, base)}],
         "relatedLocations": [
-            {"id": number, "message": {"text": r.message}, "physicalLocation": _physical(r.location, documents, base)}
+            {
+                "id": number,
+                "message": {"text": printable(r.message)},
+                "physicalLocation": _physical(r.location, documents, base),
+            }
             for number, r in enumerate(finding.related)
         ],
         "fixes": [_fix(fix, documents, base) for fix in finding.fixes if fix.edits],
@@ -112,7 +117,7 @@ def _fix(fix: Fix, documents: Mapping[str, Document], base: str) -> dict[str, An
         replacement = {"deletedRegion": _region(edit.location, documents), "insertedContent": {"text": edit.text}}
         changes.setdefault(edit.location.file, []).append(replacement)
     return {
-        "description": {"text": fix.title},
+        "description": {"text": printable(fix.title)},
         "artifactChanges": [
             {"artifactLocation": _artifact(file, base), "replacements": replacements}
             for file, replacements in changes.items()
