@@ -91,15 +91,15 @@ def test_a_comment_that_is_no_xml_is_a_problem_within_the_comment() -> None:
 def test_other_comments_are_left_alone() -> None:
     action = node_action('<launch><node pkg="p" type="t" name="n"><!-- <param name="a"/> see < b --></node></launch>')
     assert read_annotation(action) == (None, ())
-    assert annotated(NOT_RUN, action) is NOT_RUN
+    assert annotated("/n", NOT_RUN, action) is NOT_RUN
 
 
 def test_a_run_that_spun_beats_the_annotation_and_one_that_failed_is_completed() -> None:
     action = node_action(f'<launch><node pkg="p" type="t" name="n">{CONTENT}</node></launch>')
     spun = interface_from_json({"publishers": {"other": "x/Y"}})
-    assert annotated(spun, action) is spun
+    assert annotated("/n", spun, action) is spun
     crashed = interface_from_json({"status": "crashed", "exit_code": 1, "subscribers": {"chatter": "x/Seen"}})
-    both = annotated(crashed, action)
+    both = annotated("/n", crashed, action)
     assert both.source == "annotation"
     assert both.outcome == crashed.outcome
     assert both.complete

@@ -11,7 +11,7 @@ import pytest
 from preflight_analysis.catalogue import packages, renamed
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.nodl import catalogued
-from preflight_analysis.tracing.interface import ParamUse, Range
+from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse, Range
 from support import package_elsewhere
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
@@ -46,8 +46,8 @@ def catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 analysed = partial(package_elsewhere.analysed, distro="noetic")
 
 
-def graph_of(tmp_path: Path, text: str, name: str = "a.launch", **files: str) -> Graph:
-    graph = analysed(tmp_path, text, name, **files).graph
+def graph_of(tmp_path: Path, text: str, name: str = "a.launch", run: Interface = NOT_RUN, **files: str) -> Graph:
+    graph = analysed(tmp_path, text, name, run=run, **files).graph
     assert graph is not None
     return graph
 
@@ -74,6 +74,71 @@ def test_a_node_of_a_package_that_is_not_here(tmp_path: Path) -> None:
         ("~port", "get", True),
         ("frame", "has", False),
     ]
+
+
+_SEEN = (Endpoint("publisher", "/scan", "sensor_msgs/LaserScan"), Endpoint("publisher", "early", "std_msgs/Empty"))
+
+
+@pytest.mark.parametrize(
+    "outcome",
+    [
+        Outcome("crashed", 1, reason="it ended with exit code 1"),
+        Outcome("crashed", signal="SIGSEGV"),
+        Outcome("exited", 1),
+        Outcome("timed-out"),
+        Outcome("crashed", 1, lacks="the device /dev/ttyUSB0"),
+    ],
+)
+def test_a_run_that_ended_early_is_completed(tmp_path: Path, outcome: Outcome) -> None:
+    run = Interface("trace", outcome, _SEEN, (ParamUse("~rate", "get"),))
+    graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>', run=run)
+    (interface,) = graph.interfaces
+    assert (interface.source, interface.outcome) == ("catalogue", outcome)
+    assert [(e.name, e.inferred, e.catalogued[:13]) for e in interface.endpoints] == [
+        ("/scan", False, ""),
+        ("early", False, ""),
+        ("~reset", True, "the catalogue"),
+    ]
+    assert [(use.name, use.inferred) for use in interface.params] == [
+        ("~rate", False),
+        ("~port", True),
+        ("frame", True),
+    ]
+    assert not interface.likely_complete
+
+
+@pytest.mark.parametrize("outcome", [Outcome("spinning"), Outcome("exited", 0), Outcome("spinning", answers=("it",))])
+def test_a_run_to_the_event_loop_stands(tmp_path: Path, outcome: Outcome) -> None:
+    run = Interface("trace", outcome, _SEEN)
+    graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>', run=run)
+    assert graph.interfaces[0].endpoints == _SEEN
+
+
+def test_controllers_of_spawners_whose_type_is_not_known(tmp_path: Path) -> None:
+    (packages.INTERFACES / "jazzy" / "controller_manager.json").write_text(json.dumps(_CONTROLLER_MANAGER))
+    graph = graph_of(
+        tmp_path,
+        """
+        <launch>
+          <node pkg="controller_manager" exec="ros2_control_node" name="controller_manager"/>
+          <node pkg="controller_manager" exec="spawner" name="spawner" args="arm hand"/>
+        </launch>
+        """,
+        "a.launch.xml",
+    )
+    assert [(node.name, interface.known) for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True)][
+        :3
+    ] == [
+        ("/controller_manager", True),
+        ("/arm", False),
+        ("/hand", False),
+    ]
+
+
+_CONTROLLER_MANAGER = {
+    "source": ["makers/control", COMMIT, "2024-01-01"],
+    "executables": {"ros2_control_node": {"nodes": [["controller_manager", "", True]]}},
+}
 
 
 def test_nodelets_and_components(tmp_path: Path) -> None:
@@ -124,7 +189,8 @@ def test_controllers_have_nodes_beside_their_manager(tmp_path: Path, name: str) 
             """
         },
     )
-    assert [node.name for node in graph.tree.nodes] == ["/left/manager", "/left/base"]
+    assert [node.name for node in graph.tree.nodes] == ["/left/manager", "/left/base", "/left/own"]
+    assert [interface.known for interface in graph.interfaces] == [True, True, False]
     assert {"/cmd_vel", "/left/odom"} <= graph.topics.keys()
     (heard,) = graph.topics["/cmd_vel"].consumers
     assert (heard.node.name, heard.endpoint.uncertain, heard.endpoint.catalogued[:22]) == (

@@ -2,7 +2,7 @@
 
 import pytest
 from support.action_interfaces import client, server
-from support.check import apply, check
+from support.check import apply, check, findings_of
 
 
 @pytest.mark.silent
@@ -128,3 +128,37 @@ def test_the_actions_of_ros_2() -> None:
          "/spare": {"action_servers": {"lift": "m/action/Lift"}},
          "/far": {"action_clients": {"fly": "m/action/Fly"}}}
     """)
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "arm", ['{"source": "none", "status": "not-run"}', '{"source": "catalogue", "status": "not-run"}']
+)
+def test_an_action_below_the_name_of_a_node_of_which_nothing_is_known(arm: str) -> None:
+    """The catalogue knows that it is there, and none of its actions: its base class may offer them."""
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="fast_arm"/>
+          <node pkg="p" type="t" name="arm"/>
+          <node pkg="p" type="t" name="till"/>
+        </launch>
+        //- interfaces
+        {{"/fast_arm": {arm},
+         "/arm": {server("arm/follow_joint_trajectory", "m/FollowAction")},
+         "/till": {client("fast_arm/follow_joint_trajectory", "m/FollowAction")}}}
+    """)
+    assert "ACT001" not in [finding.rule for finding in found]
+
+
+def test_another_controller_is_named_but_not_put_in_its_place() -> None:
+    (finding,) = check(f"""
+        <launch>
+          <node pkg="p" type="t" name="arm"/>
+          <node pkg="p" type="t" name="till"><remap from="follow" to="fast_arm/follow_joint_trajectory"/></node>
+                                                                      ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT001] did you mean '/arm/follow_joint_trajectory'
+        </launch>
+        //- interfaces
+        {{"/arm": {server("arm/follow_joint_trajectory", "m/FollowAction")},
+         "/till": {client("follow", "m/FollowAction")}}}
+    """)
+    assert finding.fixes == ()

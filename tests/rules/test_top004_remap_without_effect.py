@@ -198,6 +198,7 @@ def test_a_remap_of_an_actions_name_has_an_effect() -> None:
         ("/image_rect/compressed", "", {}, "hint"),
         ("/base/cmd_vel", "/in1", {}, None),
         ("/base/cmd_vel", "", {"params": {"/": {"access": "list"}}}, None),
+        ("/base/cmd_vel", "", {"subscribers": {}, "services": {"reset": "std_srvs/Empty"}}, None),
     ],
 )
 def test_a_node_that_the_catalogue_has(source: str, args: str, more: dict[str, object], severity: str | None) -> None:

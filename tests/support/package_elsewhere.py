@@ -5,16 +5,24 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.interface import NOT_RUN
+from preflight_analysis.tracing.interface import NOT_RUN, Interface
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
 _MANIFEST = "<package><name>robot</name><exec_depend>scanner</exec_depend></package>"
 
 
-def analysed(folder: Path, text: str, name: str = "a.launch", distro: str | None = None, **files: str) -> Analysis:
+def analysed(
+    folder: Path,
+    text: str,
+    name: str = "a.launch",
+    distro: str | None = None,
+    run: Interface = NOT_RUN,
+    **files: str,
+) -> Analysis:
     """Write the package with a launch file, and `files` beside it, into a workspace below `folder`, and analyse that
-    without running anything. `distro`: what the environment names, None where it names none."""
+    without running anything. `distro`: what the environment names, None where it names none. `run`: what a run of each
+    node told."""
     package = folder / "ws" / "src" / "robot"
     for path, content in {"package.xml": _MANIFEST, name: text, **files}.items():
         (package / path).parent.mkdir(parents=True, exist_ok=True)
@@ -23,4 +31,4 @@ def analysed(folder: Path, text: str, name: str = "a.launch", distro: str | None
     environment = detect_environment(str(folder / "ws"), variables, root=str(folder / "nowhere"))
     workspace = Workspace(environment, Sources(), str(folder / "ws"))
     analysis = workspace.static(str(package / name))
-    return workspace.with_interfaces(analysis, [NOT_RUN] * len(analysis.tree.nodes), None)
+    return workspace.with_interfaces(analysis, [run] * len(analysis.tree.nodes), None)

@@ -13,7 +13,7 @@ import pytest
 from preflight_analysis.environment.model import Package, Packages
 from preflight_analysis.tracing.agents.stand_ins.finder import LIBRARIES
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import KINDS, Interface
 from preflight_analysis.tracing.trace import Tracer
 from support.ros2_harness import Ros2Harness, checked, node_of, ros2_prefix
 from support.stand_in_harness import bare_python, both_of_ros1, both_of_ros2, seen, without_rclpy, without_rospy
@@ -526,8 +526,8 @@ def test_a_node_that_is_made_by_a_missing_module_is_not_known(tmp_path: Path) ->
     graph = checked(harness.write("launch/a.launch.xml", tag), without_rclpy(harness), None).graph
     assert graph is not None
     talker, other = graph.processes
-    assert (talker.outcome.status, talker.known_in_full, talker.likely_complete) == ("spinning", False, False)
-    assert other.known_in_full
+    assert (talker.outcome.status, talker.tells_all(*KINDS), talker.likely_complete) == ("spinning", False, False)
+    assert other.tells_all(*KINDS)
 
 
 def test_python_packages_that_cmake_installs_are_imported(tmp_path: Path) -> None:
@@ -555,7 +555,7 @@ def test_python_packages_that_cmake_installs_are_imported(tmp_path: Path) -> Non
     assert graph is not None
     (node,) = graph.processes
     assert [use.name for use in node.params if not use.builtin] == ["~path"]
-    assert node.known_in_full
+    assert node.tells_all(*KINDS)
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def _only(disk: Disk | None, environment: Environment | None, generation: int, k
 
 
 def _process(node: LaunchNode, interface: Interface) -> Interface:
-    return annotated(interface, node.action)
+    return annotated(node.name, interface, node.action)
 
 
 @dataclass(frozen=True, slots=True)

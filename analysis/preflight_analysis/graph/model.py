@@ -11,7 +11,7 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.graph.domains import Domains
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse, Role
+from preflight_analysis.tracing.interface import ENDS, Endpoint, Interface, ParamUse, Role
 
 ChannelKind = Literal["topics", "services", "actions"]
 PROVIDERS: tuple[Role, ...] = ("publisher", "service", "action_server")
@@ -144,6 +144,24 @@ class Graph:
         return sum(
             each.source == "trace" and each.outcome.status in ("crashed", "timed-out") for each in self.interfaces
         )
+
+    @cached_property
+    def _unknown(self) -> Mapping[ChannelKind, frozenset[str]]:
+        """The full names of the nodes of which nothing is known of a kind."""
+        pairs = [*zip(self.tree.nodes, self.interfaces, strict=True)]
+        return {
+            kind: frozenset(node.name for node, each in pairs if node.kind != "process" and not each.speaks_of(kind))
+            for kind in ENDS
+        }
+
+    def is_of_unknown(self, kind: ChannelKind, name: str) -> bool:
+        """Whether a full name is below that of a node of which nothing is known of the kind, and so most likely its."""
+        unknown, above = self._unknown[kind], name.rpartition("/")[0]
+        while above and unknown:
+            if above in unknown:
+                return True
+            above = above.rpartition("/")[0]
+        return False
 
     @cached_property
     def complete(self) -> bool:

@@ -1,4 +1,5 @@
-"""What the catalogue says of nodes of which nothing else is known: their package is not here, or has no source.
+"""What the catalogue says of nodes of which nothing else is known to the end: their package is not here, or has no
+source, and no run came to the event loop.
 
 It has them as the analysis read their source at the commit that it names, with no parameter set: the version that runs
 on the robot may be another, and do what those that are given to it decide.
@@ -19,6 +20,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import place_of, within
+from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
@@ -61,20 +63,25 @@ class Catalogued:
 def from_catalogue(
     tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment, kept: Kept
 ) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last: of those that nothing is
-    known of, what the catalogue says. A package of the workspace is what it is there, whatever others of its name
-    do."""
-    if all(interface.known for interface in interfaces):
+    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last: to what a run did not tell, as
+    there was none or it ended early, is added what the catalogue says. A package of the workspace is what it is there,
+    whatever others of its name do."""
+    if not any(map(_lacks, interfaces)):
         return interfaces
     distro = distribution_of(tree.generation, environment.distro)
-    columns = tree.nodes_and_simulated, interfaces, _own_params(tree, kept)
+    columns = tree.nodes_and_simulated, interfaces, _own_params(tree, kept), _asked(tree)
     return kept.each_row(_filled_in, columns, environment, distro)
 
 
 def _filled_in(
-    node: LaunchNode, interface: Interface, given: Sequence[Param], environment: Environment, distro: str
+    node: LaunchNode,
+    interface: Interface,
+    given: Sequence[Param],
+    asked: tuple[str, ...],
+    environment: Environment,
+    distro: str,
 ) -> Interface:
-    if interface.known or interface.pending or not node.package or _is_annotated(node):
+    if not _lacks(interface) or not node.package or _is_annotated(node):
         return interface
     package, kind, name = place_of(node)
     here = environment.packages.get(package)
@@ -92,16 +99,25 @@ def _filled_in(
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
-    does = (found, *_controllers(node, distro, is_used=is_used))
+    does = (found, *_controllers(node, asked, distro, is_used=is_used))
     whole = interface.with_more(
+        node.name,
         "catalogue",
         tuple(end for each in does for end in each.endpoints),
         tuple(use for each in does for use in each.params),
         tuple(made for each in does for made in each.nodes) if len(does) == 1 else _beside(node, does),
     )
+    if interface.known:
+        return whole  # how its run ended is not changed by what is known beyond that
     not_here = "its package is not installed here" if here is None else None
     reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
     return replace(whole, outcome=replace(whole.outcome, reason=reason))
+
+
+def _lacks(interface: Interface) -> bool:
+    """Whether nothing is known of a node but by a run that ended early."""
+    seen = interface.known and not (interface.source == "trace" and interface.outcome.early)
+    return not (seen or interface.pending)
 
 
 def _is_annotated(node: LaunchNode) -> bool:
@@ -114,23 +130,38 @@ def _renamed(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[
         yield other, kind, named
 
 
-def _controllers(node: LaunchNode, distro: str, *, is_used: bool) -> Iterator[Catalogued]:
-    """The nodes of the controllers that a controller manager has the types of (`NAME.type`). It has them once a spawner
-    asks for them."""
-    for param in node.params:
-        if not param.name.endswith(_TYPE) or not isinstance(param.value, str):
-            continue
-        prefix = param.value.partition("/")[0]
-        found = catalogued(_PACKAGES.get(prefix, prefix), "controllers", param.value, distro, is_used=is_used)
-        if found is not None:
-            name = param.name.removesuffix(_TYPE)
-            full = names.join(node.namespace, name)
+def _controllers(node: LaunchNode, asked: Sequence[str], distro: str, *, is_used: bool) -> Iterator[Catalogued]:
+    """The nodes of the controllers that a controller manager has the types of (`NAME.type`), and of those that spawners
+    ask it for. It has them once a spawner asks for them. Of a type that is not known it is not known what it does."""
+    types = {
+        param.name.removesuffix(_TYPE): param.value
+        for param in node.params
+        if param.name.endswith(_TYPE) and isinstance(param.value, str)
+    }
+    for name in dict.fromkeys((*types, *asked)):
+        type_, full = types.get(name, ""), names.join(node.namespace, name)
+        prefix = type_.partition("/")[0]
+        found = catalogued(_PACKAGES.get(prefix, prefix), "controllers", type_, distro, is_used=is_used)
+        if found is None:
+            made = MadeNode(name, name, inferred=True, full=full, unknown=True)
+            yield Catalogued((), (), (made,), "")
+        else:
             yield replace(
                 found,
                 endpoints=tuple(replace(end, node=full, conditional=True) for end in found.endpoints),
                 params=tuple(replace(use, node=full, conditional=True) for use in (*found.params, *_OF_SPAWNERS)),
                 nodes=(MadeNode(name, name, inferred=True, full=full),),
             )
+
+
+def _asked(tree: LaunchTree) -> Sequence[tuple[str, ...]]:
+    """The controllers that spawners ask each node for."""
+    found: dict[str, list[str]] = {}
+    for node in tree.nodes if tree.ros.ament else ():
+        asked = asked_of(node) if is_spawner(node) and not node.unknowns else None
+        if asked is not None:
+            found.setdefault(asked.manager, []).extend(asked.controllers)
+    return [tuple(found.get(node.name, ())) for node in tree.nodes_and_simulated]
 
 
 def _own_params(tree: LaunchTree, kept: Kept) -> Sequence[Sequence[Param]]:

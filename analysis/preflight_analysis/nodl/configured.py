@@ -15,7 +15,7 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.nodl.bridges import bridged
 from preflight_analysis.nodl.rviz import displayed
-from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.interface import ENDS, Endpoint, Interface
 
 
 def with_configured(
@@ -31,8 +31,8 @@ def with_configured(
         # A run tells what is made on demand, and an annotation is the user's word for all of it.
         if not whole[at].complete and read_annotation(tree.nodes[at].action)[0] is None:
             source = whole[at].source if whole[at].known else "source"
-            more = whole[at].with_more(source, endpoints, ())
-            whole[at] = replace(more, whole=True) if is_bridge(tree.nodes[at]) else more
+            more = whole[at].with_more(tree.nodes[at].name, source, endpoints, ())
+            whole[at] = replace(more, whole=ENDS) if is_bridge(tree.nodes[at]) else more
     return whole
 
 

@@ -51,12 +51,12 @@ class NodlFiles:
                 continue
             found = _about(db, environment, node.package, _name(node), tree.generation)
             if found is not None:
-                filled[at] = kept.get(_with, (node.name, at), interface, found)
+                filled[at] = kept.get(_with, (node.name, at), node.name, interface, found)
         return filled
 
 
-def _with(interface: Interface, found: Described) -> Interface:
-    return interface.with_more("nodl", found.endpoints, found.params)
+def _with(node: str, interface: Interface, found: Described) -> Interface:
+    return interface.with_more(node, "nodl", found.endpoints, found.params)
 
 
 @query

@@ -64,7 +64,7 @@ class LoadedPlugins:
         ):
             ends = {(end.role, end.name): end for host in of_node for end in self._ends(node, host, documents)}
             if ends:
-                whole[at] = whole[at].with_more(whole[at].source, tuple(ends.values()), ())
+                whole[at] = whole[at].with_more(node.name, whole[at].source, tuple(ends.values()), ())
         return whole
 
     def _ends(self, node: LaunchNode, host: _Host, documents: Mapping[str, Document]) -> Iterator[Endpoint]:

@@ -27,7 +27,7 @@ def with_moveit_clients(tree: LaunchTree, interfaces: Sequence[Interface], kept:
 
 
 def _with_clients(node: LaunchNode, interface: Interface, params: tuple[Param, ...], kinds_in_types: bool) -> Interface:
-    if interface.pending or interface.known_in_full or interface.declared:
+    if interface.pending or interface.tells_all("actions") or interface.declared:
         return interface
     there = {(end.role, end.name) for end in interface.endpoints}
     clients = {end.name: end for end in _clients(node, params, kinds_in_types)}

@@ -27,7 +27,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.knowledge.model import Knowledge
-from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy, Role
+from preflight_analysis.tracing.interface import ENDS, Endpoint, Interface, NamedBy, Role
 
 _ROLES: Mapping[tuple[str, str], Role] = {
     ("topic", "publisher"): "publisher",
@@ -111,7 +111,7 @@ def _with_named(
     without: set[int] = set()
     replaced: set[int] = set()
     named: set[int] = set()
-    may_have_more = not (interface.known_in_full or interface.declared)
+    may_have_more = not (interface.tells_all(*ENDS) or interface.declared)
     for each in meant:
         role = _ROLES.get((each.meaning.kind, each.meaning.role))
         if role is None or not isinstance(each.value, str) or not names.is_legal(each.value):
@@ -155,7 +155,12 @@ def _with_named(
         ends = [end for at, end in enumerate(ends) if at not in without]
     whole = known is not None and known.entry.whole and may_have_more
     source = interface.source if interface.known else "source" if whole else "catalogue"
-    return replace(interface, source=source, endpoints=(*ends, *more.values()), whole=interface.whole or whole)
+    return replace(
+        interface,
+        source=source,
+        endpoints=(*ends, *more.values()),
+        whole=(*interface.whole, *ENDS) if whole else interface.whole,
+    )
 
 
 def _says_type(meant: Meant, end: Endpoint) -> bool:

@@ -60,7 +60,7 @@ def with_simulated_controllers(
         return interfaces
     whole = list(interfaces)
     more = {(end.role, end.name): end for end in found}
-    whole[at] = whole[at].with_more("catalogue", tuple(more.values()), ())
+    whole[at] = whole[at].with_more(tree.nodes[at].name, "catalogue", tuple(more.values()), ())
     return whole
 
 

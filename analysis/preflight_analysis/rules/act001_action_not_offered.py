@@ -47,9 +47,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:
-    """None where the parts were remapped one by one, as each of those remaps would have to change, nor where no remap
-    moves an action."""
-    if not moves_actions(context.environment.distro):
+    """None where the parts were remapped one by one, as each of those remaps would have to change, where no remap moves
+    an action, nor where like words alone speak for it: another controller moves the robot as well, in another way."""
+    if not moves_actions(context.environment.distro) or pair.likeness == "words":
         return ()
     remap = pair.site.remap
     one_by_one = remap is not None and remap.target.endswith(_OF_GOALS) and not pair.site.name.endswith(_OF_GOALS)

@@ -22,7 +22,7 @@ def dangling_consumers(context: Context, kind: ChannelKind) -> tuple[Connection,
 def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Connection, ...]]:
     """Those of each kind; ask through `context.once`."""
     lone = of_all_kinds(context, _lone_consumers, channels_of(context))
-    return {kind: tuple(chain.from_iterable(lone[kind])) for kind in lone}
+    return {kind: _not_of_unknown(context, kind, chain.from_iterable(lone[kind])) for kind in lone}
 
 
 def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
@@ -33,7 +33,15 @@ def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
     if transported:
         found = zip(channels, lone, strict=True)
         lone = tuple(() if name in transported and _read_otherwise(name, channels) else each for name, each in found)
-    return [*chain.from_iterable(lone)]
+    return [*_not_of_unknown(context, kind, chain.from_iterable(lone))]
+
+
+def _not_of_unknown(context: Context, kind: ChannelKind, lone: Iterable[Connection]) -> tuple[Connection, ...]:
+    """Without those whose name is below that of a node of which nothing is known: it is at the other end."""
+    graph = context.graph
+    if graph is None:
+        return tuple(lone)
+    return tuple(each for each in lone if not graph.is_of_unknown(kind, each.name))
 
 
 def dangling_topic_providers(context: Context) -> list[Connection]:

@@ -14,7 +14,7 @@ from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.rule import Context
 from preflight_analysis.rules.well_known import is_transform
-from preflight_analysis.tracing.interface import Interface
+from preflight_analysis.tracing.interface import ENDS, Interface
 
 _TOPIC_ROLES = ("publisher", "subscriber")
 BY_CATALOGUE = "according to the catalogue"
@@ -187,7 +187,8 @@ def _meaning(
 def _reports_names(node: LaunchNode, interface: Interface) -> bool:
     """Whether a run showed, or the source or the catalogue tells, all names that the node uses. One that made nothing
     of its own is a wrapper or a loader of something else, whose names nobody saw."""
-    known = interface.known_in_full or (interface.source == "catalogue" and not node.args and _is_plain(interface))
+    plain = interface.source == "catalogue" and not node.args and not interface.decided
+    known = interface.tells_all(*ENDS) or (plain and interface.speaks_of("topics"))
     if interface.declared or not known or node.unknowns:
         return False
     if node.package == "nodelet":
@@ -201,12 +202,6 @@ def _tells_in_part(node: LaunchNode, interface: Interface) -> bool:
     if interface.declared or not told or node.unknowns or node.package == "nodelet":
         return False
     return any(not (e.builtin or e.speculative) for e in interface.endpoints)
-
-
-def _is_plain(interface: Interface) -> bool:
-    """Whether the catalogue has a node of which no condition and no plugin decides what it does."""
-    decided = any(end.conditional for end in interface.endpoints) or any(use.conditional for use in interface.params)
-    return not decided and not any(use.access == "list" for use in interface.params)
 
 
 @dataclass(frozen=True, slots=True)

@@ -212,7 +212,7 @@ class _Asked:
 def _asked_in_part(node: LaunchNode, interface: Interface, reads: Iterable[ParamRead]) -> _Asked | None:
     """None of a node of which all is known, or nothing, or that may ask for any."""
     spun = interface.source == "trace" and interface.outcome.status == "spinning"
-    if not (spun or interface.source in _PARTLY) or interface.known_in_full:
+    if not (spun or interface.source in _PARTLY) or interface.tells_all("parameters"):
         return None
     if any(use.access == "list" for use in interface.params):
         return None

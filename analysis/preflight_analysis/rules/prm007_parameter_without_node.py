@@ -210,7 +210,7 @@ def _known(context: Context) -> frozenset[str]:
     if graph is None:
         return frozenset()
     pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
-    return frozenset(node.name for node, interface in pairs if interface.known_in_full)
+    return frozenset(node.name for node, interface in pairs if interface.tells_all("parameters"))
 
 
 RULE = Rule(

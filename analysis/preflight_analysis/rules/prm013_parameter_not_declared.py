@@ -54,14 +54,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if _OF_TRANSPORT.search(param.name):
                 continue
             numbered = _NUMBER.sub("#", param.name)
-            if not interface.known_in_full and numbered in {_NUMBER.sub("#", name) for name in declared}:
+            if not interface.tells_all("parameters") and numbered in {_NUMBER.sub("#", name) for name in declared}:
                 continue  # one of a row, `odom1` beside `odom0`, of which the node may take as many as it is given
             near = _near(param.name, [name for name in declared if (name, param.place.file) not in given])
             if near is None and _is_controller(node):
                 continue  # a library's base declares all that is set; names may be made of those of joints
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
-            in_full = interface.known_in_full
+            in_full = interface.tells_all("parameters")
             spared = near is None and (
                 _is_for_all(context, node, param)
                 or _is_other_choice(param.name, declared)

@@ -106,7 +106,7 @@ def _others_speak(context: Context, interface: Interface) -> bool:
     """Whether the parameters of the node are known, so that PRM001 or PRM013 says which of them it does not read."""
     lists = any(use.access == "list" for use in interface.params)
     if not context.tree.ros.ament:
-        return interface.known_in_full
+        return interface.tells_all("parameters")
     return interface.source != "none" and not lists and bool(interface.params or reports_params(interface))
 
 

@@ -88,7 +88,7 @@ def _name(node: LaunchNode) -> str:
 
 def reports_params(interface: Interface) -> bool:
     """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
-    return interface.known_in_full and (not interface.declared or bool(interface.params))
+    return interface.tells_all("parameters") and (not interface.declared or bool(interface.params))
 
 
 def fits(value: object, read: ParamRead) -> bool:

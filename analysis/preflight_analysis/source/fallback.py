@@ -16,7 +16,7 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Before, Kept
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, source_key
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.tracing.interface import KINDS, Endpoint, Interface, ParamUse
 from preflight_analysis.tracing.similar import SimilarTraces, asked
 
 
@@ -173,15 +173,15 @@ def _described(use: ParamUse, said: ParamUse) -> ParamUse:
 def _with_more(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
     """The interface itself where it came to its event loop and the rest adds nothing, as a kept trace of the same."""
     if isinstance(found, Interface):
-        more = interface.with_more("similar", found.endpoints, found.params, frames=found.frames)
+        more = interface.with_more(node.name, "similar", found.endpoints, found.params, frames=found.frames)
         return replace(more, elsewhere=found.elsewhere) if _is_more(more, interface) else interface
     endpoints = tuple(replace(endpoint, inferred=True) for endpoint in found.endpoints)
     interface, endpoints = replace(interface, endpoints=_beside(found, interface.endpoints)), _beside(found, endpoints)
     params = tuple(replace(use, inferred=True) for use in found.params)
-    whole = interface.with_more("source", endpoints, params, found.nodes, found.frames, found.frame_uses)
+    whole = interface.with_more(node.name, "source", endpoints, params, found.nodes, found.frames, found.frame_uses)
     if not _is_more(whole, interface):
         return interface
-    whole = replace(whole, whole=found.whole)
+    whole = replace(whole, whole=KINDS if found.whole else ())
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:
         return whole
     # There is no executable, but what it is to be made of.

@@ -23,6 +23,18 @@ DOES: Mapping[str, str] = {
     "action_client": "uses the action",
 }
 """What a node does at an end of each role, in words for the user; the name follows."""
+Kind = Literal["topics", "services", "actions", "parameters"]
+"""What a node may do, as it may be known of one kind and not of another."""
+ENDS: tuple[Kind, ...] = ("topics", "services", "actions")
+KINDS: tuple[Kind, ...] = (*ENDS, "parameters")
+_KIND_OF: Mapping[Role, Kind] = {
+    "publisher": "topics",
+    "subscriber": "topics",
+    "service": "services",
+    "client": "services",
+    "action_server": "actions",
+    "action_client": "actions",
+}
 Status = Literal["spinning", "exited", "crashed", "timed-out", "not-run"]
 PENDING = "its run has not ended yet"
 REASON_COLUMNS = 200
@@ -221,6 +233,8 @@ class MadeNode:
     full: str = ""
     own_arguments_only: bool = False
     """Whether the arguments of the process are not for it, as for a component: no name, remap or parameter of them."""
+    unknown: bool = False
+    """Whether nothing is known of it beside that it is there."""
 
     @property
     def hidden(self) -> bool:
@@ -243,6 +257,12 @@ class Outcome:
     """What was made up so that the node went on, a sentence each."""
     lacks: str | None = None
     """What it ended for that only the sandbox lacks: `the device /dev/ttyUSB0, ...`."""
+
+    @property
+    def early(self) -> bool:
+        """Whether the run ended before the node came to its event loop, by whatever: what it does after that was not
+        seen."""
+        return self.status in ("crashed", "timed-out") or (self.status == "exited" and self.exit_code != 0)
 
 
 def without_stamp(line: str) -> str:
@@ -305,8 +325,9 @@ class Interface:
     unnamed: tuple[Endpoint, ...] = ()
     """What it was seen to make under names that it makes up in each run, at random: the name of each is that of one
     run, and none of the others. They are not among the endpoints."""
-    whole: bool = False
-    """Whether its source, which it is known from, told all: each name is computed, each branch gone through."""
+    whole: tuple[Kind, ...] = ()
+    """The kinds of which its source, which it is known from, told all: each name is computed, each branch gone through;
+    or the files and arguments that name the ends of a bridge or a relay."""
 
     @property
     def known(self) -> bool:
@@ -327,10 +348,25 @@ class Interface:
         spins = self.known and self.outcome.status == "spinning" and seen_whole
         return self.declared or spins
 
+    def tells_all(self, *kinds: Kind) -> bool:
+        """Whether it was seen to do all that it does, or its source tells all of these kinds: what is not there is
+        likely not there."""
+        return self.complete or (self.source == "source" and all(kind in self.whole for kind in kinds))
+
+    def speaks_of(self, kind: Kind) -> bool:
+        """Whether anything is known of what it does of a kind. The catalogue does not speak of a kind of which it has
+        nothing: a base class may do it, or a library."""
+        if self.source != "catalogue":
+            return self.known
+        if kind == "parameters":
+            return any(not use.builtin for use in self.params)
+        return any(_KIND_OF[end.role] == kind for end in self.endpoints if not end.builtin)
+
     @property
-    def known_in_full(self) -> bool:
-        """Whether it was seen to do all that it does, or its source tells: what is not there is likely not there."""
-        return self.complete or (self.source == "source" and self.whole)
+    def decided(self) -> bool:
+        """Whether a condition that is not known, or a plugin, decides what it does."""
+        conditional = any(each.conditional for each in (*self.endpoints, *self.params))
+        return conditional or any(use.access == "list" for use in self.params)
 
     @property
     def likely_complete(self) -> bool:
@@ -341,7 +377,7 @@ class Interface:
         if (self.looks or self.unnamed) and not self.declared:
             return False
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
-        return self.known_in_full or (self.known and done)
+        return self.tells_all(*ENDS) or (self.known and done)
 
     def own_name(self, namespace: str) -> str | None:
         """ROS 2: the full name of the node, where its own code gives it one, in a namespace of the launch file (`/` for
@@ -367,9 +403,12 @@ class Interface:
         first = node if node in self.names else self.names[0]
         others = [name for name in self.names if name != first]
 
+        unknown = {each.full for each in self.nodes if each.unknown}
+
         def of(name: str) -> Interface:
             return replace(
                 self,
+                source="none" if name in unknown else self.source,
                 endpoints=tuple(e for e in self.endpoints if (e.node if e.node in others else first) == name),
                 params=tuple(p for p in self.params if (p.node if p.node in others else first) == name),
                 nodes=tuple(each for each in self.nodes if (each.full if each.full in others else first) == name),
@@ -386,6 +425,7 @@ class Interface:
 
     def with_more(
         self,
+        node: str,
         source: Source,
         endpoints: tuple[Endpoint, ...],
         params: tuple[ParamUse, ...],
@@ -393,19 +433,24 @@ class Interface:
         frames: tuple[Frame, ...] = (),
         frame_uses: tuple[FrameUse, ...] = (),
     ) -> Interface:
-        """What a run saw together with what `source` says beyond that, types of what it saw among it."""
-        seen = {(e.role, e.name) for e in self.endpoints}
-        types = {(e.role, e.name): e.type for e in endpoints}
-        asked = {p.name for p in self.params}
+        """What a run of the node of that full name saw together with what `source` says beyond that, types of what it
+        saw among it."""
+
+        def full(what: Endpoint | ParamUse) -> str:
+            return names.resolve(what.name, what.node or node)
+
+        seen = {(e.role, full(e)) for e in self.endpoints}
+        types = {(e.role, full(e)): e.type for e in endpoints}
+        asked = {full(p) for p in self.params}
         broadcast = {(f.parent, f.child) for f in self.frames}
         return replace(
             self,
             source=source,
             endpoints=(
-                *(e if e.type else replace(e, type=types.get((e.role, e.name))) for e in self.endpoints),
-                *(e for e in endpoints if (e.role, e.name) not in seen),
+                *(e if e.type else replace(e, type=types.get((e.role, full(e)))) for e in self.endpoints),
+                *(e for e in endpoints if (e.role, full(e)) not in seen),
             ),
-            params=self.params + tuple(p for p in params if p.name not in asked),
+            params=self.params + tuple(p for p in params if full(p) not in asked),
             nodes=self.nodes or nodes,
             frames=self.frames + tuple(f for f in frames if (f.parent, f.child) not in broadcast),
             frame_uses=self.frame_uses + frame_uses,

@@ -211,7 +211,7 @@ def from_settings(
     for index, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
         said = next((each for each in settings if each.speaks_of(node)), None)
         if said is not None and not interface.complete and read_annotation(node.action)[0] is None:
-            filled[index] = interface.with_more("settings", said.endpoints, said.params)
+            filled[index] = interface.with_more(node.name, "settings", said.endpoints, said.params)
     return filled
 
 
