@@ -93,6 +93,7 @@ def test_what_may_be_activated() -> None:
         <launch>
           <node pkg="nav2_map_server" exec="map_server" name="map_server"/>
           <executable cmd="ros2 lifecycle set /map_server configure"/>
+          <executable cmd="bash -c 'sleep 2; ros2 lifecycle set map_server activate'"/>
         </launch>
         //- /nav2_map_server/package.xml
         <package><name>nav2_map_server</name></package>

@@ -34,6 +34,7 @@ from preflight_analysis.evaluation.tree import (
     Include,
     LaunchNode,
     NotTaken,
+    StateChange,
     Unknown,
     Use,
 )
@@ -59,6 +60,7 @@ class Collected:
     problems: tuple[Problem[ProblemKind], ...]
     unknowns: tuple[Unknown, ...]
     not_taken: tuple[NotTaken, ...]
+    state_changes: tuple[StateChange, ...]
     visited: tuple[str, ...]
     inputs: Mapping[str, str]
     """The files that were read, with their digests."""
@@ -106,6 +108,7 @@ class Collector:
         self.problems: list[Problem[ProblemKind]] = []
         self.unknowns: list[Unknown] = []
         self.not_taken: list[NotTaken] = []
+        self.state_changes: list[StateChange] = []
         self.visited: dict[str, None] = {}
         """The launch files, in the order in which they were reached."""
         self.inputs: dict[str, str] = {}
@@ -127,6 +130,7 @@ class Collector:
             tuple(self.problems),
             tuple(self.unknowns),
             tuple(self.not_taken),
+            tuple(self.state_changes),
             tuple(self.visited),
             self.inputs,
         )
@@ -139,6 +143,7 @@ class Collector:
         self.uses += collected.uses
         self.unknowns += collected.unknowns
         self.not_taken += collected.not_taken
+        self.state_changes += collected.state_changes
         for problem in collected.problems:
             self._add(problem)
         for path in collected.visited:

@@ -329,6 +329,23 @@ class Edited:
         return span not in self.wrong and span.start <= self.span.end and self.span.start <= span.end
 
 
+class StateChange(NamedTuple):
+    """A transition that the launch asks a lifecycle node for: `configure`, `activate`, ..., "" for one that ends it, None
+    where it is not known. The node is that of the full name `node`, or what the action of a Python launch file made that
+    has the number at the end of `made_by`, after the file and what leads to that; where both are None it may be any."""
+
+    transition: str | None
+    node: str | None
+    made_by: tuple[str, Origin, str] | None
+
+    def may_be_for(self, node: LaunchNode) -> bool:
+        """Whether it is for a node."""
+        if self.made_by is not None:
+            number = node.action.value("id")
+            return number is not None and (node.location.file, node.origin[:-1], number.text) == self.made_by
+        return self.node in (None, node.name)
+
+
 @dataclass(frozen=True, slots=True)
 class LaunchTree(Once):
     """What the launcher would start from `file`. `inputs` maps every file that was read (launch files, YAML, ...)
@@ -365,6 +382,8 @@ class LaunchTree(Once):
     """The paths of the files that Python launch files write."""
     file_params: Mapping[str, tuple[Param, ...]] = field(default_factory=dict)
     """What files have that parameters or arguments of a node name, by the full name of the node; `known_files.py`."""
+    state_changes: tuple[StateChange, ...] = ()
+    """ROS 2: what its events ask lifecycle nodes for."""
 
     @property
     def ros(self) -> Generation:

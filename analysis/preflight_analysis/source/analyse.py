@@ -58,6 +58,8 @@ class SourceInterface:
     """The frames that it asks for or puts into messages."""
     unnamed: tuple[tuple[Role, str | None], ...] = ()
     """Role and type of the ends that it makes beside these, under names that are not known."""
+    transitions: tuple[str, ...] = ()
+    """As of an `Interface`."""
 
 
 _NOTHING = SourceInterface()
@@ -173,6 +175,7 @@ def _read(db: Database, environment: Environment, node: SourceKey) -> SourceInte
     if main is not None and found.frames:
         program.expect_broadcasts(found)
     said = SourceInterface(found.endpoints, found.params, found.nodes, frames=found.frames, frame_uses=found.frame_uses)
+    said = replace(said, transitions=found.transitions)
     return replace(said, whole=found.whole, unnamed=found.unnamed) if said != _NOTHING else _NOTHING
 
 

@@ -32,6 +32,7 @@ class Collector:
         self._unknown_nodes = False
         self._missed = False
         self._unnamed: dict[tuple[Role, str | None], None] = {}
+        self._transitions: set[str] = set()
         self.branches = Branches()
         """Those of the program that is gone through."""
 
@@ -69,6 +70,11 @@ class Collector:
         return tuple(self._frame_uses.values())
 
     @property
+    def transitions(self) -> tuple[str, ...]:
+        """Those that lifecycle nodes of the program make by themselves, sorted."""
+        return tuple(sorted(self._transitions))
+
+    @property
     def whole(self) -> bool:
         """Whether nothing is known of that was left out: every name is computed, and nobody else was given the node."""
         return not self._missed
@@ -84,6 +90,10 @@ class Collector:
             return
         self._nodes[MadeNode(name, name, space.strip("/"), renamed, inferred=True)] = None
         self._alternatives = self._alternatives or self.branches.speculative
+
+    def transition(self, *names: str) -> None:
+        """Transitions of a lifecycle node that the program makes."""
+        self._transitions.update(names)
 
     def unknown_node(self) -> None:
         """There may be a node whose name is not known."""

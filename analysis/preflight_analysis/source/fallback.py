@@ -16,7 +16,7 @@ from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Before, Kept
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, source_key
 from preflight_analysis.source.known_params import LaunchParams
-from preflight_analysis.tracing.interface import KINDS, Endpoint, Interface, ParamUse
+from preflight_analysis.tracing.interface import CHANGE_STATE, KINDS, Endpoint, Interface, ParamUse
 from preflight_analysis.tracing.similar import SimilarTraces, asked
 
 
@@ -49,7 +49,7 @@ class Fallback:
         return kept.each_row(_whole, columns)
 
 
-_Gap = Literal["all", "places", "later", "places, later", "frames"]
+_Gap = Literal["all", "places", "later", "places, later", "frames", "transitions"]
 """What is not known of a node."""
 _TF = ("tf", "tf_static")
 
@@ -61,6 +61,9 @@ def _whole(
         return interface
     if gap == "all":
         return _with_more(node, interface, found)
+    if gap == "transitions":
+        made = found.transitions
+        return replace(interface, transitions=made) if made else interface
     if isinstance(found, SourceInterface) and not interface.frames and not interface.frame_uses:
         interface = replace(interface, frames=found.frames, frame_uses=found.frame_uses)
     more = _with_places(interface, found) if "places" in gap else interface
@@ -75,7 +78,9 @@ def _gap(node: LaunchNode, interface: Interface, ros: Generation) -> _Gap | None
         return "places, later" if placeless else "later"
     if placeless:
         return "places"
-    return "frames" if _has_unknown_frames(interface) else None
+    if _has_unknown_frames(interface):
+        return "frames"
+    return "transitions" if _may_activate_itself_later(interface) else None
 
 
 def _launch_params(
@@ -130,6 +135,13 @@ def _has_unknown_frames(interface: Interface) -> bool:
     return any(not end.inferred and names.leaf(end.name) in _TF for end in interface.endpoints)
 
 
+def _may_activate_itself_later(interface: Interface) -> bool:
+    """Whether a run showed a lifecycle node that did not activate itself: a callback may do so that the run did not wait
+    for."""
+    managed = any(end.type == CHANGE_STATE and end.role == "service" for end in interface.endpoints)
+    return managed and interface.source == "trace" and "activate" not in interface.transitions
+
+
 def _with_later(node: LaunchNode, interface: Interface, found: Interface | SourceInterface) -> Interface:
     """With what the node is given and only its source declares."""
     seen = {use.name.removeprefix("~") for use in interface.params}
@@ -181,7 +193,7 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
     whole = interface.with_more(node.name, "source", endpoints, params, found.nodes, found.frames, found.frame_uses)
     if not _is_more(whole, interface):
         return interface
-    whole = replace(whole, whole=KINDS if found.whole else ())
+    whole = replace(whole, whole=KINDS if found.whole else (), transitions=whole.transitions or found.transitions)
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:
         return whole
     # There is no executable, but what it is to be made of.

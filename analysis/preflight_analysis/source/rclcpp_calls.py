@@ -345,6 +345,10 @@ class RclcppCalls(Parameters):
                 self._declare_all(node, call)
             case "get_parameter" | "get_parameter_or":
                 return self._read(node, call)
+            case "configure" | "activate" if node.has_lifecycle and not self._in_dead_code:
+                self.collected.transition(call.name)
+            case "trigger_transition" if node.has_lifecycle and not self._in_dead_code:
+                self.collected.transition("configure", "activate")  # which, a number says
             case "list_parameters":
                 self._any_parameter(call.place)
             case "has_parameter":

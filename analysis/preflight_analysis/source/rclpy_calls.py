@@ -15,6 +15,7 @@ from preflight_analysis.source.known_params import KnownParams
 from preflight_analysis.source.python_frames import Message, has_tree, message_of, note_frames
 from preflight_analysis.source.python_libraries import makes_no_ends
 from preflight_analysis.source.python_values import UNKNOWN, Class, Imported, Instance, is_plain, known
+from preflight_analysis.source.rclcpp_api import LIFECYCLE
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Range, Role
 
 _TYPE = re.compile(r"([A-Za-z]\w*)\.(msg|srv|action)\.(?:_\w+\.)?([A-Za-z]\w*)\Z")
@@ -43,6 +44,7 @@ _FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
 }
 _LIBRARIES = frozenset({"rclpy", "tf2_ros", "message_filters"})
 _NODES = ("rclpy.Node", "rclpy.LifecycleNode")
+_IS_LIFECYCLE = re.compile(r"\.lifecycle\.|LifecycleNode")
 _OVERRIDES = "automatically_declare_parameters_from_overrides"
 _MAKES_NODES = re.compile(r"(?:Node|Navigator|Commander|MoveItPy)(?:\.__init__)?\Z")
 """Classes of libraries that are nodes, or have one."""
@@ -170,7 +172,13 @@ class RclpyCalls:
                 self.collected.use(ParamUse("/", "list", source_file=file, source_line=line))
             if name.startswith("rclpy.create") or _plain(path.removesuffix(".__init__")) in _NODES:
                 self._make_node(given(0, "node_name"), kwargs)
+                if _IS_LIFECYCLE.search(path):
+                    for service, type_ in LIFECYCLE:
+                        end = Endpoint("service", service, type_, None, {}, file, line, builtin=True)
+                        self.collected.add_endpoint(end)
             return Imported("rclpy.Node()")
+        if method in ("trigger_configure", "trigger_activate"):
+            self.collected.transition(method.removeprefix("trigger_"))
         if method == "get_parameters_by_prefix":
             self.collected.use(ParamUse("/", "list", source_file=file, source_line=line))
         if method in ("get_name", "get_fully_qualified_name"):

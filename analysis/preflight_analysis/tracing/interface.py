@@ -25,6 +25,8 @@ DOES: Mapping[str, str] = {
 """What a node does at an end of each role, in words for the user; the name follows."""
 Kind = Literal["topics", "services", "actions", "parameters"]
 """What a node may do, as it may be known of one kind and not of another."""
+CHANGE_STATE = "lifecycle_msgs/srv/ChangeState"
+"""The type of the service `~/change_state` of a lifecycle node, by which others configure and activate it."""
 ENDS: tuple[Kind, ...] = ("topics", "services", "actions")
 KINDS: tuple[Kind, ...] = (*ENDS, "parameters")
 _KIND_OF: Mapping[Role, Kind] = {
@@ -315,6 +317,8 @@ class Interface:
     nodes: tuple[MadeNode, ...] = ()
     """ROS 2: those that the process was seen to make, or that its source makes; what its libraries make in C++ alone is
     not among them. Empty where it is not known which."""
+    transitions: tuple[str, ...] = ()
+    """ROS 2, of a lifecycle node: those of `configure` and `activate` that its own code makes, or may make."""
     looks: bool = False
     """ROS 2: whether it asked which nodes, topics or services there are. There were none, and it may do more, or
     something else, where there are. Likewise where it made nothing, and a module was missing that may do all of it."""

@@ -112,6 +112,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),
         nodes=nodes,
+        transitions=tuple(sorted(found.transitions)),
         looks=found.looked or stand_ins.hides_all(found),
         stand_ins=tuple(sorted(found.stand_ins)),
     )

@@ -97,6 +97,8 @@ class Gathered:
     """Modules that were missing."""
     lacked: set[str] = field(default_factory=set)
     """Modules that were missing and that the program itself did without."""
+    transitions: set[str] = field(default_factory=set)
+    """Those that a lifecycle node made by itself."""
     searched: dict[str, None] = field(default_factory=dict)
     """Where they could turn up."""
     drawn: list[str] = field(default_factory=list)
@@ -133,6 +135,8 @@ def take_node_record(record: Mapping[str, Any], found: Gathered) -> bool:
             full = checked_text(record.get("full"), _FULL_NAME) or ""
             renamed, own = record.get("renamed") is True, record.get("own_arguments_only") is True
             found.nodes[MadeNode(name, given, space, renamed, full=full, own_arguments_only=own)] = None
+        case "transition" if record.get("name") in ("configure", "activate"):
+            found.transitions.add(str(record["name"]))
         case "loaded":
             why = record.get("error")
             if not isinstance(why, str) or found.loaded is not None:

@@ -95,6 +95,7 @@ def evaluate_ros2(
         simulated,
         frozenset(state.made),
         file_params,
+        tuple(state.state_changes),
     )
 
 

@@ -24,6 +24,7 @@ RCLPY = (
     "rclpy.action.client",
     "rclpy.action.server",
     "rclpy.wait_for_message",
+    "rclpy.lifecycle.node",
     "ament_index_python.packages",
 )
 _BATCH = 200

@@ -8,8 +8,8 @@ from types import FrameType
 from typing import Any, Callable, Optional
 
 from . import channel
+from .rclpy_lifecycle import activate
 from .rclpy_names import top_package
-from .rclpy_nodes import activate
 from .weaving import bound_arguments, in_main_thread, quiet
 
 _OWN_THREADS = ("rclpy", "preflight_agents")

@@ -1,4 +1,4 @@
-"""The nodes of rclpy in a process: how they are made, activated, and whether they look at themselves and others."""
+"""The nodes of rclpy in a process: how they are made, and whether they look at themselves and others."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import weakref
 from typing import Any, Callable
 
 from . import channel
+from .rclpy_lifecycle import not_asked
 from .rclpy_names import LIBRARIES, full_name, top_package
 from .variables import EXPECTED
 from .weaving import bound_arguments, quiet
@@ -34,7 +35,6 @@ LOOKS = (
 )
 """Methods of a node that tell of others."""
 
-_nodes: list[Any] = []
 _OVERRIDES = "automatically_declare_parameters_from_overrides"
 from_overrides: Any = weakref.WeakValueDictionary()
 """The nodes, by their `id`, that declare what the launch sets before their own code does: with any type."""
@@ -45,7 +45,7 @@ def constructed(original: Callable[..., Any]) -> Callable[..., Any]:
 
     @quiet
     def report(node: Any, arguments: dict[str, Any]) -> None:
-        _nodes.append(node)
+        not_asked.append(node)
         name = str(node.get_name())
         channel.send(
             "node",
@@ -72,18 +72,6 @@ def constructed(original: Callable[..., Any]) -> Callable[..., Any]:
         report(arguments["self"], arguments)
 
     return made
-
-
-def activate() -> None:
-    """Have lifecycle nodes do what a manager would ask of them."""
-    waiting, _nodes[:] = list(_nodes), []
-    for node in waiting:
-        if hasattr(node, "trigger_configure") and hasattr(node, "trigger_activate"):
-            for transition in ("configure", "activate"):
-                if getattr(getattr(node, f"trigger_{transition}")(), "name", "SUCCESS") != "SUCCESS":
-                    # What it would have made is not known.
-                    channel.send("answered", kind="transition", name=transition)
-                    break
 
 
 def asks_own_name(original: Callable[..., Any]) -> Callable[..., Any]:

@@ -1,7 +1,7 @@
 """What is woven into which module of rclpy.
 
 Each endpoint (`rclpy_endpoints`) and declared parameter (`rclpy_parameters`) is sent with the name that the node gave
-it. Lifecycle nodes (`rclpy_nodes`) are configured and activated once they reach their event loop (`rclpy_loop`), which
+it. Lifecycle nodes (`rclpy_lifecycle`) are configured and activated once they reach their event loop (`rclpy_loop`), which
 is where their topics are made; waits for other nodes are answered (`rclpy_waits`).
 """
 
@@ -14,6 +14,7 @@ from typing import Any, Callable
 
 from . import channel
 from .rclpy_endpoints import creates, makes_action
+from .rclpy_lifecycle import TRIGGERS, offers_transitions, triggers
 from .rclpy_loop import completes, iterates_once, shuts_down, spins
 from .rclpy_nodes import LOOKS, asks_own_name, constructed, looks_around
 from .rclpy_parameters import declares
@@ -67,6 +68,11 @@ def weave(module: ModuleType, flush: Callable[[], None]) -> None:
         wrap(client, "wait_for_server", waits("action", lambda c: str(c._preflight_name), ready, flush))
     elif name == "rclpy.action.server":
         wrap(found.ActionServer, "__init__", makes_action("action_server"))
+    elif name == "rclpy.lifecycle.node":
+        mixin = getattr(found, "LifecycleNodeMixin", None) or found.LifecycleMixin
+        wrap(mixin, "__init__", offers_transitions)
+        for transition in TRIGGERS:
+            wrap(mixin, f"trigger_{transition}", triggers(transition))
     elif name == "rclpy.wait_for_message":
         wrap(found, "wait_for_message", first_message(flush))
     elif name == "ament_index_python.packages":

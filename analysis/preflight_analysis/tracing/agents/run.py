@@ -31,6 +31,7 @@ EVENTS = frozenset(
         "answered",
         "feed",
         "state",
+        "transition",
         "files",
         "wrote",
         "stood-in",

@@ -122,6 +122,8 @@ class EmitEvent(Action):
     def preflight_serialize(self, t: Any) -> None:
         t.kind = "emit_event"
         t.attribute("event", type(self.__event).__name__)
+        for name, value in getattr(self.__event, "preflight_asked", {}).items():
+            t.attribute(name, value)
 
 
 class Shutdown(EmitEvent):

@@ -192,13 +192,39 @@ class SignalProcess(ProcessTargetedEvent):
 
 
 class ChangeState(_AnyEvent):
-    pass
+    """`preflight_asked` tells which node it is for, by number or by name, and which transition it asks for; what is not
+    known of that is left out."""
+
+    def __init__(self, *, lifecycle_node_matcher: Any, transition_id: Any, **kwargs: Any) -> None:
+        super().__init__(lifecycle_node_matcher=lifecycle_node_matcher, transition_id=transition_id, **kwargs)
+        matcher = lifecycle_node_matcher
+        self.preflight_asked: dict[str, Any] = {"transition": transition_id}
+        if isinstance(matcher, _Matcher) and matcher.action is not None:
+            self.preflight_asked["node"] = str(matcher.action.preflight_id)
+        elif isinstance(matcher, _Matcher):
+            self.preflight_asked["name"] = matcher.name
 
 
 class StateTransition(_AnyEvent):
     pass
 
 
+class _Matcher:
+    def __init__(self, action: Any, name: Any) -> None:
+        self.action, self.name = action, name
+
+    def __call__(self, *_: Any) -> bool:
+        return True
+
+
+def matches_action(target_action: Any) -> Any:
+    return _Matcher(target_action, None) if isinstance(target_action, Action) else matches_anything()
+
+
+def matches_node_name(node_name: Any) -> Any:
+    return _Matcher(None, node_name)
+
+
 def matches_anything(*args: Any, **kwargs: Any) -> Any:
-    """In the place of all matchers."""
+    """In the place of all other matchers."""
     return lambda *_: True

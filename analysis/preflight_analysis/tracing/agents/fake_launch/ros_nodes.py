@@ -201,9 +201,13 @@ class LifecycleTransition(Action):
             raise RuntimeError("No lifecycle_node_names provided.")
         if len(transition_ids) == 0:
             raise RuntimeError("No transition_ids provided.")
+        self.__names, self.__transitions = list(lifecycle_node_names), list(transition_ids)
 
     def preflight_serialize(self, t: Any) -> None:
         t.kind = "lifecycle_transition"
+        for name in self.__names:
+            for transition in self.__transitions:
+                t.child("asked", name=name, transition=transition)
 
 
 class LoadComposableNodes(Action):

@@ -133,7 +133,7 @@ _PACKAGES = _named(
 )
 _RESOURCES = _named(ament, "get_resource", "get_resources", "has_resource")
 _ROS_EVENTS = _named(events, "ChangeState", "StateTransition")
-_MATCHES_NODE = {"matches_node_name": events.matches_anything}
+_MATCHES_NODE = {"matches_node_name": events.matches_node_name}
 _PARAMETER_TYPES = dict.fromkeys(
     (
         *("EvaluatedParameterValue", "EvaluatedParameters", "ParameterName", "ParameterValue", "Parameters"),
@@ -201,9 +201,9 @@ TABLE: dict[str, dict[str, Any]] = {
         **_named(events, "ExecutionComplete", "TimerEvent"),
         "IncludeLaunchDescription": events.IncludeLaunchDescriptionEvent,
         "Shutdown": events.ShutdownEvent,
-        "matches_action": events.matches_anything,
+        "matches_action": events.matches_action,
     },
-    "launch.events.matchers": {"matches_action": events.matches_anything},
+    "launch.events.matchers": {"matches_action": events.matches_action},
     "launch.events.process": {**_PROCESS, **_MATCH},
     "launch.frontend": _FRONTEND,
     "launch.frontend.entity": {"Entity": library.Entity, "TargetType": Any},

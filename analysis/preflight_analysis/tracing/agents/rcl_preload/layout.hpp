@@ -83,7 +83,7 @@ struct State {
 struct Machine {
   const State* state;
 };
-constexpr uint8_t kUnconfigured = 1, kInactive = 2, kConfigure = 1, kActivate = 3;
+constexpr uint8_t kUnconfigured = 1, kInactive = 2, kActive = 3, kConfigure = 1, kActivate = 3;
 
 // lifecycle_msgs__srv__ChangeState_Request: a transition's number, and its label as rosidl's C string.
 struct ChangeState {

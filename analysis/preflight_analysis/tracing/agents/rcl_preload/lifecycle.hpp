@@ -37,6 +37,11 @@ bool changed(Managed& managed, uint8_t transition) {
 
 uint8_t state_of(const Machine* machine) { return machine->state == nullptr ? 0 : machine->state->id; }
 
+void tell_own(const char* transition) {
+  Event event("transition");
+  event.add("name", std::string(transition)).send();
+}
+
 // Has it do what a manager would ask of it.
 void bring_up(const Handle* node, std::shared_ptr<Managed> managed) {
   auto* available = REAL_IF_ANY("rcl_service_server_is_available", int(const Handle*, const Handle*, bool*));
@@ -44,6 +49,10 @@ void bring_up(const Handle* node, std::shared_ptr<Managed> managed) {
   for (double until = now() + 2; available != nullptr && !there && now() < until; pause(0.002)) {
     if (!while_up([&] { available(node, &managed->client, &there); })) break;
   }
+  // What it did by itself, nobody has to ask of it.
+  uint8_t reached = state_of(managed->machine);
+  if (reached == kInactive || reached == kActive) tell_own("configure");
+  if (reached == kActive) tell_own("activate");
   bool configured = there && (state_of(managed->machine) != kUnconfigured || changed(*managed, kConfigure));
   bool active = configured && (state_of(managed->machine) != kInactive || changed(*managed, kActivate));
   if (!active) {
