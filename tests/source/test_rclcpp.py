@@ -848,3 +848,30 @@ def test_a_constructor_that_is_not_found_may_declare_anything(tmp_path: Path) ->
         harness.write("src/t.cpp", HEAD + textwrap.dedent(text))
         findings = harness.start(NODE.format(inner='<param name="frame" value="odom"/>'))[1]
         assert ("PRM013" in {finding.rule for finding in findings}) is told
+
+
+@pytest.mark.parametrize(
+    ("main", "transitions"),
+    [
+        ("", ()),
+        ("node->configure();", ("configure",)),
+        ("node->configure(); node->activate();", ("activate", "configure")),
+        ('if (std::getenv("GO")) { node->configure(); node->activate(); }', ("activate", "configure")),
+        (
+            "node->trigger_transition(lifecycle_msgs::msg::Transition::TRANSITION_CONFIGURE);",
+            ("activate", "configure"),
+        ),
+    ],
+)
+def test_the_transitions_that_a_lifecycle_node_makes_by_itself(
+    harness: Harness, main: str, transitions: tuple[str, ...]
+) -> None:
+    made = "auto node = std::make_shared<Talker>();"
+    found = harness.read(
+        LIFECYCLE.replace("int main(int, char **)", "int main(int argc, char **)").replace(made, made + main)
+    )
+    assert found.transitions == transitions
+    plain = harness.read(
+        LIFECYCLE.replace("rclcpp_lifecycle::LifecycleNode", "rclcpp::Node").replace(made, made + main)
+    )
+    assert plain.transitions == ()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.interface import NOT_RUN, Interface, Range
+from preflight_analysis.tracing.interface import CHANGE_STATE, NOT_RUN, Interface, Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -75,14 +75,14 @@ SETUP = "from setuptools import setup\nsetup(entry_points={'console_scripts': ['
 
 
 def interface(
-    tmp_path: Path, launch: str = LAUNCH, base: str = BASE, setup: str = SETUP, modules: str = ""
+    tmp_path: Path, launch: str = LAUNCH, base: str = BASE, setup: str = SETUP, modules: str = "", node: str = NODE
 ) -> Interface:
     files = {
         "package.xml": MANIFEST,
         "setup.py": setup,
         f"{modules}robot/__init__.py": "",
         f"{modules}robot/base.py": base,
-        f"{modules}robot/driver.py": NODE,
+        f"{modules}robot/driver.py": node,
         "launch/robot.launch.xml": launch,
     }
     for name, text in files.items():
@@ -94,7 +94,7 @@ def interface(
     analysis = workspace.static(str(tmp_path / "src/robot/launch/robot.launch.xml"))
     done = workspace.with_interfaces(analysis, [NOT_RUN], "not run here")
     assert done.graph is not None
-    assert "/front/scan" in done.graph.topics
+    assert node is not NODE or "/front/scan" in done.graph.topics
     return done.graph.interfaces[0]
 
 
@@ -204,3 +204,35 @@ def test_modules_that_cmake_installs_are_followed_each_once(tmp_path: Path) -> N
     done = workspace.with_interfaces(analysis, [NOT_RUN], "not run here")
     assert done.graph is not None
     assert {use.name: use.default for use in done.graph.interfaces[0].params} == {"~timeout": 10.0}
+
+
+LIFECYCLE = """
+import rclpy
+from rclpy.lifecycle import {}
+
+
+class Managed({}):
+    def __init__(self):
+        super().__init__('managed')
+        self.create_timer(1.0, self.start)
+
+    def start(self):
+        {}
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Managed())
+"""
+
+
+def test_lifecycle_nodes_and_the_transitions_that_they_make_by_themselves(tmp_path: Path) -> None:
+    own = "self.trigger_configure(); self.trigger_activate()"
+    for name, body, transitions in (
+        ("LifecycleNode", "pass", ()),
+        ("Node", "self.trigger_configure()", ("configure",)),
+        ("Node", own, ("activate", "configure")),
+    ):
+        found = interface(tmp_path / f"{name}{len(body)}", base="", node=LIFECYCLE.format(name, name, body))
+        assert [end.type for end in found.endpoints if end.name == "~/change_state"] == [CHANGE_STATE]
+        assert found.transitions == transitions

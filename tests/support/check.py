@@ -332,6 +332,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         frames=tuple(Frame(*each) for each in data.get("frames", ())),
         frame_uses=tuple(FrameUse(*each) for each in data.get("frame_uses", ())),
         nodes=nodes,
+        transitions=tuple(data.get("transitions", ())),
         stand_ins=tuple(data.get("stand_ins", ())),
     )
 

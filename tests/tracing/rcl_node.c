@@ -150,7 +150,7 @@ static void wait_for_action(const char* name) {
   for (bool there = false; !there; usleep(50000)) check(rcl_action_server_is_available(&node, made, &there));
 }
 
-static void managed(int fail) {
+static void managed(int fail, int by_itself) {
   rcl_lifecycle_state_machine_t machine = rcl_lifecycle_get_zero_initialized_state_machine();
   rcl_lifecycle_state_machine_options_t options = rcl_lifecycle_get_default_state_machine_options();
   check(rcl_lifecycle_state_machine_init(
@@ -158,6 +158,14 @@ static void managed(int fail) {
       SERVICE(lifecycle_msgs, ChangeState), SERVICE(lifecycle_msgs, GetState),
       SERVICE(lifecycle_msgs, GetAvailableStates), SERVICE(lifecycle_msgs, GetAvailableTransitions),
       SERVICE(lifecycle_msgs, GetAvailableTransitions), &options));
+  for (uint8_t id = 0; id < by_itself; ++id) {
+    check(rcl_lifecycle_trigger_transition_by_id(
+        &machine,
+        id == 0 ? lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE
+                : lifecycle_msgs__msg__Transition__TRANSITION_ACTIVATE,
+        true));
+    check(rcl_lifecycle_trigger_transition_by_label(&machine, rcl_lifecycle_transition_success_label, true));
+  }
   const rcl_service_t* change = &machine.com_interface.srv_change_state;
   for (;;) {
     turn(change, NULL, -1);
@@ -225,7 +233,7 @@ int main(int argc, char** argv) {
     pthread_create(&watcher, NULL, watch_graph, NULL);
     wait_for("start");
   } else if (strcmp(mode, "managed") == 0) {
-    managed(argc > 2 && strcmp(argv[2], "fail") == 0);
+    managed(argc > 2 && strcmp(argv[2], "fail") == 0, argc > 3 ? atoi(argv[3]) : 0);
   } else if (strcmp(mode, "action") == 0) {
     serve_action("count");
     wait_for_action("~/other");

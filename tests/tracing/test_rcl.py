@@ -109,6 +109,14 @@ def test_lifecycle_nodes_are_configured_and_activated(harness: RclHarness) -> No
     assert {"~/change_state", "~/get_state", "~/transition_event"} <= builtin
 
 
+@pytest.mark.parametrize("transitions", [(), ("configure",), ("activate", "configure")])
+def test_the_transitions_that_a_lifecycle_node_makes_by_itself(
+    harness: RclHarness, transitions: tuple[str, ...]
+) -> None:
+    found = harness.trace(f"managed self {len(transitions)}")
+    assert (found.outcome.status, found.outcome.answers, found.transitions) == ("spinning", (), transitions)
+
+
 def test_a_lifecycle_node_that_refuses_to_be_configured_is_left_alone(harness: RclHarness) -> None:
     found = harness.trace("managed fail")
     assert (found.outcome.status, set(ends(found))) == ("spinning", {("publisher", "made")})

@@ -195,7 +195,8 @@ ROS2_NODES = {
         class Managed(LifecycleNode):
             def on_configure(self, state):
                 self.out = self.create_lifecycle_publisher(String, 'managed', 1)
-                return TransitionCallbackReturn.SUCCESS
+                assert not self.out.is_activated and state == (state.label, state.state_id)
+                return super().on_configure(state)
 
         def main():
             rclpy.init()
@@ -261,15 +262,78 @@ def _names(file: Path, *, imported: bool) -> set[str]:
 
 
 def test_lifecycle_nodes_are_activated(tmp_path: Path) -> None:
-    """The wheels have no lifecycle_msgs, so there is no real one to compare with."""
     harness = Ros2Harness(tmp_path, several=ROS2_NODES["several"])
-    _, stood_in = both_of_ros2(harness, "several")
+    real, stood_in = both_of_ros2(harness, "several")
     assert stood_in.outcome.status == "spinning"
-    assert ("publisher", "managed", "std_msgs/msg/String") in own(stood_in) or (
-        "publisher",
-        "/robot/managed",
-        "std_msgs/msg/String",
-    ) in own(stood_in)
+    assert own(stood_in) == own(real)
+    assert {end.name.rpartition("/")[2] for end in stood_in.endpoints if end.builtin} >= {"change_state", "get_state"}
+
+
+LIFECYCLE = """
+import rclpy
+from rclpy.lifecycle import Node, Publisher, SimpleManagedEntity, State, TransitionCallbackReturn
+from std_msgs.msg import String
+
+class Part(SimpleManagedEntity):
+    @SimpleManagedEntity.when_enabled
+    def make(self, node):
+        node.create_publisher(String, 'made_by_part', 1)
+
+class Managed(Node):
+    def __init__(self):
+        super().__init__('managed')
+        self.part = Part()
+        self.add_managed_entity(self.part)
+
+    def on_configure(self, state: State):
+        self.out = self.create_lifecycle_publisher(String, 'out', 1)
+        assert isinstance(self.out, Publisher) and not self.out.is_activated
+        self.part.make(self)
+        return {configured}
+
+    def on_activate(self, state: State):
+        result = super().on_activate(state)
+        self.create_subscription(String, 'active' if self.out.is_activated else 'never', print, 1)
+        self.part.make(self)
+        return result
+
+    def on_error(self, state):
+        self.create_publisher(String, 'mended', 1)
+        return TransitionCallbackReturn.SUCCESS
+
+def main():
+    rclpy.init()
+    node = Managed()
+    {itself}
+    rclpy.spin(node)
+"""
+_SUCCESS = "TransitionCallbackReturn.SUCCESS"
+
+
+@pytest.mark.parametrize(
+    ("configured", "itself", "transitions", "made"),
+    [
+        (_SUCCESS, "", (), {"out", "active", "made_by_part"}),
+        (_SUCCESS, "node.trigger_configure()", ("configure",), {"out", "active", "made_by_part"}),
+        (
+            _SUCCESS,
+            "node.trigger_configure(); node.trigger_activate()",
+            ("activate", "configure"),
+            {"out", "active", "made_by_part"},
+        ),
+        ("TransitionCallbackReturn.FAILURE", "", (), {"out"}),
+        ("1 / 0", "", (), {"out", "mended"}),
+    ],
+)
+def test_what_a_lifecycle_node_does_in_its_transitions(
+    tmp_path: Path, configured: str, itself: str, transitions: tuple[str, ...], made: set[str]
+) -> None:
+    body = LIFECYCLE.replace("{configured}", configured).replace("{itself}", itself)
+    real, stood_in = both_of_ros2(Ros2Harness(tmp_path, managed=body), "managed")
+    assert seen(stood_in) == seen(real)
+    assert stood_in.transitions == real.transitions == transitions
+    assert {end.name for end in real.endpoints if not (end.builtin or end.inferred)} == made
+    assert [end.type for end in real.endpoints if end.name == "~/change_state"] == ["lifecycle_msgs/srv/ChangeState"]
 
 
 def test_actions_of_ros2_have_their_type(tmp_path: Path) -> None:

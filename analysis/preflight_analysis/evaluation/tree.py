@@ -346,6 +346,10 @@ class StateChange(NamedTuple):
         return self.node in (None, node.name)
 
 
+ANY_CHANGE = StateChange(None, None, None)
+"""What code may ask for that is not known."""
+
+
 @dataclass(frozen=True, slots=True)
 class LaunchTree(Once):
     """What the launcher would start from `file`. `inputs` maps every file that was read (launch files, YAML, ...)

@@ -32,10 +32,6 @@ _KNOWN = frozenset(
 )
 """Executables that are lifecycle nodes, in every distribution, and wait to be activated."""
 _LOAD = "composition_interfaces/srv/LoadNode"
-_UNRUN = frozenset({"event_handler", "opaque", "timer"})
-"""What a Python launch file that was not run does not tell of."""
-_CODE = frozenset({"opaque_coroutine", "function"})
-"""What its run does not tell of either."""
 _SET = re.compile(r"\blifecycle\s+set\s+(\S+)\s+(\w+)")
 """`ros2 lifecycle set /node configure`, in a shell as well."""
 _TO_ACTIVE = ("configure", "activate")
@@ -131,13 +127,9 @@ def _by_commands(context: Context) -> Mapping[str, set[str]]:
 
 
 def _others_may_act(context: Context) -> bool:
-    """Whether something may activate nodes of which it is not known which: code, another command line, a client of the
+    """Whether something may activate nodes of which it is not known which: another command line, a client of the
     service."""
     if any(node.kind == "process" and not _SET.search(node.args) for node in context.tree.nodes):
         return True
     services = context.graph.services.values() if context.graph is not None else ()
-    if any(end.endpoint.type == CHANGE_STATE for channel in services for end in channel.consumers):
-        return True
-    files = (file for file in context.launch_files.values() if file.root is not None)
-    acting = ((file.root.walk(), _CODE | _UNRUN if file.partial else _CODE) for file in files if file.root is not None)
-    return any(action.kind in kinds for actions, kinds in acting for action in actions)
+    return any(end.endpoint.type == CHANGE_STATE for channel in services for end in channel.consumers)

@@ -33,7 +33,7 @@ from preflight_analysis.evaluation.ros2.state import Added, State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.ros2.written import is_from_yaml
-from preflight_analysis.evaluation.tree import Condition, NotTaken
+from preflight_analysis.evaluation.tree import ANY_CHANGE, Condition, NotTaken
 from preflight_analysis.launch.configurations import configurations_of
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
@@ -46,6 +46,8 @@ MAX_INCLUDES = 2_000
 MAX_DEPTH_OF_PARTS = 24
 """Of includes within each other; what is deeper is evaluated where it is, as Python's stack has an end."""
 _MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml}
+_UNREAD = frozenset({"event_handler", "opaque", "timer"})
+"""Actions of which the text of a Python file does not tell what is in them."""
 _SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
 """What can be said of a Python launch file that was not run."""
 
@@ -157,6 +159,8 @@ class Walk:
                     at = place.location(action.head_span)
                     self.state.note_unknown(action.kind, "what it does is not known", at)
                 continue
+            if place.partial and action.kind in _UNREAD:
+                self.state.state_changes.append(ANY_CHANGE)
             if self.applies(performer, action):
                 error = action.value("error")
                 if error is not None:
