@@ -154,8 +154,10 @@ def test_another_controller_is_named_but_not_put_in_its_place() -> None:
     (finding,) = check(f"""
         <launch>
           <node pkg="p" type="t" name="arm"/>
-          <node pkg="p" type="t" name="till"><remap from="follow" to="fast_arm/follow_joint_trajectory"/></node>
-                                                                      ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT001] did you mean '/arm/follow_joint_trajectory'
+          <node pkg="p" type="t" name="till">
+            <remap from="follow" to="fast_arm/follow_joint_trajectory"/>
+                                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[ACT001] did you mean '/arm/follow_joint
+          </node>
         </launch>
         //- interfaces
         {{"/arm": {server("arm/follow_joint_trajectory", "m/FollowAction")},

@@ -330,9 +330,10 @@ class Edited:
 
 
 class StateChange(NamedTuple):
-    """A transition that the launch asks a lifecycle node for: `configure`, `activate`, ..., "" for one that ends it, None
-    where it is not known. The node is that of the full name `node`, or what the action of a Python launch file made that
-    has the number at the end of `made_by`, after the file and what leads to that; where both are None it may be any."""
+    """A transition that the launch asks a lifecycle node for: `configure`, `activate`, ..., "" for one that ends it,
+    None where it is not known. The node is that of the full name `node`, or what the action of a Python launch file
+    made that has the number at the end of `made_by`, after the file and what leads to that; it may be any where both
+    are None."""
 
     transition: str | None
     node: str | None

@@ -182,8 +182,8 @@ def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
 
 
 def annotated(node: str, traced: Interface, action: Action) -> Interface:
-    """`traced`, or where the run did not reach the event loop, what it saw together with what `action` annotates; `node` is its full
-    name."""
+    """`traced`, or where the run did not reach the event loop, what it saw together with what `action` annotates.
+    `node` is its full name."""
     if traced.complete:
         return traced
     annotation, _ = read_annotation(action)

@@ -63,9 +63,9 @@ class Catalogued:
 def from_catalogue(
     tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment, kept: Kept
 ) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last: to what a run did not tell, as
-    there was none or it ended early, is added what the catalogue says. A package of the workspace is what it is there,
-    whatever others of its name do."""
+    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last: to what a run did not tell,
+    as there was none or it ended early, is added what the catalogue says. A package of the workspace is what it is
+    there, whatever others of its name do."""
     if not any(map(_lacks, interfaces)):
         return interfaces
     distro = distribution_of(tree.generation, environment.distro)

@@ -40,9 +40,9 @@ RULE = Rule(
     severity="info",
     what="Checks for a lifecycle node, such as a server of Nav2, that no `lifecycle_manager` of the launch has in "
     "its `node_names`, and that neither its own code nor an event of the launch (`ChangeState`, `LifecycleTransition`) "
-    "nor `ros2 lifecycle set` activates. A node that is only configured is reported, too. The finding is a warning if all "
-    "nodes are known and none can activate another. Other commands and functions of the launch file may activate the "
-    "node: then there is no finding.",
+    "nor `ros2 lifecycle set` activates. A node that is only configured is reported, too. The finding is a warning if "
+    "all nodes are known and none can activate another. Other commands and functions of the launch file may activate "
+    "the node: then there is no finding.",
     why="A lifecycle node starts unconfigured. It publishes nothing and serves only its state changes until another "
     "node configures and activates it.",
     example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>',

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from itertools import chain, compress
+from itertools import compress
 from typing import NamedTuple
 
 from preflight_analysis.evaluation import names
@@ -38,8 +38,8 @@ _TO_ACTIVE = ("configure", "activate")
 
 
 class Inactive(NamedTuple):
-    """A lifecycle node that nothing brings to the state `active`. `lacking` is the first transition that nothing asks it
-    for, of those that it needs."""
+    """A lifecycle node that nothing brings to the state `active`. `lacking` is the first transition of those that it
+    needs that nothing asks it for."""
 
     node: LaunchNode
     lacking: str

@@ -136,8 +136,8 @@ def _has_unknown_frames(interface: Interface) -> bool:
 
 
 def _may_activate_itself_later(interface: Interface) -> bool:
-    """Whether a run showed a lifecycle node that did not activate itself: a callback may do so that the run did not wait
-    for."""
+    """Whether a run showed a lifecycle node that did not activate itself: a callback may do so that the run did not
+    wait for."""
     managed = any(end.type == CHANGE_STATE and end.role == "service" for end in interface.endpoints)
     return managed and interface.source == "trace" and "activate" not in interface.transitions
 

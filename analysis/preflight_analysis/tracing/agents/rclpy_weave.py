@@ -1,8 +1,8 @@
 """What is woven into which module of rclpy.
 
 Each endpoint (`rclpy_endpoints`) and declared parameter (`rclpy_parameters`) is sent with the name that the node gave
-it. Lifecycle nodes (`rclpy_lifecycle`) are configured and activated once they reach their event loop (`rclpy_loop`), which
-is where their topics are made; waits for other nodes are answered (`rclpy_waits`).
+it. Lifecycle nodes (`rclpy_lifecycle`) are configured and activated once they reach their event loop (`rclpy_loop`),
+which is where their topics are made; waits for other nodes are answered (`rclpy_waits`).
 """
 
 from __future__ import annotations
