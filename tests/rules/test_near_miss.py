@@ -52,6 +52,7 @@ def _context(topics: dict[str, Channel], nodes: list[Any], before: Kept | None =
         channels=lambda kind: topics if kind == "topics" else {},
         blind=0,
         tree=SimpleNamespace(nodes=nodes),
+        is_of_unknown=lambda kind, name: False,
         domains=Domains(),
     )
     context = SimpleNamespace(kept=Kept(before), graph=graph)
