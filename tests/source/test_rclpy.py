@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.tracing.interface import CHANGE_STATE, NOT_RUN, Interface, Range
+from preflight_analysis.tracing.interface import CHANGE_STATE, KINDS, NOT_RUN, Interface, Range
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -101,7 +101,7 @@ def interface(
 def test_a_node_of_a_class_of_its_own(tmp_path: Path) -> None:
     found = interface(tmp_path)
     assert found.source == "source"
-    assert sorted((e.role, e.name, e.type) for e in found.endpoints) == [
+    assert sorted((e.role, e.name, e.type) for e in found.endpoints if not e.builtin) == [
         ("action_server", "navigate", "nav2_msgs/action/NavigateToPose"),
         ("client", "/global/reset", "std_srvs/srv/Empty"),
         ("publisher", "map", "nav_msgs/msg/OccupancyGrid"),
@@ -146,12 +146,12 @@ def test_who_is_given_the_node_may_make_more_with_it(tmp_path: Path) -> None:
         gives = f"        self.declare_parameter('service', True)\n        part = {part}\n        part.node = self\n"
         base = BASE.replace("        self.declare_parameter('service', True)\n", gives)
         whole[name] = interface(tmp_path / name, base=base + "\n\nclass Part:\n    pass\n").whole
-    assert whole == {"known": True, "unknown": False}
+    assert whole == {"known": KINDS, "unknown": ()}
 
 
 def test_what_the_launch_file_sets_decides(tmp_path: Path) -> None:
     found = interface(tmp_path, LAUNCH.replace('name="cmd_topic" value="drive"', 'name="service" value="false"'))
-    assert not any(e.role == "service" for e in found.endpoints)
+    assert not any(e.role == "service" and not e.builtin for e in found.endpoints)
     assert any(e.name == "cmd_vel" for e in found.endpoints)
 
 
