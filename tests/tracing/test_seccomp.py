@@ -58,7 +58,13 @@ def test_the_program_on_each_processor(
     assert answer(clone, 0x003D0F00) == ALLOW, "a thread"
     assert answer(clone, 17) == ALLOW, "a fork"
     assert answer(clone, 0x10000000 | 17) == refused(errno.EPERM)
-    assert answer(ioctl, 0, 0x5413) == ALLOW
+    terminals, size, waiting, flags, descriptors = 0x5413, 0x541B, 0x8905, 0x80086601, 0x5451
+    assert [answer(ioctl, 0, which) for which in (terminals, size, waiting, flags, descriptors)] == [ALLOW] * 5
+    changes = (0x40086602, 0x40046602, 0x401C5820, 0x40087602, 0x40047602, 0x40086604, 0x40806685, 0xC0406618)
+    assert [answer(ioctl, 0, which) for which in changes] == [refused(errno.ENOTTY)] * len(changes)
+    assert answer(ioctl, 0, 1 << 32 | 0x40086602) == refused(errno.ENOTTY)
+    control = 25 if machine == "aarch64" else 72
+    assert [answer(control, 3, which) for which in (3, 6, 1024, 1026, 1040)] == [ALLOW] * 2 + [refused(errno.EPERM)] * 3
     assert answer(ioctl, 0, 0x5412) == refused(errno.EPERM)
     assert answer(ioctl, 0, 1 << 32 | 0x5412) == refused(errno.EPERM), "the kernel looks at the lower half only"
     assert [answer(socket, family) for family in (1, 2, 10, 16)] == [ALLOW] * 4
@@ -93,6 +99,18 @@ def test_the_program_for_the_hosts_name_spaces() -> None:
             assert answer(numbers) == ask, name
         for name, numbers in seccomp._REFUSED.items():
             assert numbers[column] is None or answer(numbers) == refused(errno.EPERM), name
+        opened, relative, write, create, truncate = (2, None), (257, 56), 1, 0o100, 0o1000
+        for flags, expected in (
+            (truncate, refused(errno.EPERM)),
+            (truncate | create, refused(errno.EPERM)),
+            (truncate | write | create, ALLOW),
+            (truncate | 2, ALLOW),
+            (create, ALLOW),
+            (0, ALLOW),
+        ):
+            assert answer(relative, 3, 0, flags) == expected
+            assert opened[column] is None or answer(opened, 0, flags) == expected
+        assert answer((437, 437)) == refused(errno.ENOSYS)
         made, pair, sent, control = (41, 198), (53, 199), (44, 206), (72, 25)
         stream, datagram, raw, ordered, closing = 1, 2, 3, 5, 0o2000000
         no_such = refused(errno.EPROTONOSUPPORT)

@@ -105,6 +105,13 @@ _CLONE_NEWTIME = 0x80
 """Not in clone, where these bits are the signal at the end."""
 _TIOCSTI, _TIOCLINUX = 0x5412, 0x541C
 """Input put into a terminal, as if typed."""
+_CONTROL_TYPES = (0x5400, 0x8900)
+"""The types of the controls (`ioctl`) that everything but a file has: terminals, pipes, timers and sockets."""
+_CONTROLS = (2, 0x80086601, 0x801C581F, 0xC020660B, 0x80045200)
+"""FIGETBSZ, FS_IOC_GETFLAGS, FS_IOC_FSGETXATTR, FS_IOC_FIEMAP and RNDGETENTCNT, which only ask. What changes a file's
+flags, version or keys needs no more than to have it open for reading, in each file system by numbers of its own."""
+_F_SETLEASE, _F_NOTIFY, _F_SETDELEG = 1024, 1026, 1040
+"""Have the host's programs wait until the holder of a file lets it go; signal what becomes of a folder."""
 _FAMILIES = (0, 1, 2, 10, 16)
 """AF_UNSPEC, UNIX, INET, INET6, and NETLINK, by which the C library lists interfaces. Of the others some are not
 confined by a network name space: AF_VSOCK leads from a virtual machine to its host."""
@@ -128,7 +135,7 @@ _EPERM = _ERRNO | errno.EPERM
 _LOOKED_AT = (
     _Argument((56, 220), 0, any_bit, (_NEW_NAMESPACES,), _EPERM, _ALLOW),  # clone
     _Argument((272, 97), 0, any_bit, (_NEW_NAMESPACES | _CLONE_NEWTIME,), _EPERM, _ALLOW),  # unshare
-    _Argument((16, 29), 1, equal, (_TIOCSTI, _TIOCLINUX), _EPERM, _ALLOW),  # ioctl
+    _Argument((72, 25), 1, equal, (_F_SETLEASE, _F_NOTIFY, _F_SETDELEG), _EPERM, _ALLOW),  # fcntl
     _Argument((41, 198), 0, equal, _FAMILIES, _ALLOW, _ERRNO | errno.EAFNOSUPPORT),  # socket
     _Argument((135, 92), 0, equal, _PERSONALITIES, _ALLOW, _EPERM),  # personality
 )
@@ -197,6 +204,12 @@ _ASKED = {
     "prlimit64": (302, 261),
 }
 """What the process that holds the filter's listener decides (`landlock_launcher`): where to, or whom."""
+_OPENAT2 = (437, 437)
+_OPENS = (((2, None), 1), ((257, 56), 2))
+"""open, openat, and which argument has the flags."""
+_ACCESS_MODE_AND_TRUNCATE, _TRUNCATE = 0o1003, 0o1000
+"""O_TRUNC empties a file that is opened for reading, too, which Landlock does not see before its version 3."""
+_CONTROL = (16, 29)
 _SOCKET, _SOCKETPAIR = (41, 198), (53, 199)
 _MSG_FASTOPEN = 0x20000000
 _SENDS = (((44, 206), 3), ((46, 211), 2), ((307, 269), 3))
@@ -205,6 +218,8 @@ _F_SETOWN, _F_SETOWN_EX, _FIOSETOWN, _SIOCSPGRP = 8, 15, 0x8901, 0x8902
 """Whom the kernel signals when something can be read."""
 _STREAM, _RAW, _SEQPACKET, _TYPE = 1, 3, 5, 0xF
 _TCP = 6
+_SOCKET_DIAGNOSIS = 4
+"""Of netlink: how much is in a socket, for who counts memory. No other family has streams of this number."""
 _AF_UNIX, _AF_NETLINK = 1, 16
 
 
@@ -227,6 +242,7 @@ def program(machine: str, shared: bool = False) -> bytes | None:
             code += _answered(numbers[column], answer)
     if shared:
         code += _shared(column)
+    code += _controls(column)
     for call in _LOOKED_AT:
         code += [
             equal(call.numbers[column], otherwise="other call"),
@@ -251,6 +267,27 @@ def _answered(number: int | None, answer: int) -> list[Line]:
     return [] if number is None else [equal(number, otherwise="other call"), give(answer), "other call"]
 
 
+def _controls(column: int) -> list[Line]:
+    """The part for `ioctl`: what is not on the list fails as with a file that has no such control."""
+    which = load(_argument(1))
+    return [
+        equal(_CONTROL[column], otherwise="other call"),
+        which,
+        equal(_TIOCSTI, then="typed"),
+        equal(_TIOCLINUX, then="typed"),
+        mask(0xFF00),
+        *(equal(kind, then="allowed") for kind in _CONTROL_TYPES),
+        which,
+        *(equal(control, then="allowed") for control in _CONTROLS),
+        give(_ERRNO | errno.ENOTTY),
+        "typed",
+        give(_EPERM),
+        "allowed",
+        give(_ALLOW),
+        "other call",
+    ]
+
+
 def _shared(column: int) -> list[Line]:
     """The part for processes in the host's name spaces; what it lets pass goes on to what follows."""
     code: list[Line] = []
@@ -261,7 +298,20 @@ def _shared(column: int) -> list[Line]:
     for numbers, at in _SENDS:
         code += _refused_if(numbers[column], at, any_bit, (_MSG_FASTOPEN,), _ERRNO | errno.EOPNOTSUPP)
     code += _refused_if((72, 25)[column], 1, equal, (_F_SETOWN, _F_SETOWN_EX), _EPERM)  # fcntl
-    code += _refused_if((16, 29)[column], 1, equal, (_FIOSETOWN, _SIOCSPGRP), _EPERM)  # ioctl
+    code += _refused_if(_CONTROL[column], 1, equal, (_FIOSETOWN, _SIOCSPGRP), _EPERM)
+    code += _answered(_OPENAT2[column], _ERRNO | errno.ENOSYS)  # has its flags in memory
+    for opens, at in _OPENS:
+        if (number := opens[column]) is not None:
+            code += [
+                equal(number, otherwise="other call"),
+                load(_argument(at)),
+                mask(_ACCESS_MODE_AND_TRUNCATE),
+                equal(_TRUNCATE, otherwise="passes"),
+                give(_EPERM),
+                "passes",
+                load(_NUMBER),
+                "other call",
+            ]
     family, kind, protocol = (_argument(index) for index in range(3))
     refuse = give(_ERRNO | errno.EPROTONOSUPPORT)
     # Streams; messages in order between Unix sockets; netlink. No datagrams: those need no connection to be refused.
@@ -283,6 +333,7 @@ def _shared(column: int) -> list[Line]:
         load(protocol),
         equal(0, then="passes"),
         equal(_TCP, then="passes"),
+        equal(_SOCKET_DIAGNOSIS, then="passes"),
         refuse,
         "passes",
         load(_NUMBER),
