@@ -21,14 +21,14 @@ sys.path.insert(0, {tests!r})
 from preflight_analysis.tracing import sandbox
 from support.tracing_harness import trace, write_node
 workspace, outside = map(Path, sys.argv[1:3])
-places = [workspace / "chroot/proc", outside / "proc 2", workspace / "chroot/sys"]
-for place, kind in zip(places, ("proc", "proc", "sysfs")):
-    place.mkdir(parents=True)
+places = [workspace / "chroot/proc", outside / "proc 2", workspace / "chroot/sys", workspace / "chroot/sys/kernel"]
+for place, kind in zip(places, ("proc", "proc", "sysfs", "proc")):
+    place.mkdir(parents=True, exist_ok=True)
     subprocess.run(["mount", "-t", kind, kind, place], check=True)
 node = '''
 import json, os, sys
 seen = {{}}
-for place in sys.argv[1:4]:
+for place in sys.argv[1:5]:
     try:
         seen[place] = [name for name in os.listdir(place) if name.isdigit() or name in ("self", "kernel")]
     except OSError as error:
@@ -58,17 +58,15 @@ def test_a_second_proc_is_hidden(tmp_path: Path, backend: str) -> None:
             place.rmdir()
     assert done.returncode == 0, done.stderr
     told = dict(line.split(" ", 1) for line in json.loads(done.stdout) if line.startswith(("seen ", "own ")))
-    assert told["own"] == "True"
+    assert told.get("own") == "True", done.stdout
     seen = json.loads(told["seen"])
-    assert len(seen) == 3
-    if backend == "landlock":  # knows folders by what they are, and this is the one that is `/sys`
-        assert seen.pop(f"{workspace}/chroot/sys") == ["kernel"]
+    assert len(seen) == 4
     assert [place for place, names in seen.items() if names] == []
 
 
 def test_what_the_kernel_says_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As proc(5) has it: any number of optional fields, and characters of names as octal numbers."""
-    for name in ("a b", "home/w/proc", "c"):
+    for name in ("a b/within", "home/w/proc", "c"):
         (tmp_path / name).mkdir(parents=True)
     table = tmp_path / "mountinfo"
     table.write_text(
@@ -78,9 +76,24 @@ def test_what_the_kernel_says_is_read(tmp_path: Path, monkeypatch: pytest.Monkey
         f"4 0 0:4 / {tmp_path}/home/w/proc rw - cgroup2 none rw\n"
         f"5 0 0:5 / {tmp_path}/c rw - ext4 /dev/vda rw\n"
         f"6 0 0:6 / {tmp_path}/gone rw - proc proc rw\n"
+        f"7 0 0:7 / {tmp_path}/a\\040b/within rw - cgroup cgroup rw\n"
     )
     monkeypatch.setattr(mounts, "_TABLE", table)
+    monkeypatch.setattr(mounts, "_DEVICES", tmp_path / "sys")
     home = f"{tmp_path}/home"
     assert mounts.leading_out([], [home]) == [f"{tmp_path}/a b"]
     (tmp_path / "link").symlink_to(f"{home}/w")
     assert mounts.leading_out([f"{tmp_path}/link"], [home]) == [f"{tmp_path}/a b", f"{tmp_path}/link/proc"]
+
+
+def test_what_names_the_machine_is_hidden_wherever_it_lies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As sysfs has it: a class has links to its devices, each in a folder of that class below what it is part of."""
+    devices = tmp_path / "sys"
+    for kind, place in (("net", "pci0/net/eth0"), ("net", "virtual/net/lo"), ("dmi", "virtual/dmi/id")):
+        (devices / "devices" / place).mkdir(parents=True)
+        (devices / "class" / kind).mkdir(parents=True, exist_ok=True)
+        (devices / "class" / kind / Path(place).name).symlink_to(devices / "devices" / place)
+    monkeypatch.setattr(mounts, "_DEVICES", devices)
+    monkeypatch.setattr(mounts, "_TABLE", Path(os.devnull))
+    hidden = ["class/dmi", "class/net", "devices/pci0/net", "devices/virtual/dmi", "devices/virtual/net"]
+    assert mounts.leading_out([], []) == [f"{devices}/{path}" for path in hidden]

@@ -66,8 +66,8 @@ def _options(view: View, folder: str) -> list[str]:
     if os.getuid() == 0:
         # What is root's it could change everywhere. Others are not allowed to have /tmp back.
         options += ["--read-only=/", f"--read-write={_TMP}", f"--read-write={home}", "--read-write=/dev/shm"]
-    else:
-        options += [f"--read-only={entry.path}" for entry in _folders("/") if not _kept(entry.path, (_TMP, home))]
+    # `/` alone would be the file system that is mounted there, without those that are mounted below.
+    options += [f"--read-only={entry.path}" for entry in _folders("/") if not _kept(entry.path, (_TMP, home))]
     options += [f"--read-only={path}" for path in (folder, *shown)]
     for root in view.masks:
         if root not in (_TMP, home):
