@@ -252,7 +252,7 @@ if os.geteuid() == 0:
     os.setuid(65534)
     sys.executable = "/usr/bin/python3"
     sandbox.forget()
-    cgroup.place.cache_clear()
+    cgroup.places.cache_clear()
     compiled.copies.cache_clear()
     os.environ["XDG_CACHE_HOME"] = str(folder / "users")
 print(os.geteuid() != 0, sandbox.probe().backend, home.seen(*paths))

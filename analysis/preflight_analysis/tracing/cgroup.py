@@ -1,9 +1,9 @@
-"""A control group around each run where RLIMIT_NPROC does not bind, which is as root: how many processes and how much
-memory.
+"""Control groups around each run: how much memory it may have in all, whatever kind of memory that is, and how many
+processes where RLIMIT_NPROC does not bind, which is as root.
 
 Made beside or below the group that this process is in, where it may be and where whoever runs the machine has already
-handed the controller down; nothing of others is changed. Where that is not so, `place` finds nothing, and the
-supervisor inside counts instead: see `docs/security.md`.
+handed the controllers down (systemd does so for its users' sessions); nothing of others is changed. Where that is not
+so, `places` finds nothing, and the supervisor inside counts instead: see `docs/security.md`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import contextlib
 import errno
 import itertools
 import os
+import subprocess
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -21,35 +22,51 @@ from preflight_analysis.tracing.once_per_process import once_per_process
 
 _PREFIX = "ros-preflight-"
 _REMOVAL_SECONDS = 0.5
+_TRIED_BYTES = 64 << 20
 _numbers = itertools.count()
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A group below which a run's own can be made, and whether memory is counted there."""
+    """A group below which a run's own can be made, and what is counted there. `version` is that of the interface."""
 
     folder: Path
+    processes: bool
     memory: bool
+    version: int
 
 
 @once_per_process
-def place() -> Place | None:
-    """Where to make groups, tried out once per process; None where it is not possible or not needed."""
-    if os.geteuid() != 0:
-        return None
+def places() -> tuple[Place, ...]:
+    """Where to make groups, tried out once per process: one for all that can be counted, at most two with version 1,
+    none where it is not possible."""
     try:
         memberships = Path("/proc/self/cgroup").read_text()
         mounts = Path("/proc/self/mountinfo").read_text()
     except OSError:
-        return None
-    for found in candidates(memberships, mounts):
-        try:
-            _remove_left_over(found.folder)
-            with group(found, 1, 1 << 20):
-                return found
-        except OSError:
-            continue
-    return None
+        return ()
+    found: list[Place] = []
+    # One that counts memory comes first, even if it is farther away.
+    for each in sorted(candidates(memberships, mounts), key=lambda each: not each.memory):
+        new = (each.memory and not any(o.memory for o in found)) or (
+            each.processes and not any(o.processes for o in found)
+        )
+        if new and _works(each):
+            found.append(each)
+            if each.version == 2:
+                break
+    return tuple(found)
+
+
+def _works(place: Place) -> bool:
+    """Whether a process can be put into a group that is made there."""
+    try:
+        _remove_left_over(place.folder)
+        with groups([place], 16, _TRIED_BYTES) as made:
+            argv = entering(made, ["/bin/true"])
+            return subprocess.run(argv, capture_output=True, env={}, timeout=5, check=False).returncode == 0
+    except (OSError, subprocess.TimeoutExpired):
+        return False
 
 
 def candidates(memberships: str, mounts: str) -> Iterator[Place]:
@@ -63,46 +80,73 @@ def candidates(memberships: str, mounts: str) -> Iterator[Place]:
     for line in memberships.splitlines():
         _, _, rest = line.partition(":")
         named, _, path = rest.partition(":")
-        for controller in named.split(","):
-            if controller not in ("", "pids") or controller not in mounted:
-                continue
-            root, top = mounted[controller]
-            inside = os.path.relpath(path, root)
-            if ".." in path.split("/") or ".." in inside.split("/"):
-                continue  # outside of what is mounted here
-            own = Path(os.path.normpath(top / inside))
-            if controller == "pids":
-                yield Place(own, memory=False)
-                continue
-            for folder in (own, *own.parents):
-                with contextlib.suppress(OSError):
-                    handed_down = (folder / "cgroup.subtree_control").read_text().split()
-                    if "pids" in handed_down:
-                        yield Place(folder, memory="memory" in handed_down)
-                if folder == top:
-                    break
+        controllers = [each for each in named.split(",") if each in ("", "pids", "memory") and each in mounted]
+        if not controllers:
+            continue
+        root, top = mounted[controllers[0]]
+        inside = os.path.relpath(path, root)
+        if ".." in path.split("/") or ".." in inside.split("/"):
+            continue  # outside of what is mounted here
+        own = Path(os.path.normpath(top / inside))
+        if controllers != [""]:
+            yield Place(own, "pids" in controllers, "memory" in controllers, 1)
+            continue
+        for folder in (own, *own.parents):
+            with contextlib.suppress(OSError):
+                handed_down = (folder / "cgroup.subtree_control").read_text().split()
+                if "pids" in handed_down or "memory" in handed_down:
+                    yield Place(folder, "pids" in handed_down, "memory" in handed_down, 2)
+            if folder == top:
+                break
 
 
 @contextlib.contextmanager
-def group(below: Place, processes: int, memory: int) -> Iterator[Path]:
-    """A group for one run, for as long as the block lasts, with at most so many processes and, where memory is counted
-    there, bytes of it. Raises `OSError` if it cannot be made."""
-    folder = below.folder / f"{_PREFIX}{os.getpid()}-{next(_numbers)}"
-    folder.mkdir()
+def groups(below: Sequence[Place], processes: int, memory: int) -> Iterator[list[Path]]:
+    """Groups for one run, for as long as the block lasts, with at most so many processes and bytes of memory, as far as
+    these are counted there. Raises `OSError` if they cannot be made."""
+    made: list[Path] = []
     try:
-        (folder / "pids.max").write_text(str(processes))
-        if below.memory:
-            (folder / "memory.max").write_text(str(memory))
-            with contextlib.suppress(OSError):  # a kernel without swap accounting
-                (folder / "memory.swap.max").write_text("0")
-        yield folder
+        for place in below:
+            folder = place.folder / f"{_PREFIX}{os.getpid()}-{next(_numbers)}"
+            folder.mkdir()
+            made.append(folder)
+            if place.processes:
+                (folder / "pids.max").write_text(str(processes))
+            if place.memory:
+                most, with_swap, swap = _MEMORY[place.version]
+                (folder / most).write_text(str(memory))
+                with contextlib.suppress(OSError):  # a kernel without swap accounting
+                    (folder / with_swap).write_text(str(swap if swap is not None else memory))
+        yield made
     finally:
-        _remove(folder)
+        for folder in made:
+            _remove(folder)
 
 
-def entering(folder: Path, argv: Sequence[str]) -> list[str]:
-    """The command line that puts itself into the group and becomes `argv`, or ends if it cannot."""
-    return ["/bin/sh", "-c", 'echo $$ > "$0" && exec "$@"', str(folder / "cgroup.procs"), *argv]
+_MEMORY = {
+    1: ("memory.limit_in_bytes", "memory.memsw.limit_in_bytes", None),
+    2: ("memory.max", "memory.swap.max", 0),
+}
+"""The files with the limits of memory, and of what with it or without it goes to swap: None for the same."""
+
+
+def ran_out(made: Sequence[Path]) -> bool:
+    """Whether the kernel ended a process of a group for its memory."""
+    for folder in made:
+        for name in ("memory.oom_control", "memory.events"):
+            with contextlib.suppress(OSError):
+                for line in (folder / name).read_text().splitlines():
+                    if line.startswith("oom_kill ") and line.split()[1] != "0":
+                        return True
+    return False
+
+
+def entering(made: Sequence[Path], argv: Sequence[str]) -> list[str]:
+    """The command line that puts itself into the groups and becomes `argv`, or ends if it cannot."""
+    command = list(argv)
+    for folder in made:
+        command = ["/bin/sh", "-c", 'echo $$ > "$0" && exec "$@"', str(folder / "cgroup.procs"), *command]
+    return command
 
 
 def _remove(folder: Path) -> None:

@@ -392,7 +392,7 @@ def _result(raw: run.RawRun, ended: _Ended) -> CommandResult:
     if ended.status == "too-long" or raw.dropped:
         limit = f"{run.COMMAND_BYTES >> 20} MiB"
         return CommandResult("not-run", reason=f"it printed more than {limit}", stderr_tail=tail)
-    if ended.status in ("crowded", "heavy", "full"):
+    if ended.status in ("crowded", "heavy", "full", "watching") or (raw.out_of_memory and ended.code != 0):
         return CommandResult("not-run", reason="it needed more than the sandbox gives it", stderr_tail=tail)
     if ended.status == "exec-failed":
         return CommandResult("failed", reason=f"it cannot be started: {ended.why}", stderr_tail=tail)

@@ -12,7 +12,7 @@ from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, tellin
 from preflight_analysis.tracing.recipe import missing_interpreter
 from preflight_analysis.tracing.records import CONTROL, NAME, Gathered, checked_text, is_number
 from preflight_analysis.tracing.request import TraceRequest
-from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, RawRun
+from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, WATCHERS, WATCHES, RawRun
 
 TAIL_LINES = 20
 TAIL_COLUMNS = 500
@@ -44,6 +44,8 @@ def outcome_of(raw: RawRun, found: Gathered, tail: tuple[str, ...], request: Tra
     if raw.cancelled:
         return Outcome("not-run", reason="the run was cancelled")
     end = found.end
+    if raw.out_of_memory and (end is None or end.get("status") == "ended"):
+        end = {"status": "heavy"}
     if end is None:
         if raw.killed:
             return Outcome("timed-out", None, None, tail, "the sandbox did not end in time and was killed")
@@ -67,6 +69,9 @@ def outcome_of(raw: RawRun, found: Gathered, tail: tuple[str, ...], request: Tra
         case "full":
             reason = f"it wrote more than {DISK_BYTES >> 20} MiB and was stopped"
             return Outcome("crashed", None, None, tail, reason, spent)
+        case "watching":
+            reason = f"it watched more than {WATCHES} files and folders, or by more than {WATCHERS} inotify instances"
+            return Outcome("crashed", None, None, tail, f"{reason}, and was stopped", spent)
         case "exec-failed":
             return Outcome("crashed", 127, None, tail, f"the executable cannot be started: {_why(end, request)}", spent)
         case "ended" if is_number(code) and 0 < -code < 65:

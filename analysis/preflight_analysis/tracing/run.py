@@ -19,7 +19,7 @@ from dataclasses import field
 from typing import IO, Any
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.tracing import backend, interior, sandbox
+from preflight_analysis.tracing import backend, cgroup, interior, sandbox
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 from preflight_analysis.tracing.parameter_server import encode_params
@@ -64,6 +64,9 @@ _PROCESSES_SHARED = 8192
 
 DISK_BYTES = 256 << 20
 """What a run may write where that goes to the disk."""
+WATCHERS, WATCHES = 32, 2000
+"""How many instances of inotify a run may have, and how much it may watch with them: the user has some 128 and, with
+older kernels, 8,192."""
 
 _LEASH_SECONDS = 8.0
 """How long a run that is let go may take to end."""
@@ -83,6 +86,8 @@ class RawRun:
     cancelled: bool = False
     killed: bool = False
     """The outer clock ran out."""
+    out_of_memory: bool = False
+    """The kernel ended a process for the memory that the run had in all."""
     started: float = 0.0
     """Seconds since the epoch."""
     moved: Mapping[str, str] = field(default_factory=dict)
@@ -163,6 +168,7 @@ def _execute(
             raw.stderr = moved_back(raw.stderr, raw.moved)
             _end(process, prepared.isolated.leash)
             process.wait()
+            raw.out_of_memory = cgroup.ran_out(prepared.groups)
             for pipe in (process.stdout, process.stderr):
                 if pipe is not None:
                     pipe.close()
@@ -178,6 +184,8 @@ def _sandbox(start: sandbox.Start) -> dict[str, Any]:
         "most_processes": sandbox.PROCESSES if start.counting else None,
         "most_memory": sandbox.most_memory(),
         "most_disk": DISK_BYTES,
+        "most_watchers": WATCHERS,
+        "most_watches": WATCHES,
         "written": isolated.written,
         "alone": isolated.alone,
         "filter": isolated.filter.hex(),

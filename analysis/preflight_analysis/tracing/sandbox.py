@@ -14,6 +14,7 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import bubblewrap, cgroup, firejail, interior, landlock, seccomp
@@ -48,7 +49,8 @@ class SandboxStatus:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """How to run something isolated: `command` is that of `isolated`, put into a control group where there is one.
+    """How to run something isolated: `command` is that of `isolated`, put into the control groups `groups`, as far as
+    there are some.
 
     `counting`: nothing outside binds the number of processes, the supervisor inside has to look after it.
     """
@@ -56,6 +58,7 @@ class Start:
     command: list[str]
     counting: bool
     isolated: Isolated
+    groups: Sequence[Path]
 
 
 def probe() -> SandboxStatus:
@@ -134,11 +137,10 @@ def _prepared(chosen: Backend, argv: Sequence[str], visible: Visible, agents: Ag
         visible.texts,
     )
     with chosen.isolated(argv, view) as found, contextlib.ExitStack() as at_end:
-        command, place = found.command, cgroup.place()
-        if place is not None:
-            command = cgroup.entering(at_end.enter_context(cgroup.group(place, PROCESSES, most_memory())), command)
-        counting = place is None and (os.geteuid() == 0 or not found.own_users)
-        yield Start(command, counting, found)
+        places = cgroup.places()
+        groups = at_end.enter_context(cgroup.groups(places, PROCESSES, most_memory()))
+        counting = not any(each.processes for each in places) and (os.geteuid() == 0 or not found.own_users)
+        yield Start(cgroup.entering(groups, found.command), counting, found, groups)
 
 
 def most_memory() -> int:
@@ -150,14 +152,14 @@ def _guarantees(chosen: Backend) -> tuple[str, ...]:
     """What of docs/security.md depends on the machine, as it is here."""
     machine = seccomp.this_machine()
     calls = f"system calls filtered ({machine})" if machine else f"no filter of system calls for {os.uname().machine}"
-    place = cgroup.place()
-    if place is not None:
+    places = cgroup.places()
+    if any(each.processes for each in places):
         count = f"at most {PROCESSES} processes, by a control group"
     elif os.geteuid() == 0 or chosen.name != "bubblewrap":
         count = f"no limit of processes that binds; a run is ended once it has more than {PROCESSES}"
     else:
         count = f"at most {PROCESSES} processes, by RLIMIT_NPROC"
     memory = f"a run is ended once it has more than {most_memory() / (1 << 30):.1f} GiB of memory"
-    if place is not None and place.memory:
+    if any(each.memory for each in places):
         memory += ", and gets no more by a control group"
     return (*chosen.guarantees, calls, count, memory)

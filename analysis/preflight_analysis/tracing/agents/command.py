@@ -20,8 +20,8 @@ PIECE = 36_000
 
 
 def watch(run: Run, events: int) -> None:
-    """Run the job's command and tell how it ended: `ended`, `exec-failed`, `timed-out`, `too-long`, `crowded`, `heavy`
-    or `abandoned`."""
+    """Run the job's command and tell how it ended: `ended`, `exec-failed`, `timed-out`, `too-long`, `crowded`, `heavy`,
+    `full`, `watching` or `abandoned`."""
     read, write = os.pipe()
     wake, failure = start(run, write)
     os.close(write)

@@ -1,12 +1,14 @@
 """Which processes there are in the sandbox, and how many, with how much memory and disk where nothing outside limits
-them."""
+them, and how much of what the user has only so many of."""
 
 from __future__ import annotations
 
 import os
 import stat
 import time
-from typing import Optional
+from typing import Any, Optional
+
+from . import memory
 
 _FORKED = "/proc/loadavg"
 """Its last field is the last process number given in this pid namespace (proc(5))."""
@@ -14,38 +16,88 @@ _INTERVAL = 0.1
 """Seconds between looks at memory and disk."""
 
 
-class ProcessLimits:
-    """Looks at all processes of the sandbox, each as often as it is worth. A limit of None: none. `alone`: there are no
-    others to be seen. `folders` are those that the sandbox may write to, where nothing outside bounds them: file
-    systems of its own if it is alone, else folders on the host's disk."""
+class Open:
+    """What processes have open, each thing once, as far as it matters here."""
 
-    def __init__(
-        self,
-        most_processes: Optional[int],
-        most_memory: Optional[int],
-        alone: bool,
-        folders: list[str],
-        most_disk: int,
-    ) -> None:
-        self.most_processes = most_processes
-        self.most_memory = most_memory
-        self.most_disk = most_disk
-        self.alone = alone
-        self.folders = folders
+    def __init__(self, processes: list[int]) -> None:
+        self.nameless: dict[tuple[int, int], int] = {}
+        """Bytes of files that have no name any more, by device and inode."""
+        self.sockets: set[int] = set()
+        self.pipes: set[int] = set()
+        self.watchers = self.watches = 0
+        """Instances of inotify, and the files and folders that they watch; those that a process inherited count for
+        it, too."""
+        self.in_flight = False
+        """Whether descriptors wait in a socket for somebody to take them: nobody has them open meanwhile."""
+        for process in processes:
+            folder = "/proc/%d/fd/" % process
+            try:
+                names = os.listdir(folder)
+            except OSError:
+                continue
+            for name in names:
+                try:
+                    self._add(process, name, os.stat(folder + name))
+                except OSError:
+                    continue
+
+    def _add(self, process: int, name: str, status: os.stat_result) -> None:
+        kind = stat.S_IFMT(status.st_mode)
+        if kind == stat.S_IFREG and not status.st_nlink:
+            self.nameless[status.st_dev, status.st_ino] = status.st_blocks * 512
+        elif kind == stat.S_IFSOCK:
+            self.sockets.add(status.st_ino)
+            self.in_flight = self.in_flight or any(
+                line.startswith("scm_fds:") and line.split()[1] != "0" for line in _about(process, name)
+            )
+        elif kind == stat.S_IFIFO:
+            self.pipes.add(status.st_ino)
+        elif kind == 0 and os.readlink("/proc/%d/fd/%s" % (process, name)) == "anon_inode:inotify":
+            self.watchers += 1
+            self.watches += sum(line.startswith("inotify") for line in _about(process, name))
+
+
+def _about(process: int, name: str) -> list[str]:
+    with open("/proc/%d/fdinfo/%s" % (process, name)) as file:
+        return file.readlines()
+
+
+class ProcessLimits:
+    """Looks at all processes of the sandbox, each as often as it is worth. Of the job: `most_processes` and
+    `most_memory`, None for no limit; `most_disk`; `most_watchers` and `most_watches`. `alone`: there are no others to
+    be seen. `written` are the folders that the sandbox may write to, where nothing outside bounds them: file systems
+    of its own if it is alone, else folders on the host's disk."""
+
+    def __init__(self, job: dict[str, Any]) -> None:
+        self.most_processes: Optional[int] = job["most_processes"]
+        self.most_memory: Optional[int] = job["most_memory"]
+        self.most_disk: int = job["most_disk"]
+        self.most_watchers: int = job["most_watchers"]
+        self.most_watches: int = job["most_watches"]
+        self.alone: bool = job["alone"]
+        self.folders: list[str] = job["written"]
+        self.file_systems = memory.own_file_systems() if self.alone else []
+        self.files_before = sum(map(memory.used, self.file_systems))
+        self.shared_before = memory.shared_on_machine()
         self.next_look = 0.0
 
     def exceeded(self) -> str:
         """`crowded` if there are too many processes and threads, `heavy` if they have too much memory, `full` if they
-        wrote too much, else ""."""
+        wrote too much, `watching` if they watch too many files, else ""."""
         if self.most_processes is not None and self._crowded(self.most_processes):
             return "crowded"
         now = time.monotonic()
-        if now >= self.next_look:
-            self.next_look = now + _INTERVAL
-            if self.most_memory is not None and self._heavy(self.most_memory):
-                return "heavy"
-            if self.folders and self._written() > self.most_disk:
-                return "full"
+        if now < self.next_look:
+            return ""
+        self.next_look = now + _INTERVAL
+        processes = self._processes()
+        opened = Open(processes)
+        if self.most_memory is not None and self._heavy(self.most_memory, processes, opened):
+            return "heavy"
+        if self.folders and self._written(opened) > self.most_disk:
+            return "full"
+        if opened.watchers > self.most_watchers or opened.watches > self.most_watches:
+            return "watching"
         return ""
 
     def left_behind(self, ours: Optional[int]) -> list[int]:
@@ -76,39 +128,41 @@ class ProcessLimits:
                 continue
         return count > most
 
-    def _heavy(self, most: int) -> bool:
-        """What processes share after a fork counts once; that is looked at only if it would be too much counted
-        twice."""
-        page = os.sysconf("SC_PAGE_SIZE")
-        total = 0
-        processes = self._processes()
-        for process in processes:
-            try:
-                with open("/proc/%d/statm" % process) as file:
-                    fields = file.read().split()
-                total += (int(fields[1]) - int(fields[2])) * page
-            except (OSError, ValueError, IndexError):
-                continue
-        return total > most and _proportional(processes) > most
+    def _heavy(self, most: int, processes: list[int], opened: Open) -> bool:
+        """What costs more to find out is looked at only where it could matter."""
+        devices = self._devices()
+        files = {key: size for key, size in opened.nameless.items() if key[0] not in devices}
+        private, mapped = memory.private(processes)
+        shared = sum(files.values()) + memory.pipe_buffers(len(opened.pipes))
+        shared += memory.socket_buffers(opened.sockets, self.alone)
+        if self.alone:
+            shared += sum(map(memory.used, self.file_systems)) - self.files_before + memory.system_v()
+        if mapped > most:
+            known = {"%02x:%02x %d" % (os.major(device), os.minor(device), inode) for device, inode in files}
+            mappings = memory.shared_mappings(processes)
+            shared += sum(size for key, size in mappings.items() if key not in known)
+        if private + shared > most and memory.proportional(processes) + shared > most:
+            return True
+        # What is in no process's hands is seen in the sum of the machine alone.
+        return opened.in_flight and private + memory.shared_on_machine() - self.shared_before > most
 
-    def _written(self) -> int:
-        """Bytes on disk, files without a name that somebody still holds among them."""
-        total = sum(map(_used if self.alone else _size, self.folders))
-        nameless = {}
-        for process in self._processes():
-            opened = "/proc/%d/fd" % process
+    def _devices(self) -> set[int]:
+        """Those of the folders that it may write to and of its own file systems."""
+        found = set()
+        for folder in (*self.folders, *self.file_systems):
             try:
-                names = os.listdir(opened)
+                found.add(os.stat(folder).st_dev)
             except OSError:
                 continue
-            for name in names:
-                try:
-                    found = os.stat(opened + "/" + name)
-                except OSError:
-                    continue
-                if stat.S_ISREG(found.st_mode) and not found.st_nlink:
-                    nameless[found.st_dev, found.st_ino] = found.st_blocks * 512
-        return total + sum(nameless.values())
+        return found
+
+    def _written(self, opened: Open) -> int:
+        """Bytes on disk, files without a name that somebody still holds among them."""
+        if self.alone:
+            return sum(map(memory.used, self.folders))
+        devices = self._devices()
+        nameless = sum(size for (device, _), size in opened.nameless.items() if device in devices)
+        return sum(map(_size, self.folders)) + nameless
 
 
 def everybody() -> list[int]:
@@ -142,14 +196,6 @@ def descendants(ancestor: int) -> list[int]:
     return found
 
 
-def _used(folder: str) -> int:
-    try:
-        found = os.statvfs(folder)
-    except OSError:
-        return 0
-    return (found.f_blocks - found.f_bfree) * found.f_frsize
-
-
 def _size(folder: str) -> int:
     total, waiting = 0, [folder]
     while waiting:
@@ -160,18 +206,5 @@ def _size(folder: str) -> int:
                     if entry.is_dir(follow_symlinks=False):
                         waiting.append(entry.path)
         except OSError:
-            continue
-    return total
-
-
-def _proportional(processes: list[int]) -> int:
-    total = 0
-    for process in processes:
-        try:
-            with open("/proc/%d/smaps_rollup" % process) as file:
-                for line in file:
-                    if line.startswith("Pss_Anon:"):
-                        total += int(line.split()[1]) * 1024
-        except (OSError, ValueError, IndexError):
             continue
     return total

@@ -48,9 +48,7 @@ class Run:
 
     def __init__(self, job: dict[str, Any]) -> None:
         self.job = job
-        self.process_limits = ProcessLimits(
-            job["most_processes"], job["most_memory"], job["alone"], job["written"], job["most_disk"]
-        )
+        self.process_limits = ProcessLimits(job)
         self.lock = threading.Lock()
         self.sent: set[str] = set()
         self.count = 0
