@@ -58,19 +58,41 @@ def in_the_extension() -> set[str]:
     return {f"vscode-client/src/{path.name}" for path in users if path.name != "processes.ts"}
 
 
-def listed() -> set[str]:
+def named_programs() -> set[str]:
+    """Programs that the code names by their paths, or looks for on the `PATH`, to be part of some command line."""
+    found = set()
+    for package in PACKAGES:
+        for path in package.rglob("*.py"):
+            if path.is_relative_to(INSIDE):
+                continue
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Call) and ast.unparse(node.func) == "shutil.which":
+                    found |= {each.value for each in node.args if isinstance(each, ast.Constant)}
+                elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    found |= {node.value} if re.fullmatch(r"/(usr/)?s?bin/[\w.+-]+", node.value) else set()
+    return {name if name == "/bin/sh" else name.rpartition("/")[2] for name in map(str, found)}
+
+
+def listed(column: int = 1) -> set[str]:
     page = (ROOT / "docs/security.md").read_text(encoding="utf-8")
     section = page.split("## What is started outside of the sandbox")[1].split("\n## ")[0]
     return {
         name
         for row in section.splitlines()
         if row.startswith("| `")
-        for name in re.findall("`([^`]+)`", row.split("|")[1])
+        for name in re.findall("`([^`]+)`", row.split("|")[column])
     }
 
 
 def test_the_list_is_complete_and_true() -> None:
     assert in_python() | in_the_extension() == listed()
+
+
+def test_every_program_that_is_part_of_a_command_line_is_listed() -> None:
+    """Also what only comes before another: a shell that enters a control group."""
+    programs = named_programs()
+    assert "/bin/sh" in programs
+    assert programs - listed(2) == set()
 
 
 def test_ways_to_start_a_program_are_seen() -> None:

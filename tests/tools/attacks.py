@@ -19,6 +19,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import textwrap
 import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing
@@ -26,6 +27,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 
+import pytest
 from preflight_analysis.tracing import sandbox
 from support.tracing_harness import planted_key, trace, write_node
 
@@ -110,6 +112,32 @@ attempt("workspace-fchmod")(lambda: os.fchmod(os.open(precious, os.O_RDONLY), 0o
 attempt("workspace-chown")(lambda: os.chown(precious, os.getuid(), os.getgid()))
 attempt("workspace-utime")(lambda: os.utime(precious, (1, 1)))
 attempt("workspace-xattr")(lambda: os.setxattr(precious, "user.x", b"x"))
+attempt("workspace-empty")(lambda: os.open(precious, os.O_RDONLY | os.O_TRUNC))
+def control(numbers, given):
+    import fcntl
+    last = None
+    for number in numbers:
+        for path in (precious, work):
+            try:
+                return fcntl.ioctl(os.open(path, os.O_RDONLY), number, given)
+            except OSError as error:
+                last = error
+    raise last
+attempt("workspace-flags")(lambda: control((0x40086602, 0x40046602), struct.pack("=Q", 0x80)))
+attempt("workspace-flags-extended")(lambda: control((0x401C5820,), struct.pack("=I24x", 0x40)))
+attempt("workspace-version")(lambda: control((0x40087602, 0x40047602, 0x40086604), struct.pack("=Q", 7)))
+attempt("workspace-verity")(lambda: control((0x40806685,), struct.pack("=IIII112x", 1, 1, 4096, 0)))
+attempt("workspace-encryption")(lambda: control((0x800C6613, 0xC0406618, 0xC0506617), bytes(80)))
+def fcntl_of(path, *given):
+    import fcntl
+    fcntl.fcntl(os.open(path, os.O_RDONLY), *given)
+attempt("workspace-lease")(lambda: fcntl_of(precious, 1024, 0))
+attempt("workspace-delegation")(lambda: fcntl_of(work, 1040, struct.pack("=IHH", 0, 0, 0)))
+attempt("workspace-notify")(lambda: fcntl_of(work, 1026, 0x1F))
+def lock():
+    import fcntl
+    fcntl.flock(os.open(precious, os.O_RDONLY), fcntl.LOCK_EX | fcntl.LOCK_NB)
+attempt("workspace-lock")(lock)
 attempt("workspace-new")(lambda: os.mkdir(precious + "3"))
 attempt("core-pattern")(lambda: open("/proc/sys/kernel/core_pattern", "w"))
 attempt("device")(lambda: os.mknod(os.environ["HOME"] + "/disk", 0o60600, os.makedev(8, 0)))
@@ -149,6 +177,8 @@ attempt("multipath-tcp")(connect_multipath)
 attempt("virtual-machine-socket")(lambda: socket.socket(40, socket.SOCK_STREAM))
 attempt("unix-socket")(lambda: connect(socket.AF_UNIX, socket.SOCK_STREAM, given["editors"]))
 attempt("unix-socket-in-workspace")(lambda: connect(socket.AF_UNIX, socket.SOCK_STREAM, given["workspaces"]))
+for name in ("renamed", "linked", "moved", "relative"):
+    attempt("unix-socket-" + name)(lambda: connect(socket.AF_UNIX, socket.SOCK_STREAM, given[name]))
 attempt("abstract-socket")(lambda: connect(socket.AF_UNIX, socket.SOCK_STREAM, given["abstract"]))
 def log():
     socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)[0].sendto(b"x", given["log"])
@@ -165,8 +195,15 @@ attempt("terminal-input")(lambda: call((16, 29), 0, 0x5412))
 attempt("fifo-write")(lambda: os.open(given["fifo"], os.O_WRONLY | os.O_NONBLOCK))
 attempt("second-proc")(lambda: any(n.isdigit() for n in os.listdir(given["proc"])))
 attempt("second-proc-root")(lambda: os.listdir("%s/%d/root" % (given["proc"], host)))
-attempt("linked-home")(lambda: open(work + "/linked/id_ed25519").read())
+attempt("second-disk-write")(lambda: open(os.path.dirname(given["proc"]) + "/disk/" + given["name"], "w"))
+attempt("linked-home")(lambda: open(work + "/keys/id_ed25519").read())
 attempt("git-config")(lambda: open(work + "/.git/config").read())
+attempt("interfaces")(lambda: set(os.listdir("/sys/class/net")) - {"lo"} != set())
+def addresses():
+    found = [path for path in given["addresses"] if os.path.exists(path) and open(path).read().strip()]
+    return found != []
+attempt("interface-addresses")(addresses)
+attempt("interfaces-by-netlink")(lambda: {name for _, name in socket.if_nameindex()} - {"lo"} != set())
 attempt("environment-token")(lambda: os.environ.get("PREFLIGHT_TOKEN") is not None)
 attempt("environment-address")(lambda: any("user:pw" in value for value in os.environ.values()))
 attempt("shared-memory-of-host")(lambda: call((30, 196), given["segment"], 0, 0o10000))
@@ -176,6 +213,86 @@ text = json.dumps(found)
 for start in range(0, len(text), 400):
     print("part", text[start:start + 400], file=sys.stderr)
 """
+
+GREED = {
+    "memory-private": "kept.append(bytearray(b'x') * size)",
+    "memory-file": "kept.append(os.memfd_create('x')); os.write(kept[-1], bytes(size))",
+    "memory-mapped": """
+kept.append(mmap.mmap(-1, size))
+kept[-1].write(bytes(size))
+kept[-1].madvise(mmap.MADV_DONTNEED)
+""",
+    "memory-file-systems": """
+for folder in ("/tmp", "/dev/shm", "/var/tmp", "/run", os.path.expanduser("~"), os.environ.get("TMPDIR", "/")):
+    try:
+        with open("%s/%d" % (folder, n), "wb", 0) as file:
+            kept.append(file.write(bytes(size)))
+    except OSError:
+        pass
+""",
+    "memory-sockets": """
+sent = 0
+while sent < size:
+    kept += socket.socketpair()
+    sent += fill(kept[-1])
+""",
+    "memory-closed-sockets": """
+sent = 0
+while sent < size:
+    end, other = socket.socketpair()
+    kept.append(other)
+    sent += fill(end)
+    end.close()
+""",
+    "memory-in-flight": """
+file = os.memfd_create("x")
+os.write(file, bytes(size))
+kept += kept or socket.socketpair()
+socket.send_fds(kept[0], [b"x"], [file])
+os.close(file)
+""",
+    "memory-of-system-v": """
+segment = libc.shmget(0, size, 0o1600)
+if segment < 0:
+    raise PermissionError("refused")
+at = libc.shmat(segment, None, 0)
+ctypes.memset(at, 1, size)
+libc.shmdt(ctypes.c_void_p(at))
+""",
+    "inotify-instances": "kept.append(libc.inotify_init1(0))",
+    "inotify-watches": """
+kept = kept or [libc.inotify_init1(0)]
+for m in range(100):
+    path = "%s/%d-%d" % (os.path.expanduser("~"), n, m)
+    os.mkdir(path)
+    libc.inotify_add_watch(kept[0], path.encode(), 2)
+""",
+}
+"""What takes more and more of something that the machine or its user has, in turns, each of 8 MiB if it is memory."""
+GREEDY = """
+import ctypes, mmap, os, resource, socket, sys, time
+libc = ctypes.CDLL(None)
+libc.shmat.restype = ctypes.c_void_p
+kept, size = [], 8 << 20
+
+def fill(end):
+    sent = 0
+    end.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4 << 20)
+    end.setblocking(False)
+    try:
+        while True:
+            sent += end.send(bytes(1 << 16))
+    except BlockingIOError:
+        return sent
+
+for n in range(60):
+    {turn}
+    time.sleep(0.01)
+time.sleep(0.5)
+sys.exit(3)
+"""
+GREEDY_BYTES = 150 << 20
+"""How much memory such a node may have."""
 
 
 def documented() -> dict[str, dict[str, set[str]]]:
@@ -194,11 +311,35 @@ def _silent(receiver: socket.socket) -> bool:
     return False
 
 
+@contextlib.contextmanager
+def _sockets_with_other_names(folder: Path, streams: list[socket.socket]) -> Iterator[dict[str, str]]:
+    """Listeners in the workspace that the kernel knows by a name that they do not have any more, or not only, or not
+    whole. They are added to `streams`."""
+    other = folder / "other"
+    other.mkdir()
+    found = {name: str(folder / name) for name in ("renamed", "linked", "relative")} | {"moved": str(other / "moved")}
+    with ExitStack() as at_end:
+        for name in found:
+            streams.append(at_end.enter_context(closing(socket.socket(socket.AF_UNIX))))
+            if name == "relative":
+                before = os.getcwd()
+                os.chdir(folder)
+                streams[-1].bind(name)
+                os.chdir(before)
+            else:
+                streams[-1].bind(str(folder / f"{name}-at-first"))
+            streams[-1].listen()
+        os.rename(folder / "renamed-at-first", found["renamed"])
+        os.link(folder / "linked-at-first", found["linked"])
+        os.rename(folder / "moved-at-first", found["moved"])
+        yield found
+
+
 def attack(folder: Path, proc: str = "") -> dict[str, str]:
     """Run the node in an empty folder, with the backend that the environment chooses: how each attempt ended.
 
-    Raises `AssertionError` if the host was touched. `proc` is a second procfs of the host's; without one, which only
-    root can mount, that is not tried.
+    Raises `AssertionError` if the host was touched. `proc` is a second procfs of the host's, with a disk beside it;
+    without one, which only root can mount, that is not tried.
     """
     name = f"preflight-{uuid.uuid4().hex[:10]}"
     precious = folder / "precious"
@@ -219,10 +360,11 @@ def attack(folder: Path, proc: str = "") -> dict[str, str]:
             stream.bind(address)
             stream.listen()
         at_end.callback(os.unlink, sockets["editors"])
+        sockets |= at_end.enter_context(_sockets_with_other_names(folder, streams))
         log = at_end.enter_context(closing(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)))
         log.bind(f"/tmp/{name}.log")
         at_end.callback(os.unlink, f"/tmp/{name}.log")
-        (folder / "linked").symlink_to(key.parent)
+        (folder / "keys").symlink_to(key.parent)
         (folder / ".git").mkdir()
         (folder / ".git" / "config").write_text("token")
         os.mkfifo(folder / "pipe")
@@ -247,6 +389,7 @@ def attack(folder: Path, proc: str = "") -> dict[str, str]:
             "segment": 0,
             "fifo": str(folder / "pipe"),
             "proc": proc or "/nonexistent",
+            "addresses": [os.path.realpath(path) for path in Path("/sys/class/net").glob("[!l]*/address")],
         }
         secrets = {"PREFLIGHT_TOKEN": "secret", "ROS_PACKAGES_FROM": "https://user:pw@example.org/"}
         outcome = trace(write_node(folder, NODE), args=(json.dumps(given),), variables=secrets).outcome
@@ -257,12 +400,39 @@ def attack(folder: Path, proc: str = "") -> dict[str, str]:
     after = precious.stat()
     for what in ("st_mode", "st_uid", "st_mtime", "st_nlink", "st_ctime"):
         assert getattr(after, what) == getattr(before, what), f"{what} of a file of the workspace was changed"
-    assert sorted(path.name for path in folder.iterdir()) == [".git", "linked", "node.py", "pipe", "precious", "s"]
+    assert sorted(path.name for path in folder.iterdir()) == sorted(
+        [
+            ".git",
+            "keys",
+            "linked",
+            "linked-at-first",
+            "node.py",
+            "other",
+            "pipe",
+            "precious",
+            "relative",
+            "renamed",
+            "s",
+        ]
+    )
     places = (Path.home(), Path("/tmp"), Path("/etc"), Path("/var/tmp"), Path("/dev/shm"), Path("/"))
     assert not [place for place in places if (place / name).exists()]
     said = [line.partition(" ")[2] for line in outcome.stderr_tail if line.startswith("part ")]
     found: dict[str, str] = json.loads("".join(said))
-    return found if proc else {case: ended for case, ended in found.items() if not case.startswith("second-proc")}
+    return found if proc else {case: ended for case, ended in found.items() if not case.startswith("second-")}
+
+
+def take(folder: Path, what: str) -> str:
+    """Run the node that takes too much of something, in a folder of its own, where it may have `GREEDY_BYTES`."""
+    body = GREEDY.format(turn=textwrap.indent(GREED[what], "    ").strip())
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sandbox, "MEMORY_BYTES", GREEDY_BYTES)
+        outcome = trace(write_node(folder, body)).outcome
+    if outcome.exit_code == 3:
+        return "done"
+    if outcome.exit_code == 1:
+        return "EPERM" if "PermissionError" in str(outcome.reason) else str(outcome.reason)
+    return "ended" if str(outcome.reason).endswith("was stopped") else str(outcome.reason)
 
 
 # As whom
@@ -283,6 +453,9 @@ def attack_all(proc: str) -> dict[str, dict[str, str]]:
                 found[name] = attack(Path(folder), proc)
             except AssertionError as error:
                 found[name] = {"": f"the host was touched: {error}"}
+        for what in GREED:
+            with tempfile.TemporaryDirectory(prefix="preflight-attack-", dir="/tmp") as folder:
+                found[name][what] = take(Path(folder), what)
     return found
 
 
@@ -337,15 +510,20 @@ def wrong(found: Mapping[str, str], backend: str) -> dict[str, str]:
 
 @contextlib.contextmanager
 def _second_proc() -> Iterator[str]:
-    """A procfs where chroots have theirs, in the mount name space of this process."""
+    """A procfs where chroots have theirs, and beside it a disk that everybody may write to, in the mount name space of
+    this process."""
     outside = Path(f"/opt/ros-preflight-{os.getpid()}")
     place = outside / "proc"
-    place.mkdir(parents=True)
-    subprocess.run(["mount", "-t", "proc", "proc", place], check=True)
+    disk = outside / "disk"
+    for folder, kind in ((place, ("proc",)), (disk, ("tmpfs", "-o", "mode=1777"))):
+        folder.mkdir(parents=True)
+        subprocess.run(["mount", "-t", *kind, kind[0], folder], check=True)
     try:
         yield str(place)
+        assert list(disk.iterdir()) == []
     finally:
-        subprocess.run(["umount", "--lazy", place], check=False)
+        for folder in (place, disk):
+            subprocess.run(["umount", "--lazy", folder], check=False)
         shutil.rmtree(outside, ignore_errors=True)
 
 
