@@ -8,9 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment import git as environment_git
+from preflight_analysis.environment import revision as environment_revision
 from preflight_analysis.environment.git import GitError, open_repository
-from preflight_analysis.environment.revision import find_revision, write_revision
+from preflight_analysis.environment.revision import NoRevisionError, Revision, find_revision, write_revision
 from preflight_server.cli.changes import changed_since
+from preflight_server.cli.errors import CannotDoError
 
 AUTHOR = {f"GIT_{who}_{what}": "a@b" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
 
@@ -208,3 +211,136 @@ def test_without_a_repository(tmp_path: Path) -> None:
     (tmp_path / ".git").mkdir()
     with pytest.raises(GitError, match="HEAD' does not exist"), open_repository(str(tmp_path)):
         pass
+
+
+def bomb(repository: Path, levels: int) -> None:
+    """A tree whose folders are all the same one, ten in each: ten to the power of so many files."""
+    name = git(repository, "rev-parse", "HEAD:a.launch")
+    entry = f"100644 blob {name}\t"
+    for _ in range(levels):
+        listed = "".join(f"{entry}{number}\n" for number in range(10))
+        made = subprocess.run(
+            ["git", "-C", str(repository), "mktree"], input=listed, capture_output=True, text=True, check=True
+        )
+        entry = f"040000 tree {made.stdout.strip()}\t"
+    commit = git(repository, "commit-tree", made.stdout.strip(), "-m", "bomb")
+    git(repository, "update-ref", "refs/heads/bomb", commit)
+
+
+def test_more_files_than_any_disk_has(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Git is stopped at what it prints, or at what it keeps in mind."""
+    repository, folder = make(tmp_path / "repository"), tmp_path / "folder"
+    folder.mkdir()
+    bomb(repository, 12)
+    monkeypatch.setattr(environment_git, "_MOST_BYTES", 1 << 20)
+    monkeypatch.setattr(environment_git, "_MOST_MEMORY", 64 << 20)
+    revision = Revision(str(repository), git(repository, "rev-parse", "bomb"), "0")
+    with pytest.raises(NoRevisionError, match="git does not answer: it prints more than 1 MiB"):
+        write_revision(revision, str(folder))
+    with pytest.raises(CannotDoError, match=r"(?i)git: fatal: .*out of memory|git does not answer: it prints"):
+        changed_since("bomb", str(repository))
+
+
+def test_a_file_that_fills_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository, folder = make(tmp_path / "repository"), tmp_path / "folder"
+    folder.mkdir()
+    (repository / "zeros").write_bytes(bytes(3 << 20))
+    git(repository, "add", "-A")
+    git(repository, "commit", "-qm", "m")
+    revision = Revision(str(repository), git(repository, "rev-parse", "HEAD"), "zeros")
+    write_revision(revision, str(folder))
+    assert (folder / "zeros").read_bytes() == bytes(3 << 20)
+    (folder / "again").mkdir()
+    monkeypatch.setattr(environment_revision, "_MOST_BYTES", 2 << 20)
+    with pytest.raises(NoRevisionError, match="are more than"):
+        write_revision(revision, str(folder / "again"))
+    assert not (folder / "again/zeros").exists()
+
+
+@pytest.mark.parametrize("name", ["HEAD", "index"])
+def test_a_file_of_git_with_a_hole_is_not_copied(tmp_path: Path, name: str) -> None:
+    repository = make(tmp_path / "repository")
+    os.truncate(repository / ".git" / name, 1 << 40)
+    with pytest.raises(GitError, match="is too large"), open_repository(str(repository)):
+        raise AssertionError
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "HEAD",
+        "index",
+        "config",
+        "packed-refs",
+        "refs/heads/main",
+        "objects/info/alternates",
+        "info/exclude",
+        "commondir",
+    ],
+)
+def test_what_never_ends_in_the_place_of_a_file_of_git(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """A named pipe that nobody writes to, or a link that leads to itself: an answer or an error, in time."""
+    monkeypatch.setattr(environment_git, "_TIMEOUT", 1)
+    for kind in (os.mkfifo, lambda path: os.symlink(path, path)):
+        repository = make(tmp_path / kind.__name__.strip("<>"))
+        place = repository / ".git" / name
+        place.unlink(missing_ok=True)
+        kind(place)
+        try:
+            assert str(repository / "a.launch") in changed_since("HEAD", str(repository))
+        except CannotDoError as error:
+            assert "git" in str(error) or "is no revision" in str(error)
+
+
+def test_a_repository_that_leads_elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By its `.git` file, alternates, replaced objects and grafts: nothing there is changed, and nothing runs."""
+    other, repository = make(tmp_path / "other"), make(tmp_path / "repository")
+    marker = tmp_path / "ran"
+    filtered("clean")(other, trap(other, marker))
+    before = {path: path.stat().st_mtime_ns for path in (other / ".git").rglob("*")}
+    (repository / ".git/objects/info/alternates").write_text(f"{other}/.git/objects\n{repository}/.git/objects\n/\n")
+    head, blob = (git(repository, "rev-parse", name) for name in ("HEAD", "HEAD:a.launch"))
+    git(repository, "replace", blob, git(repository, "rev-parse", "HEAD:same.launch"))
+    (repository / ".git/info/grafts").write_text(f"{head} {head}\n")
+    assert str(repository / "a.launch") in changed_since("HEAD", str(repository))
+    pointing = tmp_path / "pointing"
+    pointing.mkdir()
+    (pointing / ".git").write_text(f"gitdir: {other}/.git\n")
+    assert str(pointing / "a.launch") in changed_since("HEAD", str(pointing))
+    assert {path: path.stat().st_mtime_ns for path in (other / ".git").rglob("*")} == before
+    assert not marker.exists()
+    for text in (f"gitdir: {pointing}/.git\n", "gitdir: \0\n", "gitdir: \n", "x" * 9000, "gitdir: /proc/self/fd/0\n"):
+        (pointing / ".git").write_text(text)
+        with pytest.raises(CannotDoError):
+            changed_since("HEAD", str(pointing))
+
+
+@pytest.mark.parametrize(
+    "name", ["-x", "--upload-pack=touch ran", "--output=ran", "HEAD\n--output=ran", "@{-1}", ":/x"]
+)
+def test_a_revision_that_looks_like_an_option(tmp_path: Path, name: str) -> None:
+    repository = make(tmp_path / "repository")
+    with pytest.raises(CannotDoError, match="is no revision"):
+        changed_since(name, str(repository))
+    with pytest.raises(NoRevisionError, match="is no revision"):
+        find_revision(f"{name}:a.launch", str(repository))
+    assert not list(tmp_path.rglob("ran"))
+
+
+def test_a_submodule_whose_address_is_an_option(tmp_path: Path) -> None:
+    repository, marker = make(tmp_path / "repository"), tmp_path / "ran"
+    (repository / ".gitmodules").write_text(
+        f'[submodule "-x"]\n\tpath = -x\n\turl = -u./{marker}\n\tupdate = !touch {marker}\n'
+        f'[submodule "../../x"]\n\tpath = inner\n\turl = ext::touch {marker}\n'
+    )
+    git(repository, "update-index", "--add", "--cacheinfo", f"160000,{git(repository, 'rev-parse', 'HEAD')},-x")
+    git(repository, "add", "-A")
+    git(repository, "commit", "-qm", "m")
+    changed_since("HEAD~1", str(repository))
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    write_revision(find_revision("HEAD:a.launch", str(repository)), str(folder))
+    assert not marker.exists()
+    assert not (folder / "-x").exists()

@@ -12,14 +12,21 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import resource
 import shutil
 import subprocess
 import tempfile
+import threading
 from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
 
 _TIMEOUT = 60
+_MOST_BYTES = 256 << 20
+"""What git may print: a tree of a few hundred bytes can have more files than any disk (a "git bomb")."""
+_MOST_MEMORY = 4 << 30
+_MOST_COPIED = 1 << 30
+"""The size of an index or `HEAD`; both may be files with holes."""
 
 # What changes how names, contents and revisions are read, and names no program.
 _HARMLESS = (
@@ -78,6 +85,8 @@ def open_repository(path: str) -> Iterator[Repository]:
             # Copies: git takes no link for HEAD, and `git diff` writes what it found out of files into the index.
             for name in ("HEAD", "index"):
                 if os.path.isfile(os.path.join(own, name)):
+                    if os.path.getsize(os.path.join(own, name)) > _MOST_COPIED:
+                        raise GitError(f"{own}/{name} is too large")
                     shutil.copyfile(os.path.join(own, name), os.path.join(folder, name))
             _configure(os.path.join(folder, "config"), os.path.join(shared, "config"))
         except OSError as error:
@@ -172,20 +181,36 @@ def _variables(*, users: bool = False) -> dict[str, str]:
 
 
 def _run(command: list[str], environment: dict[str, str]) -> bytes:
+    ended: list[str] = []
     try:
-        # Not in a folder of the repository: `git config` looks for one around it, too.
-        done = subprocess.run(
-            command,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            timeout=_TIMEOUT,
-            check=False,
-            env=environment,
-            cwd="/",
-        )
-    except (OSError, subprocess.TimeoutExpired) as error:
+        with (
+            tempfile.TemporaryFile() as errors,
+            # Not in a folder of the repository: `git config` looks for one around it, too.
+            subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, env=environment, cwd="/"
+            ) as git,
+        ):
+            assert git.stdout is not None
+            with contextlib.suppress(OSError):  # it has ended already
+                resource.prlimit(git.pid, resource.RLIMIT_DATA, (_MOST_MEMORY, _MOST_MEMORY))
+
+            def end(why: str) -> None:
+                ended.append(why)
+                git.kill()
+
+            clock = threading.Timer(_TIMEOUT, end, [f"it takes more than {_TIMEOUT} s"])
+            clock.start()
+            said = git.stdout.read(_MOST_BYTES + 1)
+            if len(said) > _MOST_BYTES:
+                end(f"it prints more than {_MOST_BYTES >> 20} MiB")
+            git.wait()
+            clock.cancel()
+            errors.seek(0)
+            complaints = errors.read(4096).decode(errors="replace").strip().splitlines()
+    except OSError as error:
         raise GitError(f"git does not answer: {error}") from None
-    if done.returncode:
-        said = done.stderr.decode(errors="replace").strip().splitlines()
-        raise GitError(f"git: {said[0] if said else command[-1]}")
-    return done.stdout
+    if ended:
+        raise GitError(f"git does not answer: {ended[0]}")
+    if git.returncode:
+        raise GitError(f"git: {complaints[0] if complaints else command[-1]}")
+    return said

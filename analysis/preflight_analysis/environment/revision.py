@@ -10,7 +10,7 @@ import contextlib
 import os
 import re
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
@@ -19,6 +19,9 @@ from preflight_analysis.environment.git import GitError, Repository, open_reposi
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import find_packages
 
+_MOST_BYTES = 4 << 30
+"""The files of a revision together: a few kilobytes of a repository can have as many as they like."""
+_PIECE = 1 << 20
 _COMMIT = re.compile(r"[0-9a-f]{40,64}")
 
 
@@ -85,15 +88,21 @@ def _write_all(repository: Repository, commit: str, folder: str) -> None:
     ) as git:
         assert git.stdin is not None
         assert git.stdout is not None
+        left = _MOST_BYTES
         for mode, name, path in _entries(listed):
             git.stdin.write(name + b"\n")
             git.stdin.flush()
             answer = git.stdout.readline().split()
             if not answer or not answer[-1].isdigit():
                 raise NoRevisionError(f"git does not have {os.fsdecode(path)} of {commit}")
-            content = git.stdout.read(int(answer[-1]))
+            size = int(answer[-1])
+            left -= size
+            if left < 0:
+                git.kill()
+                raise NoRevisionError(f"the files of {commit} are more than {_MOST_BYTES >> 30} GiB")
+            pieces = (git.stdout.read(min(_PIECE, size - at)) for at in range(0, size, _PIECE))
+            _write(folder, os.fsdecode(path), mode, pieces)
             git.stdout.read(1)
-            _write(folder, os.fsdecode(path), mode, content)
 
 
 def environment_at(environment: Environment, repository: str, folder: str) -> Environment:
@@ -149,7 +158,7 @@ def _entries(listed: bytes) -> Iterator[tuple[bytes, bytes, bytes]]:
             yield about.split()[0], about.split()[2], path
 
 
-def _write(top: str, name: str, mode: bytes, content: bytes) -> None:
+def _write(top: str, name: str, mode: bytes, content: Iterable[bytes]) -> None:
     path = os.path.join(top, name)
     parent = os.path.dirname(path)
     # A tree that was made by hand may have a link and a folder of one name.
@@ -157,9 +166,9 @@ def _write(top: str, name: str, mode: bytes, content: bytes) -> None:
         raise NoRevisionError(f"{name} lies behind a link")
     os.makedirs(parent, exist_ok=True)
     if mode == b"120000":
-        os.symlink(content, os.fsencode(path))
+        os.symlink(b"".join(content), os.fsencode(path))
         return
     # Never through a link that the tree has put there.
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o755 if mode == b"100755" else 0o644)
     with open(descriptor, "wb") as file:
-        file.write(content)
+        file.writelines(content)
