@@ -32,10 +32,10 @@ ONCE_PER_PROCESS = {
     "_agents_digest",  # our own code
     "_digest",  # by path and state of the file
     "_in_place_of",  # a folder that the process removes at its end
+    "_installed",  # with us
     "_lying_around",  # by the time of ten seconds, too
     "_masks_for",  # which home folders the machine has
     "_own_code",  # our own code
-    "_own_xacro",  # what was installed with us
     "_package_of",  # of the command, which ends
     "places",  # what the kernel lets us do
     "to_uri",  # the encoding of names of files

@@ -29,6 +29,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 
 import pytest
 from preflight_analysis.tracing import sandbox
+from support.ordinary_user import become, ordinary_user
 from support.tracing_harness import planted_key, trace, write_node
 
 ROOT = Path(__file__).parents[2]
@@ -459,27 +460,12 @@ def attack_all(proc: str) -> dict[str, dict[str, str]]:
     return found
 
 
-@contextlib.contextmanager
-def _user() -> Iterator[str]:
-    """An ordinary user, made for this and removed again; in the user database, as firejail looks there."""
-    name = f"preflight-{os.getpid()}"
-    subprocess.run(["useradd", "--create-home", name], check=True, capture_output=True)
-    try:
-        yield name
-    finally:
-        subprocess.run(["userdel", "--remove", name], check=False, capture_output=True)
-
-
-def _become(name: str) -> list[str]:
-    return ["setpriv", f"--reuid={name}", f"--regid={name}", "--clear-groups"]
-
-
 def _readable_python(name: str) -> list[str]:
     """A Python for another user that has what this one has."""
     site = next(path for path in sys.path if path.endswith("site-packages"))
     path = os.pathsep.join((str(ROOT / "analysis"), str(ROOT / "server"), str(ROOT / "tests"), site))
     for python in (sys.executable, _SYSTEM_PYTHON):
-        probe = [*_become(name), "env", f"PYTHONPATH={path}", python, "-c", "import tools.attacks"]
+        probe = [*become(name), "env", f"PYTHONPATH={path}", python, "-c", "import tools.attacks"]
         if subprocess.run(probe, capture_output=True, check=False, cwd="/").returncode == 0:
             return [f"PYTHONPATH={path}", python]
     raise LookupError("neither this Python nor the system's can be used by another user")
@@ -487,10 +473,10 @@ def _readable_python(name: str) -> list[str]:
 
 def as_user(proc: str) -> dict[str, dict[str, str]]:
     """As an ordinary user; only root can become one."""
-    with _user() as name:
+    with ordinary_user() as name:
         home = pwd.getpwnam(name).pw_dir
         variables = [f"HOME={home}", f"USER={name}", "PATH=/usr/bin:/bin:/usr/games"]
-        command = [*_become(name), "env", "-i", *variables, *_readable_python(name), __file__, "--json", "--proc", proc]
+        command = [*become(name), "env", "-i", *variables, *_readable_python(name), __file__, "--json", "--proc", proc]
         done = subprocess.run(command, capture_output=True, text=True, cwd=home, check=False)
     if done.returncode != 0:
         raise RuntimeError(done.stderr[-3000:])

@@ -11,6 +11,7 @@ import threading
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment import reach
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import interior, recipe, ros1_recipe, sandbox
@@ -150,7 +151,7 @@ def test_what_the_users_own_variables_name_is_shown(home: Home) -> None:
     assert home.seen(f"{home.folder}/.ssh/id_ed25519", ROS_PACKAGE_PATH=f"{home.folder}") == []
 
 
-def reach(environment: Environment, path: str | Path) -> bool:
+def is_shown(environment: Environment, path: str | Path) -> bool:
     """Whether runs of the environment are shown a path."""
     return interior.shown(str(path), recipe.visible_paths(environment))
 
@@ -169,18 +170,18 @@ def test_packages_that_are_installed_by_links_are_shown(home: Home) -> None:
         (top / "install/share" / package / "package.xml").symlink_to(top / "src" / package / "package.xml")
     environment = home.environment(AMENT_PREFIX_PATH=f"{home.folder}/underlay/install")
     for name in ("ws", "underlay"):
-        assert reach(environment, home.folder / name / "install/share" / f"made_{name}" / "package.xml")
-        assert reach(environment, home.folder / name / "src" / f"made_{name}" / "package.xml")
-    assert not reach(home.environment(), home.folder / "underlay/install/share/made_underlay/package.xml")
+        assert is_shown(environment, home.folder / name / "install/share" / f"made_{name}" / "package.xml")
+        assert is_shown(environment, home.folder / name / "src" / f"made_{name}" / "package.xml")
+    assert not is_shown(home.environment(), home.folder / "underlay/install/share/made_underlay/package.xml")
 
 
 def test_a_sourced_workspace_does_not_name_dot_folders(home: Home) -> None:
     """Its set-up script lists what may be a link by now."""
     modules = home.link("install/lib/python3/dist-packages", "../../../../.ssh")
-    assert not reach(home.environment(PYTHONPATH=modules), f"{home.folder}/.ssh/id_ed25519")
+    assert not is_shown(home.environment(PYTHONPATH=modules), f"{home.folder}/.ssh/id_ed25519")
     own = home.folder / ".modules"
     own.mkdir()
-    assert reach(home.environment(PYTHONPATH=str(own)), own)
+    assert is_shown(home.environment(PYTHONPATH=str(own)), own)
 
 
 def test_the_users_interpreters_are_shown(home: Home) -> None:
@@ -209,6 +210,24 @@ def test_the_users_interpreters_are_shown(home: Home) -> None:
     home.link("bin/python3", "../../.ssh/id_ed25519")
     environment = home.environment(PATH=f"{home.workspace}/bin")
     assert not any(".ssh" in os.path.realpath(folder) for folder in environment.named_folders)
+
+
+def test_our_own_interpreter_is_shown_with_what_it_was_made_from(home: Home, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A copy of one whose prefix is the home folder, of which nothing else is shown."""
+    own = home.folder / ".ros-preflight"
+    modules = home.folder / "lib/python3.11"
+    for place in (own / "bin", modules):
+        place.mkdir(parents=True)
+    (own / "pyvenv.cfg").touch()
+    (own / "bin/python3").touch(0o755)
+    for name, value in (("executable", own / "bin/python3"), ("prefix", own), ("base_prefix", home.folder)):
+        monkeypatch.setattr(sys, name, str(value))
+    named = home.environment().named_folders
+    shown = interior.needs_binding(reach.interpreter_paths(sys.executable))
+    for place in (own / "bin/python3", own / "pyvenv.cfg", modules / "os.py"):
+        assert any(interior.within(str(place), folder) for folder in named)
+        assert interior.shown(str(place), shown)
+    assert not interior.shown(f"{home.folder}/other/file.txt", shown)
 
 
 def test_programs_of_the_path_have_all_that_they_need(home: Home) -> None:

@@ -3,48 +3,22 @@
 from __future__ import annotations
 
 import json
-import os
 import platform
 import shutil
 import subprocess
-import sys
-import sysconfig
-import venv
 from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing.preload_compile import MACHINES, WATCHED
+from support.installed_wheel import install, wheel
 
 pytestmark = pytest.mark.ros
 
-REPOSITORY = Path(__file__).parent.parent.parent
-
 
 def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Path, tmp_path: Path) -> None:
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    subprocess.run(
-        [
-            *pip,
-            "wheel",
-            "--no-deps",
-            "--no-build-isolation",
-            "--no-index",
-            "--wheel-dir",
-            str(tmp_path),
-            str(REPOSITORY),
-        ],
-        env={**os.environ, "ROS_PREFLIGHT_PREBUILT": "1"},
-        check=True,
-    )
-    (wheel,) = tmp_path.glob("*.whl")
-    assert wheel.name.endswith("-py3-none-any.whl")
-    installed = tmp_path / "installed"
-    venv.create(installed, symlinks=True)
-    interpreter = installed / "bin" / "python"
-    subprocess.run([*pip, "--python", str(interpreter), "install", "--no-deps", "--no-index", str(wheel)], check=True)
-    # The dependencies are those of this environment; its own link to the sources is not followed from there.
-    (site,) = installed.glob("lib/python3*/site-packages")
-    (site / "dependencies.pth").write_text(sysconfig.get_path("purelib") + "\n")
+    assert wheel().name.endswith("-py3-none-any.whl")
+    interpreter = install(tmp_path / "installed")
+    (site,) = tmp_path.glob("installed/lib/python3*/site-packages")
 
     tools = tmp_path / "tools"
     tools.mkdir()
@@ -62,7 +36,7 @@ def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Pat
         "ROS_PACKAGE_PATH": str(package.parent),
     }
     told = subprocess.run(
-        [str(installed / "bin" / "ros-preflight"), "graph", str(launch_file), "--format", "json"],
+        [str(interpreter.with_name("ros-preflight")), "graph", str(launch_file), "--format", "json"],
         env=variables,
         capture_output=True,
         text=True,

@@ -82,8 +82,7 @@ def named_folders(
     pythons += [python for python in interpreters if python is not None and not _is_below(python, workspaces)]
     for python in (sys.executable, *filter(os.path.exists, pythons)):
         if os.path.basename(os.path.realpath(python)).startswith(("python", "pypy")):
-            # Of `/bin/python3` the prefix is the whole disk.
-            found += [path for path in interpreter_paths(python) if not is_wide(path)]
+            found += interpreter_paths(python)
     return _both(found)
 
 
@@ -97,6 +96,8 @@ def interpreter_paths(python: str) -> list[str]:
         if not os.path.islink(at):
             break
         at = os.path.normpath(os.path.join(os.path.dirname(at), os.readlink(at)))
+    if python == sys.executable:  # it may be a copy, in the environment, of another
+        seen += [*_prefix(sys.prefix), *_prefix(sys.base_prefix)]
     return seen
 
 
@@ -105,7 +106,8 @@ def _prefix(folder: str) -> list[str]:
     libraries: list[str] = []
     with contextlib.suppress(OSError):
         libraries = [os.path.join(library, name) for name in os.listdir(library) if name.startswith("python3")]
-    if os.path.basename(folder) == ".local":  # has much besides Python: key rings, mail
+    # Such a prefix has much besides Python: key rings and mail; of `/bin/python3` it is the whole disk.
+    if os.path.basename(folder) == ".local" or is_wide(folder):
         return libraries
     return [folder] if libraries or os.path.isfile(os.path.join(folder, "pyvenv.cfg")) else []
 

@@ -24,7 +24,7 @@ from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
-from preflight_analysis.catalogue.descriptions import DESCRIPTIONS, is_described
+from preflight_analysis.catalogue.descriptions import is_described
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import source_folders
@@ -265,8 +265,7 @@ class CommandRunner:
         """The run of something else than a command, for which our own code asks the user's interpreter."""
         named = tuple(path for path in (recipe.argv[0], *files) if os.path.isfile(path))
         beyond = recipes.command_paths(self.environment, recipe, recipe.argv[0], named[1:], self._interpreter)
-        ours = interior.needs_binding([str(DESCRIPTIONS)])
-        return _Job(recipe, named, sorted({*self._visible, *beyond, *ours}))
+        return _Job(recipe, named, sorted({*self._visible, *beyond}))
 
     def run_together(self, lines: Sequence[str], cancel: threading.Event) -> list[CommandResult]:
         """The same for the lines of one of `alike`, by one run as far as that is possible."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 import base64
 import errno
 import hashlib
-import importlib.util
 import json
 import os
 import re
@@ -49,7 +48,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
         "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
         "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
-        "own_xacro": _own_xacro(),
+        "own_xacro": own_xacro.module(),
         "descriptions": own_xacro.descriptions_for(environment),
         "assumed": [] if known else sorted(sourced.keys() - environment.variables.keys()),
     }
@@ -61,14 +60,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     fixed |= {name: value for name, value in sourced.items() if name not in recipe.env}
     # What another version of ours told is not to be believed.
     stable = {**recipe.stable, **fixed, "fake_launch": _edition()}
-    return replace(recipe, env={**recipe.env, **fixed}, stable=stable)
-
-
-@lru_cache(maxsize=1)
-def _own_xacro() -> str:
-    """The folder of the module that came along, "" if it did not. Not imported: only the sandbox needs it."""
-    spec = importlib.util.find_spec("xacro")
-    return os.path.dirname(spec.origin) if spec is not None and spec.origin else ""
+    return replace(recipe, env={**recipe.env, **fixed}, stable=stable, ours=own_xacro.needed())
 
 
 def group(request: dict[str, Any]) -> str | None:

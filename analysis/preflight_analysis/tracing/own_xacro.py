@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from preflight_analysis.catalogue import descriptions
 from preflight_analysis.catalogue.packages import distribution_of
+from preflight_analysis.environment import reach
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.partial_text import catalogued_of, missing_of, named
@@ -30,7 +34,25 @@ def make(environment: Environment, args: Sequence[str], cwd: str, *, old: bool =
     shares = {package.name: package.share for package in environment.packages.values()}
     known = {DESCRIPTIONS: json.dumps(descriptions_for(environment, *args))}
     stable = {**recipe.stable, **known}
-    return replace(recipe, env={**recipe.env, **known, SHARES: json.dumps(shares)}, stable=stable)
+    ours = (*reach.interpreter_paths(sys.executable), *needed())
+    return replace(recipe, env={**recipe.env, **known, SHARES: json.dumps(shares)}, stable=stable, ours=ours)
+
+
+def module() -> str:
+    """The folder of the module that came along, "" if it did not."""
+    return _installed("xacro")
+
+
+def needed() -> tuple[str, ...]:
+    """What the module needs of the host, besides an interpreter: itself, what it imports, and the catalogue."""
+    return tuple(filter(None, (module(), _installed("yaml"), str(descriptions.DESCRIPTIONS))))
+
+
+@lru_cache(maxsize=2)
+def _installed(name: str) -> str:
+    """The folder of a module of ours, "" without it. It is not imported: only the sandbox needs it."""
+    spec = importlib.util.find_spec(name)
+    return os.path.dirname(spec.origin) if spec is not None and spec.origin else ""
 
 
 def descriptions_for(environment: Environment, *paths: str) -> dict[str, Any]:

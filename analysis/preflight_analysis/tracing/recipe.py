@@ -58,6 +58,8 @@ class Recipe:
     """What is to be written inside, by its path there."""
     workspaces: tuple[str, ...] = ()
     """The folders of the workspace that it is run for: for another one it would see other files."""
+    ours: tuple[str, ...] = ()
+    """What it needs of what this program was installed with, wherever that lies."""
 
 
 def preloading(library: str, stable: Mapping[str, str]) -> str:
@@ -145,7 +147,7 @@ def command_paths(
     paths += [place for path in files for place in (path, os.path.dirname(path))]
     alone = [path for path in (executable, *files) if _may_be_named(environment, path)]
     programs = _program_paths(environment, executable)
-    return interior.needs_binding([*programs, *_allowed(environment, paths), *alone, recipe.cwd])
+    return interior.needs_binding([*programs, *_allowed(environment, paths), *alone, recipe.cwd, *recipe.ours])
 
 
 def _may_be_named(environment: Environment, path: str) -> bool:
