@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
+from preflight_analysis.tracing.intact import seal_of
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.preload import MOST_KEPT, Library
@@ -453,6 +454,7 @@ def test_libraries_of_other_versions_are_bounded(tmp_path: Path) -> None:
     assert made is not None
     assert {path.name for path in tmp_path.iterdir()} == {
         os.path.basename(made),
+        seal_of(Path(made)).name,
         *(path.name for path in old[-MOST_KEPT + 1 :]),
         in_the_making.name,
         "notes.so",

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import shutil
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from preflight_analysis.tracing import compiled, run, sandbox
 from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.compiled import Copies
+from preflight_analysis.tracing.intact import Intact
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.recipe import visible_paths
 from support.tracing_harness import SYSTEM_PYTHON, environment, request, write_node
@@ -47,6 +50,51 @@ def test_a_run_uses_the_copy(tmp_path: Path) -> None:
     raw = run.execute(make(environment(tmp_path), asked), {}, visible, SYSTEM_PYTHON, threading.Event(), agents)
     assert [r["own"]["status"] for r in raw.records if r.get("own", {}).get("ev") == "end"] == ["spinning"]
     assert {"node": {"ev": "woven"}} in raw.records
+
+
+def whole(folder: Path) -> dict[Path, bytes]:
+    """The files of a copy that is as it was made; of what is compiled each time has its own digits."""
+    (place,) = folder.iterdir()
+    assert Intact()(place)
+    sources = {path: path.read_bytes() for path in place.rglob("*.*") if path.suffix in (".py", ".json")}
+    return sources | dict.fromkeys(place.rglob("*.pyc"), b"")
+
+
+def lose(path: Path) -> None:
+    path.unlink()
+
+
+def cut(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[:100])
+
+
+def change(path: Path) -> None:
+    path.write_bytes(bytes(path.stat().st_size))
+
+
+@pytest.mark.parametrize(
+    ("damage", "name"),
+    [
+        (lose, "*/lib/preflight_agents/stub_master.py"),
+        (cut, "*/lib/preflight_agents/stand_ins/definitions.json"),
+        (cut, "*/lib/preflight_agents/__pycache__/supervisor.*.pyc"),
+        (change, "*/lib/preflight_agents/__pycache__/supervisor.*.pyc"),
+        (lose, "*/.sha256"),
+        (shutil.rmtree, "*"),
+    ],
+)
+def test_a_copy_that_is_not_whole_is_made_again(tmp_path: Path, damage: Callable[[Path], object], name: str) -> None:
+    copies = Copies(tmp_path)
+    made = copies.of(SYSTEM_PYTHON, VISIBLE)
+    before = whole(tmp_path)
+    (damaged,) = tmp_path.glob(name)
+    damage(damaged)
+    if damage in (lose, cut) and not name.endswith(".sha256"):  # a process that has read it sees that
+        assert copies.of(SYSTEM_PYTHON, VISIBLE) == made
+        assert whole(tmp_path) == before
+        damage(damaged)
+    assert Copies(tmp_path).of(SYSTEM_PYTHON, VISIBLE) == made
+    assert whole(tmp_path) == before
 
 
 @pytest.mark.parametrize(

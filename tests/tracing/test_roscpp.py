@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import threading
 from dataclasses import replace
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.tracing import preload, preload_compile
 from preflight_analysis.tracing.cache import TraceCache
+from preflight_analysis.tracing.intact import seal_of
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.preload import Library
 from preflight_analysis.tracing.request import TraceRequest
@@ -194,9 +196,34 @@ def test_the_library_is_compiled_once(tmp_path: Path, monkeypatch: pytest.Monkey
     assert planned is not None
     assert not os.path.exists(planned)
     assert Library(tmp_path).build().path == planned
-    assert os.listdir(tmp_path) == [os.path.basename(planned)]
+    assert {path.name for path in tmp_path.iterdir()} == {os.path.basename(planned), seal_of(Path(planned)).name}
     monkeypatch.setattr(preload, "compile_library", lambda *_: pytest.fail("compiled again"))
     assert Library(tmp_path).build().path == planned
+
+
+@pytest.mark.parametrize("is_prebuilt", [False, True])
+@pytest.mark.parametrize("how", ["lost", "cut", "changed", "seal lost"])
+def test_a_library_that_is_not_whole_is_made_again(
+    tmp_path: Path, prebuilt: Path, monkeypatch: pytest.MonkeyPatch, how: str, is_prebuilt: bool
+) -> None:
+    """By a process that made it or used it, but for a content of the same size, and by any other."""
+    monkeypatch.setattr(preload, "compile_library", lambda _, __, path: shutil.copy(prebuilt, path))
+    library = Library(tmp_path, prebuilt if is_prebuilt else tmp_path / "absent")
+    path = Path(str(library.build().path))
+    content = path.read_bytes()
+    if how == "lost":
+        path.unlink()
+    elif how == "cut":
+        path.write_bytes(content[:5000])
+    elif how == "changed":
+        path.write_bytes(content[:5000] + b"X" * 500 + content[5500:])
+    else:
+        seal_of(path).unlink()
+    for each in (library, Library(tmp_path, prebuilt if is_prebuilt else tmp_path / "absent")):
+        if each is not library or how in ("lost", "cut"):
+            assert each.build().path == str(path)
+            assert path.read_bytes() == content
+    assert seal_of(path).is_file()
 
 
 def test_the_library_does_nothing_in_a_program_without_roscpp(tmp_path: Path) -> None:
@@ -262,7 +289,7 @@ def test_a_prebuilt_library_is_taken_from_wherever_it_is(tmp_path: Path, prebuil
     assert not os.path.exists(planned)
     assert library.build().path == planned
     assert Path(planned).read_bytes() == prebuilt.read_bytes()
-    assert os.listdir(tmp_path / "cache") == [os.path.basename(planned)]
+    assert set((tmp_path / "cache").iterdir()) == {Path(planned), seal_of(Path(planned))}
 
 
 def lacking(tmp_path: Path) -> Path:
@@ -287,7 +314,7 @@ def test_a_prebuilt_library_that_does_not_fit_is_left_for_a_compiled_one(tmp_pat
         library = Library(tmp_path / "cache", shipped)
         assert library.build() == library.planned()
         assert library.build().path == Library(tmp_path / "cache", tmp_path / "absent").planned().path
-    assert len(os.listdir(tmp_path / "cache")) == 1
+    assert len(list((tmp_path / "cache").glob("*.so"))) == 1
 
 
 def test_without_compiler_and_fitting_library_the_reason_is_told(tmp_path: Path, no_compiler: None) -> None:

@@ -46,7 +46,7 @@ def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Pat
     assert node["outcome"] == "spinning"
     chatter = {"name": "/chatter", "type": "std_msgs/String", "qos": {"latch": True, "queue_size": 7}}
     assert chatter in node["publishers"]
-    (copy,) = (tmp_path / "cache" / "ros-preflight" / "preload").iterdir()
+    (copy,) = (tmp_path / "cache" / "ros-preflight" / "preload").glob("*.so")
     agents = site / "preflight_analysis/tracing/agents"
     assert copy.read_bytes() == (agents / f"roscpp_preload.{platform.machine()}.so").read_bytes()
     libraries = {path.name for path in agents.glob("*.so")}

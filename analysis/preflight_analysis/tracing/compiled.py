@@ -24,6 +24,7 @@ from preflight_analysis.tracing import run
 from preflight_analysis.tracing.agents.compiling import TOPS
 from preflight_analysis.tracing.backend import AGENTS, Agents, Visible
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
+from preflight_analysis.tracing.intact import Intact, seal
 from preflight_analysis.tracing.once_per_process import once_per_process
 
 _log = logging.getLogger(__name__)
@@ -38,13 +39,15 @@ class Copies:
     def __init__(self, folder: Path | None = None) -> None:
         self._folder = folder or cache_folder("agents")
         self._lock = threading.Lock()
+        self._intact = Intact()
         self._found: dict[str, Agents] = {}
 
     def of(self, interpreter: str, visible: Visible) -> Agents:
-        """The copy for an interpreter, made if there is none yet. What fails is not tried again by this process."""
+        """The copy for an interpreter, made if there is none yet, or if it is not whole any more. What fails is not
+        tried again by this process."""
         with self._lock:
             found = self._found.get(interpreter)
-            if found is None:
+            if found is None or not (found is AGENTS or self._intact(found.site.parent)):
                 try:
                     found = self._copy(interpreter, visible)
                 except (OSError, ValueError) as error:
@@ -55,7 +58,7 @@ class Copies:
 
     def _copy(self, interpreter: str, visible: Visible) -> Agents:
         place = self._folder / _digest(interpreter)
-        if not place.is_dir():
+        if not self._intact(place):
             make_private(self._folder)
             with tempfile.TemporaryDirectory(dir=self._folder, prefix=".") as folder:
                 made = Path(folder, "made")
@@ -68,8 +71,12 @@ class Copies:
                 kept = sum(_keep(record.get("own"), made) for record in raw.records)
                 if kept != len(_sources()):
                     raise ValueError(raw.stderr.decode(errors="replace")[-500:] or "not all of it was compiled")
-                with contextlib.suppress(OSError):  # another process was first
-                    made.rename(place)
+                seal(made)
+                if not self._intact(place):  # unless another process was first
+                    with contextlib.suppress(OSError):
+                        place.rename(Path(folder, "old"))
+                    with contextlib.suppress(OSError):
+                        made.rename(place)
             self._sweep()
         os.utime(place)
         return _within(place)

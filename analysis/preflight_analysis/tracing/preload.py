@@ -26,6 +26,7 @@ from pathlib import Path
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.cache_folder import cache_folder, make_private
+from preflight_analysis.tracing.intact import Intact, seal, seal_of
 from preflight_analysis.tracing.once_per_process import once_per_process
 from preflight_analysis.tracing.preload_compile import (
     FLAGS,
@@ -76,6 +77,7 @@ class Library:
         self._prebuilt = prebuilt or watched.prebuilt(platform.machine())
         self._watched = watched
         self._lock = threading.Lock()
+        self._intact = Intact()
         self._unfit = False
         self._failure: str | None = None
 
@@ -88,19 +90,20 @@ class Library:
         return self._compiled
 
     def build(self) -> Preload:
-        """The library, made if it was not yet. What fails is not tried again by this process."""
+        """The library, made if it is not there as a whole. What fails is not tried again by this process."""
         with self._lock:
             plan = self.planned()
-            if plan is self._copied and plan.path is not None and not os.path.isfile(plan.path):
+            if plan is self._copied and plan.path is not None and not self._intact(Path(plan.path)):
                 self._unfit = not _copy(self._prebuilt, Path(plan.path))
                 plan = self.planned()
                 self._tidy()
-            if plan.path is None or os.path.isfile(plan.path):
+            if plan.path is None or self._intact(Path(plan.path)):
                 _used(plan.path)
                 return plan
             try:
                 make_private(Path(plan.path).parent)
                 compile_library(self._compiler or "", self._watched, Path(plan.path))
+                seal(Path(plan.path))
                 self._tidy()
             except subprocess.TimeoutExpired:
                 self._failure = f"the C++ compiler did not end within {SECONDS} s"
@@ -129,6 +132,7 @@ class Library:
         for _, path in sorted(dated, reverse=True)[MOST_KEPT:]:
             with contextlib.suppress(OSError):
                 path.unlink()
+                seal_of(path).unlink()
 
     @functools.cached_property
     def _compiler(self) -> str | None:
@@ -203,6 +207,7 @@ def _copy(prebuilt: Path, path: Path) -> bool:
             )
             if probe.returncode == 0 and not probe.stderr:
                 os.replace(made, path)
+                seal(path)
                 return True
             _log.info("the library %s that was shipped does not fit: %r", prebuilt, probe.stderr[:300])
     except (OSError, subprocess.TimeoutExpired) as error:
