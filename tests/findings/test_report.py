@@ -1,11 +1,12 @@
 """The text and JSON forms of findings."""
 
 import json
+from collections import Counter
 from dataclasses import replace
 
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.coverage import Coverage
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Alike, Edit, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.findings.report import Report, by_cause, to_json, to_text
 from preflight_analysis.rules.registry import run_rules
@@ -181,7 +182,7 @@ def test_one_cause_in_several_places_is_shown_once() -> None:
     assert text.count("error ABC001") == 1
     assert text.count("the same here") == 5
     assert "  and in 2 more places\n" in text
-    assert text.endswith("8 errors; 0 of 0 launch files evaluated, 0 nodes\n")
+    assert text.endswith("1 error; 0 of 0 launch files evaluated, 0 nodes\n"), "counted as shown"
 
 
 def test_programs_get_one_finding_for_each_cause() -> None:
@@ -192,7 +193,31 @@ def test_programs_get_one_finding_for_each_cause() -> None:
     assert [related["file"] for related in first["related"]] == [f"/{n}.launch" for n in range(1, 8)]
     assert first["roots"] == [f"/{n}.launch" for n in range(8)]
     assert (other["message"], other["related"]) == ("other", [])
-    assert to_json(report)["rules"] == {"ABC001": {"error": 9}}
+    assert to_json(report)["rules"] == {"ABC001": {"error": 2}}
+
+
+def test_text_and_json_count_alike() -> None:
+    """Causes: a place more is no finding more. What is alike is named one by one, and counted so."""
+    two = [finding("warning", file, 1, "'/map' is not there") for file in ("/a", "/b")]
+    there = (Related("there", location("/d", 1, 2)),)
+    pair = [
+        replace(finding("info", "/c", 1, "'/x' here"), related=there),
+        replace(finding("info", "/d", 1, "'/x' there"), related=(Related("there", location("/c", 1, 2)),)),
+    ]
+    many = [replace(finding("error", "/e", n, f"'{n}' is odd"), alike=Alike("are odd", str(n))) for n in range(12)]
+    report = Report.of([*two, *pair, *many, finding("hint", "/f", 1)], {}, Coverage())
+    for severity, said in (
+        ("hint", "12 errors, 1 warning, 1 info, 1 hint; "),
+        ("info", "12 errors, 1 warning, 1 info (1 less severe not shown); "),
+        ("error", "12 errors (3 less severe not shown); "),
+    ):
+        shown = report.at_least(severity)
+        counted = said.partition(" (")[0].rstrip("; ")
+        assert f"\n\nABC001 n: {counted}\n\n{said}" in to_text(shown)
+        data = to_json(shown)
+        of_each = Counter(found["severity"] for found in data["findings"])
+        assert data["rules"] == {"ABC001": of_each}
+        assert ", ".join(f"{n} {s}{'s' if n > 1 else ''}" for s, n in of_each.items()) == counted
 
 
 def test_how_much_of_a_launch_is_known_is_no_part_of_the_cause() -> None:

@@ -74,7 +74,12 @@ class Report:
         """The report with the findings of this severity and worse."""
         least = SEVERITIES.index(severity)
         shown = [each for each in self.findings if SEVERITIES.index(each.severity) >= least]
-        return replace(self, findings=shown, hidden=self.hidden + len(self.findings) - len(shown))
+        hidden = sum(SEVERITIES.index(each.severity) < least for each in self.causes())
+        return replace(self, findings=shown, hidden=self.hidden + hidden)
+
+    def causes(self) -> tuple[Finding, ...]:
+        """One finding for each cause, whatever the number of its places: these are counted, in each format."""
+        return tuple(by_cause(self.findings, alike=False))
 
     @property
     def complete(self) -> bool:
@@ -108,15 +113,15 @@ def by_cause(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Fin
 def to_json(report: Report) -> dict[str, Any]:
     """The document of `check --format json`. Dump it with sorted keys; lines and columns count from 1, columns in code
     points. `findings` has one for each cause, but each name of those that are alike, with a `condition` where it needs
-    other arguments than those of its root; `rules` counts all places. `coverage` is how much was looked at, `sources`
+    other arguments than those of its root; `rules` counts them. `coverage` is how much was looked at, `sources`
     there how many nodes are known in which way; `environment` is what is missing. `failures` are errors of ours: the
     findings of that rule, of all rules where it is null, are missing for that launch file."""
-    coverage = report.coverage
+    coverage, causes = report.coverage, report.causes()
     return {
         "schema": CHECK_SCHEMA,
-        "findings": [_finding_json(finding, report.documents) for finding in by_cause(report.findings, alike=False)],
+        "findings": [_finding_json(finding, report.documents) for finding in causes],
         "failures": failures_json(report.failures),
-        "rules": {rule: dict(Counter(severities)) for rule, severities in _by_rule(report).items()},
+        "rules": {rule: dict(counts) for rule, counts in _by_rule(causes).items()},
         "environment": {
             "complete": report.complete,
             **missing_json(report),
@@ -160,13 +165,16 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False, ho
 def closing(report: Report, base: str | None = None) -> Iterator[str]:
     """What follows the findings, in blocks: their number by rule, where there are many, what is missing on this
     machine, what was not looked at, and the summary. Files below the folder `base` are shown relative to it."""
-    if len(report.findings) > _FEW:
-        yield "\n".join(_rule_lines(report))
+    causes = report.causes()
+    if len(causes) > _FEW:
+        yield "\n".join(_rule_lines(causes))
     if not report.complete:
         yield "\n".join(environment_lines(report))
     if lines := [*_not_looked_at(report.coverage, base)]:
         yield "\n".join(("not looked at:", *lines))
-    yield summary(report)
+    found = _counted(Counter(finding.severity for finding in causes)) or "no findings"
+    hidden = f" ({report.hidden} less severe not shown)" if report.hidden else ""
+    yield f"{found}{hidden}; {report.coverage}"
 
 
 def _not_looked_at(coverage: Coverage, base: str | None) -> Iterator[str]:
@@ -189,19 +197,22 @@ def environment_lines(report: Report) -> Iterator[str]:
     yield from (f"    {printable(command)}" for command in commands(report.missing))
 
 
-def _rule_lines(report: Report) -> Iterator[str]:
-    names = {finding.rule: finding.name for finding in report.findings}
-    for rule, severities in sorted(_by_rule(report).items(), key=lambda each: (-len(each[1]), each[0])):
-        counts = Counter(severities)
-        said = ", ".join(_plural(counts[each], each) for each in reversed(SEVERITIES) if counts[each])
-        yield f"{rule} {names[rule]}: {said}"
+def _rule_lines(causes: Sequence[Finding]) -> Iterator[str]:
+    names = {finding.rule: finding.name for finding in causes}
+    for rule, counts in sorted(_by_rule(causes).items(), key=lambda each: (-each[1].total(), each[0])):
+        yield f"{rule} {names[rule]}: {_counted(counts)}"
 
 
-def _by_rule(report: Report) -> dict[str, list[Severity]]:
-    found: dict[str, list[Severity]] = {}
-    for finding in report.findings:
-        found.setdefault(finding.rule, []).append(finding.severity)
+def _by_rule(causes: Iterable[Finding]) -> dict[str, Counter[Severity]]:
+    found: dict[str, Counter[Severity]] = {}
+    for finding in causes:
+        found.setdefault(finding.rule, Counter())[finding.severity] += 1
     return found
+
+
+def _counted(counts: Mapping[Severity, int]) -> str:
+    """`2 errors, 1 warning`, the most severe first."""
+    return ", ".join(_plural(counts[each], each) for each in reversed(SEVERITIES) if counts.get(each))
 
 
 _NAMED = re.compile(r"'|(?<!<)/\w")
@@ -410,14 +421,6 @@ def failure_lines(failures: Sequence[Failure], base: str | None = None) -> list[
         more = f" and {len(others)} more" if others else ""
         lines.append(printable(first.message(f"{relative(first.file, base)}{more}")))
     return lines
-
-
-def summary(report: Report) -> str:
-    """How many findings there are, and what was looked at."""
-    counts = [(severity, sum(f.severity == severity for f in report.findings)) for severity in reversed(SEVERITIES)]
-    found = ", ".join(_plural(count, severity) for severity, count in counts if count) or "no findings"
-    hidden = f" ({report.hidden} less severe not shown)" if report.hidden else ""
-    return f"{found}{hidden}; {report.coverage}"
 
 
 def _plural(count: int, word: str) -> str:
