@@ -14,7 +14,7 @@ class Generation:
     """ROS 1 or ROS 2."""
 
     number: int
-    default_distro: str
+    default_distro: str | None
     """The distribution where the environment names none; of ROS 2 there are many in use."""
 
     # The launch language
@@ -89,7 +89,7 @@ ROS1 = Generation(
 )
 ROS2 = Generation(
     number=2,
-    default_distro="$ROS_DISTRO",
+    default_distro=None,
     executable="exec",
     argument="var",
     find="find-pkg-share",

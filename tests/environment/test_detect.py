@@ -53,6 +53,25 @@ def test_debian(tmp_path: Path) -> None:
     assert environment.system_prefixes == (str(usr),)
     assert environment.variables == {"A": "b"}
     assert environment.problems == ()
+    assert environment.debians
+    (tmp_path / "opt/ros/noetic").mkdir(parents=True)
+    assert not detect_environment(None, {"ROS_DISTRO": "noetic"}, root=str(tmp_path)).debians
+
+
+@pytest.mark.parametrize(
+    ("release", "debians"),
+    [
+        ('PRETTY_NAME="Debian"\nID=debian\n', True),
+        ("ID=raspbian\nID_LIKE=debian\n", True),
+        ('NAME="Ubuntu"\nID=ubuntu\nID_LIKE=debian\n', False),
+        ('ID=linuxmint\nID_LIKE="ubuntu debian"\n', False),
+        ("ID=fedora\n", False),
+    ],
+)
+def test_whose_packages_a_machine_without_ros_would_install(tmp_path: Path, release: str, debians: bool) -> None:
+    (tmp_path / "etc").mkdir()
+    (tmp_path / "etc/os-release").write_text(release)
+    assert detect_environment(None, {}, root=str(tmp_path)).debians == debians
 
 
 @pytest.mark.parametrize(("version", "distro"), [("1.14.3", "melodic"), ("1.12.17", "kinetic"), ("1.17.0", "noetic")])

@@ -14,16 +14,16 @@ def test_commands_are_put_together() -> None:
         (Lack(kind, name, remedy), PLACE)
         for kind, name, remedy in (
             ("package", "b", "apt install ros-noetic-b"),
-            ("package", "a", "apt install ros-noetic-a"),
+            ("package", "a", "apt install liba-dev a-tools"),
             ("build", "c", "colcon build --packages-select c"),
-            ("variable", "ROS_DISTRO", "source /opt/ros/$ROS_DISTRO/setup.bash"),
+            ("variable", "ROS_DISTRO", "source /opt/ros/jazzy/setup.bash"),
             ("module", "torch", None),
         )
     )
     assert commands(found) == (
-        "apt install ros-noetic-a ros-noetic-b",
+        "apt install a-tools liba-dev ros-noetic-b",
         "colcon build --packages-select c",
-        "source /opt/ros/$ROS_DISTRO/setup.bash",
+        "source /opt/ros/jazzy/setup.bash",
     )
     assert list(in_words(found, most=1)) == [
         "2 packages: a and 1 more",
@@ -33,6 +33,6 @@ def test_commands_are_put_together() -> None:
     ]
 
 
-@pytest.mark.parametrize("name", ["a; reboot", "a\nreboot", "$(reboot)", "`reboot`", "'a'", "a&", "a>b"])
+@pytest.mark.parametrize("name", ["a; reboot", "a\nreboot", "$(reboot)", "`reboot`", "$HOME", "'a'", "a&", "a>b"])
 def test_a_name_that_a_shell_would_take_for_more_has_no_command(name: str) -> None:
     assert Lack("build", name, f"catkin build {name}").remedy is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,9 +11,10 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.below_packages import asked_below
+from preflight_analysis.rules.installed import lack_of_package
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from support.check import apply, check, findings_of
+from support.check import analyse, apply, check, findings_of, read_fixture
 from support.unbuilt_packages import manifest
 
 
@@ -240,6 +242,32 @@ def test_a_released_package_that_is_not_installed_is_the_machine_s_lack(launch: 
     assert (finding.severity, finding.confidence) == ("hint", "certain")
     assert finding.message == "package 'move_base' is not installed; install ros-noetic-move-base"
     assert finding.lack == Lack("package", "move_base", "apt install ros-noetic-move-base")
+
+
+@pytest.mark.parametrize(
+    ("generation", "distro", "debians", "name", "install"),
+    [
+        (1, None, False, "move_base", "ros-noetic-move-base"),
+        (1, "noetic", True, "robot_state_publisher", "ros-robot-state-publisher"),
+        (1, None, True, "rospy", "python3-rospy"),
+        (1, "noetic", True, "topic_tools", "libtopic-tools-dev topic-tools"),
+        (1, "noetic", True, "move_base", None),
+        (1, "jazzy", True, "tf2_tools", "tf2-tools"),
+        (2, "jazzy", True, "nav2_bringup", "ros-jazzy-nav2-bringup"),
+        (2, "unheard_of", False, "nav2_bringup", "ros-unheard_of-nav2-bringup"),
+        (2, None, False, "nav2_bringup", None),
+    ],
+)
+def test_what_to_install_is_what_the_machine_calls_it(
+    generation: int, distro: str | None, debians: bool, name: str, install: str | None
+) -> None:
+    """Where nothing is known of that, nothing is invented; the environment may be that of another generation."""
+    context = analyse(read_fixture("<launch/>"))
+    tree = replace(context.tree, generation=generation)
+    of = 2 if distro == "jazzy" else generation
+    environment = replace(context.environment, generation=of, distro=distro, debians=debians)
+    lack = lack_of_package(replace(context, tree=tree, environment=environment), name)
+    assert lack == Lack("package", name, install and f"apt install {install}")
 
 
 def test_a_package_that_only_another_distribution_has_says_so(launch: Path) -> None:

@@ -27,6 +27,9 @@ DATA = Path(__file__).with_name("data")
 RELEASED = DATA / "released.txt"
 """A line a package: its name and the letters of the distributions that have it. Lines with `#` say where it is from."""
 
+DEBIAN = DATA / "debian.txt"
+"""A line a package of ROS: its name and the packages of Debian's own archive that have it. Lines with `#` as above."""
+
 ROSDEP = DATA / "rosdep.txt"
 """A line a key: what rosdep knows of packages of operating systems. Lines with `#` say where it is from."""
 
@@ -48,6 +51,11 @@ def debian_package(name: str, distro: str) -> str:
     return f"ros-{distro}-{name.replace('_', '-')}"
 
 
+def in_debian(name: str) -> str | None:
+    """What of Debian's own archive has a package of ROS 1, apart by blanks; None where nothing is known to."""
+    return _in_debian().get(name)
+
+
 @lru_cache(maxsize=1024)
 def nearest_released(name: str, generation: int, edits: int) -> tuple[str, ...]:
     """The packages of a generation, in whichever distribution, that are at most so many edits away; nearest first."""
@@ -63,5 +71,14 @@ def _names(generation: int) -> tuple[str, ...]:
 
 @lru_cache(maxsize=1)
 def _letters() -> Mapping[str, str]:
-    lines = RELEASED.read_text().splitlines()
+    return _table(RELEASED)
+
+
+@lru_cache(maxsize=1)
+def _in_debian() -> Mapping[str, str]:
+    return _table(DEBIAN)
+
+
+def _table(data: Path) -> Mapping[str, str]:
+    lines = data.read_text().splitlines()
     return dict(line.split(" ", 1) for line in lines if not line.startswith("#"))

@@ -175,6 +175,7 @@ def detect_environment(
         own_variables=dict(variables),
         workspace_folders=folders,
         named_folders=named,
+        debians=prefix is None and (has_debian or _is_debian(root)),
     )
 
 
@@ -201,6 +202,17 @@ def _distribution(variables: Mapping[str, str], root: str) -> tuple[str | None, 
         if os.path.isfile(os.path.join(opt, name, "share", "catkin", MANIFEST)):
             return name, os.path.join(opt, name)
     return None, None
+
+
+def _is_debian(root: str) -> bool:
+    """Whether the system is Debian or made of it, but for Ubuntu, for which ROS has packages."""
+    try:
+        with open(os.path.join(root, "etc/os-release"), encoding="utf-8", errors="replace") as file:
+            release = file.read(65536)
+    except OSError:
+        return False
+    names = " ".join(re.findall(r"^ID(?:_LIKE)?=(.*)$", release, re.MULTILINE))
+    return {"debian", "ubuntu"}.intersection(re.findall(r"\w+", names)) == {"debian"}
 
 
 def _debian_distribution(debian: str) -> str | None:

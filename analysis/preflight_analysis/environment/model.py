@@ -103,6 +103,8 @@ class Environment:
     """The folders of the workspace, whose links are not to be believed; as they are written and as they really are."""
     named_folders: tuple[str, ...] = ()
     """Folders and files that the user named, likewise: by variables, package path and interpreters. See `reach.py`."""
+    debians: bool = False
+    """Whether ROS 1 comes from Debian's own archive here, whose packages have other names than those of ROS's."""
 
     @property
     def ros(self) -> Generation:

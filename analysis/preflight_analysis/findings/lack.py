@@ -26,8 +26,10 @@ _WORDS: Mapping[LackKind, tuple[str, str]] = {
 }
 """One of them and several, in words."""
 
-_PLAIN = re.compile(r"[\w./$-]+( --?[a-z-]+| \w[\w./$-]*| /[\w./$-]*)*", re.ASCII)
-"""A command of words in which a shell sees nothing but variables."""
+INSTALL = "apt install"
+"""What installs packages of the system, any number of them."""
+_PLAIN = re.compile(r"[\w./-]+( --?[a-z-]+| \w[\w./-]*| /[\w./-]*)*", re.ASCII)
+"""A command of words in which a shell sees nothing else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +75,9 @@ def commands(found: Iterable[Missing]) -> tuple[str, ...]:
     words: dict[str, dict[str, None]] = {}
     for each in found:
         if each.lack.remedy:
-            command, _, what = each.lack.remedy.rpartition(" ")
-            words.setdefault(command, {})[what] = None
+            remedy = each.lack.remedy
+            command = INSTALL if remedy.startswith(f"{INSTALL} ") else remedy.rpartition(" ")[0]
+            words.setdefault(command, {}).update(dict.fromkeys(remedy.removeprefix(f"{command} ").split(" ")))
     return tuple(" ".join((command, *sorted(what))) for command, what in words.items())
 
 

@@ -9,19 +9,25 @@ import os
 import re
 from collections.abc import Iterable
 
-from preflight_analysis.catalogue.released import DISTRIBUTIONS, debian_package, distributions_with, nearest_released
+from preflight_analysis.catalogue.released import (
+    DISTRIBUTIONS,
+    debian_package,
+    distributions_with,
+    in_debian,
+    nearest_released,
+)
 from preflight_analysis.environment.git_submodules import Submodule, left_submodule, left_submodules_below
 from preflight_analysis.environment.installed_paths import installs_more, located, made_by_build, package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST
-from preflight_analysis.findings.lack import Lack
+from preflight_analysis.findings.lack import INSTALL, Lack
 from preflight_analysis.rules.nearest import is_slip, is_slip_of_words, nearest
 from preflight_analysis.rules.rule import Context
 
 _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
 """Packages of which each installation of ROS 2 has at least one."""
-_DEBIAN = {"xacro": "xacro", "rosrun": "rosbash", "rospack": "rospack", "rosparam": "rosparam"}
-"""Programs that robot descriptions are made with, and the end of the names of their packages (`ros-noetic-xacro`)."""
+_PROGRAMS = {"xacro": "xacro", "rosrun": "rosbash", "rospack": "rospack", "rosparam": "rosparam"}
+"""Programs that robot descriptions are made with, and their packages of ROS."""
 _SET_UP = re.compile(r"ROS_(DISTRO|VERSION|PYTHON_VERSION|ROOT|ETC_DIR|PACKAGE_PATH|MASTER_URI)\Z|AMENT_PREFIX_PATH\Z")
 """Variables that a distribution's set-up script sets."""
 _OF_MACHINE = re.compile(r"/(?:etc|home|media|mnt|opt|root|usr|var|Users)/")
@@ -80,15 +86,28 @@ def has_ros(context: Context) -> bool:
 def lack_of_package(context: Context, name: str) -> Lack:
     """A package that is neither installed nor in the workspace."""
     package = debian_package_of(context, name)
-    return Lack("package", name, f"apt install {package}" if package is not None else None)
+    return Lack("package", name, f"{INSTALL} {package}" if package is not None else None)
 
 
 def debian_package_of(context: Context, name: str) -> str | None:
-    """What a package of ROS is installed as, where the distribution that is used here has released it."""
-    known, used = DISTRIBUTIONS[context.tree.generation], context.environment.distro
+    """What a package of ROS is installed as, where that is known: the distribution that is used here has released it,
+    or Debian has it where ROS is Debian's."""
+    if _is_debians(context):
+        return in_debian(name)
+    known, distro = DISTRIBUTIONS[context.tree.generation], _distribution(context)
     having = distributions_with(name, context.tree.generation)
-    distro = used if used is not None and used in known else context.tree.ros.default_distro
-    return debian_package(name, distro) if having and (distro in having or distro not in known) else None
+    return debian_package(name, distro) if distro and having and (distro in having or distro not in known) else None
+
+
+def _is_debians(context: Context) -> bool:
+    return not context.tree.ros.ament and context.environment.debians
+
+
+def _distribution(context: Context) -> str | None:
+    """The distribution that is used here, or the only one there still is."""
+    environment, tree = context.environment, context.tree
+    is_of_tree = environment.generation == tree.generation or environment.distro in DISTRIBUTIONS[tree.generation]
+    return (environment.distro if is_of_tree else None) or tree.ros.default_distro
 
 
 def near_package(context: Context, name: str) -> str | None:
@@ -227,8 +246,8 @@ def lack_of_variable(context: Context, name: str) -> Lack | None:
 
 def unset_variable(context: Context, name: str) -> Lack:
     """A variable that is not set, whatever others are."""
-    distro = context.environment.distro or context.tree.ros.default_distro
-    return Lack("variable", name, f"source /opt/ros/{distro}/setup.bash" if _SET_UP.match(name) else None)
+    distro = None if _is_debians(context) else _distribution(context)
+    return Lack("variable", name, f"source /opt/ros/{distro}/setup.bash" if distro and _SET_UP.match(name) else None)
 
 
 def near_variable(context: Context, name: str) -> str | None:
@@ -239,9 +258,8 @@ def near_variable(context: Context, name: str) -> str | None:
 
 def lack_of_program(context: Context, program: str) -> Lack:
     """A program that is not on the PATH."""
-    distro = context.environment.distro or context.tree.ros.default_distro
-    package = _DEBIAN.get(program)
-    return Lack("program", program, f"apt install ros-{distro}-{package}" if package else None)
+    package = debian_package_of(context, _PROGRAMS[program]) if program in _PROGRAMS else None
+    return Lack("program", program, f"{INSTALL} {package}" if package is not None else None)
 
 
 def lack_of_file(context: Context, path: str) -> Lack | None:
