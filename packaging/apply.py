@@ -22,7 +22,9 @@ else:
 ROOT = Path(__file__).resolve().parents[1]
 _VERSION = re.compile(r'^__version__ = "([^"]+)"$', re.MULTILINE)
 _VENV = "~/.ros-preflight"
-_LINK = f"ln -s {_VENV}/bin/ros-preflight ~/.local/bin/"
+_LINK = f"mkdir -p ~/.local/bin && ln -sf {_VENV}/bin/ros-preflight ~/.local/bin/"
+_NEEDED = "sudo apt-get install python3-venv bubblewrap"
+"""On Debian and Ubuntu: without the first, `python3 -m venv` fails there."""
 _FROM_CLONE = f"python3 -m venv {_VENV} && {_VENV}/bin/python -m pip install . && {_LINK}"
 _FROM_PYPI = "pipx install ros-preflight"
 _SITE = re.compile(r"https://github\.com/[\w.-]+/ros-preflight")
@@ -136,7 +138,12 @@ def _lua(known: Project) -> str:
 
 
 def _readme(known: Project) -> str:
-    return f"    {known.install}\n"
+    if known.published:
+        return f"    {known.install}\n"
+    return (
+        f"In a clone of this repository, on Debian and Ubuntu after `{_NEEDED}`:\n\n    {known.install}\n\n"
+        "Debian and Ubuntu have `~/.local/bin` on the `PATH` from the next login on.\n"
+    )
 
 
 def _install_page(known: Project) -> str:
@@ -150,7 +157,8 @@ def _install_page(known: Project) -> str:
     return (
         f"```console\n$ python3 -m venv {_VENV}\n$ {_VENV}/bin/python -m pip install --quiet ./ros-preflight\n...\n"
         f"$ {_VENV}/bin/ros-preflight --version\nros-preflight {known.version}\n```\n"
-        "`./ros-preflight` is a clone of the repository. Put the command on your `PATH`, for instance with\n"
+        f"`./ros-preflight` is a clone of the repository. Debian and Ubuntu need `{_NEEDED}` before.\n"
+        "Put the command on your `PATH`, for instance with\n"
         f"`{_LINK}`. Use a separate virtual environment (or pipx), and\n"
     )
 

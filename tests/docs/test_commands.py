@@ -9,15 +9,19 @@ in a `text` block.
 
 from __future__ import annotations
 
+import getpass
 import os
+import pwd
 import re
 import shutil
 import subprocess
 import sys
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from support.ordinary_user import become, ordinary_user
 from support.ros2_harness import ros2_prefix
 
 pytestmark = pytest.mark.ros
@@ -95,6 +99,40 @@ def test_the_commands_of_a_page(page: Path, tmp_path: Path) -> None:
         if done.returncode:
             output.append(f"(exit code {done.returncode})")
         assert met(command.expected, output), f"{page}: $ {command.text}\n" + "\n".join(output)
+
+
+def test_on_a_fresh_account_readme_is_all_it_takes(tmp_path: Path) -> None:
+    """The line that installs, and after the next login the commands, with nothing but a clone in the home folder."""
+    page = (ROOT / "README.md").read_text()
+    install = re.search(r"^<!-- how to install: begin -->$.*?^ {4}(\S.*?)$", page, re.MULTILINE | re.DOTALL)
+    assert install is not None
+    with ExitStack() as at_end:
+        if os.geteuid() == 0:
+            user = at_end.enter_context(ordinary_user())
+            home, before = Path(pwd.getpwnam(user).pw_dir), become(user)
+        else:
+            user, home, before = getpass.getuser(), tmp_path, []
+            shutil.copytree("/etc/skel", home, dirs_exist_ok=True)
+        assert not (home / ".local").exists()
+        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
+        for name in filter(None, listed.stdout.split("\0")):
+            place = home / "ros-preflight" / name
+            place.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, place)
+        subprocess.run(["chown", "-R", user, str(home)], check=True)
+        keep = {name: value for name, value in os.environ.items() if name.startswith("PIP_")}
+        env = {**keep, "HOME": str(home), "USER": user, "LANG": "C.UTF-8", "NO_COLOR": "1"}
+
+        def login(text: str) -> list[str]:
+            done = subprocess.run(
+                [*before, "bash", "-l"], input=text, cwd=home, env=env, capture_output=True, text=True, check=False
+            )
+            assert done.returncode == 0, done.stderr
+            return done.stdout.splitlines()
+
+        login(f"set -e; cd ros-preflight; {install[1]}")
+        cd, first, *_ = commands(page)
+        assert met(first.expected, login(f"{cd.text}\n{first.text}"))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=str)

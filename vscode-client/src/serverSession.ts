@@ -24,7 +24,7 @@ import { isExecutable, pythons, surroundings } from "./surroundings";
 // packaging/apply.py writes these lines.
 // how to install: begin
 const HOW_TO_INSTALL =
-  "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'";
+  "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && mkdir -p ~/.local/bin && ln -sf ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'";
 // how to install: end
 
 const statusChanged = new NotificationType<ServerStatus>("rosPreflight/status");

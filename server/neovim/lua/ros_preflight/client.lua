@@ -6,7 +6,7 @@ local workspace = require('ros_preflight.workspace')
 -- luacheck: push no max line length
 -- how to install: begin
 local HOW_TO_INSTALL =
-  "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && ln -s ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'"
+  "In a clone of the repository run 'python3 -m venv ~/.ros-preflight && ~/.ros-preflight/bin/python -m pip install . && mkdir -p ~/.local/bin && ln -sf ~/.ros-preflight/bin/ros-preflight ~/.local/bin/'"
 -- how to install: end
 -- luacheck: pop
 
