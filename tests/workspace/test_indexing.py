@@ -168,6 +168,51 @@ def test_tests_of_other_tools_are_no_launch_files(harness: Harness) -> None:
     assert paths(tuple(harness.build().entries)) == ["broken.test", "node.test"]
 
 
+def test_launch_files_are_known_by_their_content(harness: Harness) -> None:
+    comment = f"<!-- {'x' * 10_000} -->"
+    yaml = "launch:\n- node: {pkg: p, exec: e}\n"
+    for name, text in {
+        "launch/competition.xml": f'<?xml version="1.0"?>\n{LEAF}',
+        "launch/licensed.xml": f"{comment}\n{LEAF}",
+        "config/doctype.xml": f"<!DOCTYPE launch [<!ENTITY a 'b'>]>{LEAF}",
+        "package.xml": "<package><name>p</name></package>",
+        "urdf/arm.xml": '<robot name="launch"><launch/></robot>',
+        "trees/tree.xml": f"{comment}<root/>",
+        "launch/empty.xml": "",
+        "launch/text.xml": "<launch",
+        "launch/robot.yaml": f"# all of it\n---\n{yaml}",
+        "launch/licensed.yml": f"# {'x' * 10_000}\n{yaml}",
+        "launch/flow.yaml": "launch: [{node: {pkg: p, exec: e}}]\n",
+        "config/launch.yaml": "launch:\n  ros__parameters: {rate: 1}\n",
+        "config/two.yaml": f"{yaml}robot: 1\n",
+        "config/later.yaml": f"robot: 1\n{yaml}",
+    }.items():
+        (harness.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        harness.write(name, text)
+    expected = ["competition.xml", "doctype.xml", "flow.yaml", "licensed.xml", "licensed.yml", "robot.yaml"]
+    assert sorted(paths(tuple(harness.build().entries))) == [*expected, "text.xml"]
+    changed = harness.write("launch/empty.xml", LEAF)
+    assert "empty.xml" in paths(tuple(harness.build(changed=[changed]).entries))
+
+
+TESTS = {
+    "a pytest that loads it": "def test_it():\n    assert load().generate_launch_description().entities\n",
+    "a unit test": "import unittest\nfrom p.launch import generate_launch_description\n",
+    "for launch_testing": "def generate_test_description():\n    return LaunchDescription([])\n",
+    "for launch_pytest": "import launch_pytest\n\n@launch_pytest.fixture\ndef generate_it_description(): return None\n",
+}
+
+
+@pytest.mark.parametrize("kind", TESTS)
+@pytest.mark.parametrize("folder", ["test", "launch"])
+def test_tests_of_launch_files_are_no_launch_files(harness: Harness, kind: str, folder: str) -> None:
+    (harness.folder / folder).mkdir()
+    harness.write(f"{folder}/test_dock_launch.py", TESTS[kind])
+    harness.write(f"{folder}/system_launch.py", f"{PYTHON}\n\ndef test_it():\n    pass\n")
+    harness.write(f"{folder}/other_launch.py", "from p.all import (\n    a,\n    generate_launch_description,\n)\n")
+    assert sorted(paths(tuple(harness.build().entries))) == ["other_launch.py", "system_launch.py"]
+
+
 PYTHON = """
 from launch import LaunchDescription
 

@@ -15,7 +15,15 @@ from typing import Any
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import has_hash_comments, preflight_comments
-from preflight_analysis.documents.reading import SIZE_LIMIT, Text, Unreadable, digest, read_text
+from preflight_analysis.documents.reading import (
+    BEGINNING,
+    SIZE_LIMIT,
+    Text,
+    Unreadable,
+    digest,
+    read_beginning,
+    read_text,
+)
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import Input, query
@@ -106,6 +114,16 @@ def text_of(db: Database, path: str) -> Text | Unreadable:
         found = read_text(path)
         return replace(found, lines=LINES(db, path).of(found.text)) if isinstance(found, Text) else found
     return opened
+
+
+@query
+def beginning_of(db: Database, path: str) -> str:
+    """The first kilobytes of a file, as text; "" where it cannot be read."""
+    opened = BUFFER(db, path)
+    if opened is None:
+        STATUS(db, path)
+        return read_beginning(path)
+    return opened.text[:BEGINNING] if isinstance(opened, Text) else ""
 
 
 @query

@@ -15,6 +15,8 @@ from preflight_analysis.documents.span import LineIndex, version
 
 SIZE_LIMIT = 4 * 1024 * 1024
 """In bytes. The largest launch file of some 3,400 public ones is 200 times smaller."""
+BEGINNING = 4096
+"""Bytes by which the kind of a document is known."""
 
 _DECLARED_ENCODING = re.compile(rb"""<\?xml\b[^>]{0,200}?\bencoding[ \t\r\n]*=[ \t\r\n]*["']([A-Za-z0-9._:-]+)["']""")
 _KNOWN_ENCODINGS = re.compile(
@@ -81,6 +83,24 @@ def read_text(path: str) -> Text | Unreadable:
 
     The encoding is that of the byte order mark, else the one that an XML declaration names, else UTF-8.
     """
+    data = _read(path, SIZE_LIMIT + 1)
+    if isinstance(data, Unreadable):
+        return data
+    if len(data) > SIZE_LIMIT:
+        return _too_large(path, len(data))
+    return _decode(path, data)
+
+
+def read_beginning(path: str) -> str:
+    """The first `BEGINNING` bytes of a file as text, whatever in them is none left out; "" where it cannot be read."""
+    data = _read(path, BEGINNING)
+    if isinstance(data, Unreadable):
+        return ""
+    encoding, data, _ = _marked(data)
+    return data.decode(encoding, "ignore")
+
+
+def _read(path: str, most: int) -> bytes | Unreadable:
     try:
         # Before the open: opening some devices has an effect.
         if refused := _refuse(path, os.stat(path)):
@@ -88,9 +108,7 @@ def read_text(path: str) -> Text | Unreadable:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
         with open(descriptor, "rb") as file:
             # Again, of what was really opened: the file may have been replaced in between.
-            if refused := _refuse(path, os.fstat(descriptor)):
-                return refused
-            data = file.read(SIZE_LIMIT + 1)
+            return _refuse(path, os.fstat(descriptor)) or file.read(most)
     except (FileNotFoundError, NotADirectoryError):
         return Unreadable(path, "does not exist", "missing")
     except PermissionError:
@@ -99,9 +117,6 @@ def read_text(path: str) -> Text | Unreadable:
         return Unreadable(path, f"cannot be read: {(error.strerror or str(error)).lower()}", "unreadable")
     except ValueError:  # a NUL or a lone surrogate in the path
         return Unreadable(path, "does not exist: no file can have this name", "missing")
-    if len(data) > SIZE_LIMIT:
-        return _too_large(path, len(data))
-    return _decode(path, data)
 
 
 def _refuse(path: str, status: os.stat_result) -> Unreadable | None:
@@ -119,17 +134,22 @@ def _too_large(path: str, size: int) -> Unreadable:
     return Unreadable(path, f"is {size / 1e6:.1f} MB; files above {limit} MiB are not analysed", "not-text")
 
 
-def _decode(path: str, data: bytes) -> Text | Unreadable:
-    encoding, declared, marked = "utf-8", False, False
+def _marked(data: bytes) -> tuple[str, bytes, bool]:
+    """The encoding that the first bytes show, what follows these, and whether they show one."""
     for mark, name in _BYTE_ORDER_MARKS:
         if data.startswith(mark):
-            encoding, data, marked = name, data[len(mark) :], True
-            break
-    else:
-        if data.startswith((b"<\0", b"\0<")):  # UTF-16 without a mark: XML parsers know it by its first letter
-            encoding, marked = "utf-16-le" if data[0] else "utf-16-be", True
-        elif (found := _DECLARED_ENCODING.match(data)) and not found[1].lower().startswith((b"utf-16", b"utf-32")):
-            encoding, declared = found[1].decode("ascii"), True
+            return name, data[len(mark) :], True
+    if data.startswith((b"<\0", b"\0<")):  # UTF-16 without a mark: XML parsers know it by its first letter
+        return "utf-16-le" if data[0] else "utf-16-be", data, True
+    return "utf-8", data, False
+
+
+def _decode(path: str, data: bytes) -> Text | Unreadable:
+    declared = False
+    encoding, data, marked = _marked(data)
+    found = _DECLARED_ENCODING.match(data) if not marked else None
+    if found is not None and not found[1].lower().startswith((b"utf-16", b"utf-32")):
+        encoding, declared = found[1].decode("ascii"), True
     if encoding.lower().replace("_", "-") in {"utf-8", "utf8"} and b"\0" in data:
         return Unreadable(path, "is not a text file", "not-text")
     try:

@@ -10,31 +10,21 @@ import re
 from collections.abc import Callable
 
 from preflight_analysis.catalogue.launches import catalogued_file
-from preflight_analysis.documents.python_text import PYTHON_SUFFIX, is_python
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.reading import Text
 from preflight_analysis.documents.xml import parse_xml, without_comments
 from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.launch.catalogued import read_catalogued
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_classes import PythonClasses
+from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.launch.ros2_python import read_ros2_python
 from preflight_analysis.launch.ros2_xml import read_ros2_xml
 from preflight_analysis.launch.ros2_yaml import read_ros2_yaml
 
-YAML_SUFFIXES = (".yaml", ".yml")
-LAUNCH_SUFFIXES = (
-    ".launch",
-    ".test",
-    *(f"{mark}launch.{suffix}" for mark in "._" for suffix in ("xml", "yaml", "yml", "py")),
-)
-"""Launch files by their name; any other file is one if a launch file includes it."""
 _OF_XML = {1: read_ros1, 2: read_ros2_xml}
 """Who reads XML, by generation."""
-LAUNCH_FOLDER = "launch"
-"""Where packages have their launch files, whatever they are called."""
-_MAY_HAVE_FUNCTION = re.compile(r"\bgen\w*_desc|^\s*from\s.*\bimport\s+\*", re.MULTILINE)
-
 # Each begins with what is quickly found: all of a long file is looked through on each keystroke.
 _TAGS_OF_ROS2 = re.compile(
     r"""<(?:let|push[_-]ros[_-]namespace|set_(?:remap|parameter|env|use_sim_time|parameters_from_file)"""
@@ -57,13 +47,6 @@ _ROS1_MARKS = re.compile(
 )
 _AMENT = re.compile(r"<build_type[^<>]*>\s*ament_|<buildtool_depend[^<>]*>\s*ament_")
 _CATKIN = re.compile(r"<buildtool_depend[^<>]*>\s*catkin\s*<")
-
-
-def is_module(path: str, text: str) -> bool:
-    """Whether a Python file that ends in `_launch.py` is a module that helps to make launch files: it lies in no launch
-    folder, and nothing in it may be the function that launch calls."""
-    is_named = path.endswith("_launch" + PYTHON_SUFFIX) and LAUNCH_FOLDER not in path.split("/")
-    return is_named and bool(text.strip()) and _MAY_HAVE_FUNCTION.search(text) is None
 
 
 OfPackage = Callable[[str], "int | None"]
@@ -91,20 +74,15 @@ def read_launch(
         return read_catalogued(source)
     if is_python(path, text):
         return read_ros2_python(source, python())
-    if path.endswith(YAML_SUFFIXES):
+    if is_yaml(path):
         return read_ros2_yaml(parse_yaml(path, text, source.lines))
     document = parse_xml(path, text, source.encoding, source.lines, before.document if before is not None else None)
     return _OF_XML[generation or generation_of(path, text, undecided, of_package)](document)
 
 
-def is_yaml(path: str) -> bool:
-    """Whether a launch file of that name is in YAML."""
-    return path.endswith(YAML_SUFFIXES)
-
-
 def generation_of(path: str, text: str, undecided: int = 1, of_package: OfPackage = no_package) -> int:
     """1 or 2; `undecided` for what has no mark of either, in no package that has one."""
-    if path.endswith(YAML_SUFFIXES) or is_python(path, text):
+    if is_yaml(path) or is_python(path, text):
         return 2
     code = without_comments(text)
     never_ros1 = _is_never_ros1(code)

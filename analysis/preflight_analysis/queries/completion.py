@@ -12,7 +12,7 @@ from dataclasses import replace
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import is_yaml
+from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.launch.schema import Attribute
 from preflight_analysis.queries.completion_annotation import annotation_place, complete_annotation
 from preflight_analysis.queries.completion_handed_over import complete_handed_over

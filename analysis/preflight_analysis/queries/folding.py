@@ -9,7 +9,7 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Document, Element, Node
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.read import is_yaml
+from preflight_analysis.launch.recognize import is_yaml
 
 FoldKind = Literal["element", "comment", "region"]
 

@@ -11,7 +11,7 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.model import LaunchFile, Substitution, action_at
-from preflight_analysis.launch.read import is_yaml
+from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.launch.schema import Attribute, Kind, Tag
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS

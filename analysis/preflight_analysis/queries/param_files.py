@@ -11,7 +11,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.markdown import code
-from preflight_analysis.launch.read import is_yaml
+from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
 from preflight_analysis.queries.places import link, place

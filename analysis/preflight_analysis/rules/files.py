@@ -15,7 +15,7 @@ from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import ParameterFileNotFound, UnreadablePath
 from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.elsewhere import (
     absent_folder_of_others,
     absent_top,

@@ -16,7 +16,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.recognize import launch_files_of
 from preflight_analysis.rules.dangling import GENERIC_PACKAGES
 from preflight_analysis.rules.nearest import likeness
 from preflight_analysis.rules.rule import Context
@@ -77,9 +77,10 @@ def writes_name(db: Database, share: str, name: str) -> bool:
     """Whether a source of the package, beside its launch files, has the name in quotes, without regard to `~` and
     slashes at its ends."""
     files = files_in(Disk(db), share, deep=True)
-    paths = [path for path in files if path.endswith(_SUFFIXES) and not path.endswith(LAUNCH_SUFFIXES)]
+    paths = [path for path in files if path.endswith(_SUFFIXES)]
+    launches = set(launch_files_of(db, paths))
     pattern = re.compile(rf"""["'][~/]*{re.escape(name.strip("~/"))}/?["']""")
-    texts = (Disk(db).text(path) for path in paths[:_MOST])
+    texts = (Disk(db).text(path) for path in paths[:_MOST] if path not in launches)
     return any(isinstance(each, Document) and pattern.search(each.text) is not None for each in texts)
 
 

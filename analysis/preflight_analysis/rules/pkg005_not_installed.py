@@ -13,7 +13,7 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Edit, Finding, Fix
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -55,8 +55,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             and not installed_at(disk, package, path)
             and not installs_more(disk, package)
         ):
-            # A copy that somebody put aside is no launch file by its name, and build files that name patterns leave it.
-            is_copy = not path.endswith(LAUNCH_SUFFIXES)
+            # A copy that somebody put aside has more behind `.launch`, and build files that name patterns leave it.
+            is_copy = ".launch" in os.path.basename(path) and not path.endswith(LAUNCH_SUFFIXES)
             yield rule.finding(
                 f"launch file '{below}' is not installed by {_build_file(package)} of '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",

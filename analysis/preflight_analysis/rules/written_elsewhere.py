@@ -15,7 +15,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.recognize import launch_files_of
 from preflight_analysis.rules.rule import Context
 
 Patterns = tuple[re.Pattern[str], ...]
@@ -29,12 +29,12 @@ _MOST_PACKAGES = 30
 def in_package(context: Context, patterns: Patterns) -> Mapping[str, int]:
     """In how many launch files of the package of the root each name is that a pattern finds, as its group."""
     package = package_around(context.environment, context.root)
-    return _in_folder(context.disk.db, package.share, patterns, LAUNCH_SUFFIXES) if package is not None else {}
+    return _in_folder(context.disk.db, package.share, patterns, None) if package is not None else {}
 
 
-def around(context: Context, patterns: Patterns, suffixes: tuple[str, ...] = LAUNCH_SUFFIXES) -> Mapping[str, int]:
+def around(context: Context, patterns: Patterns, suffixes: tuple[str, ...] | None = None) -> Mapping[str, int]:
     """As `in_package`, with the packages beside that: a robot's description, navigation, ... mostly are. Files with
-    other `suffixes` are read likewise."""
+    other `suffixes` are read likewise in the place of launch files."""
     return _around(context.disk.db, context.environment, context.root, patterns, suffixes)
 
 
@@ -46,12 +46,12 @@ def in_workspace(context: Context, patterns: Patterns) -> bool:
 @query
 def _in_workspace(db: Database, environment: Environment, patterns: Patterns) -> bool:
     shares = sorted({each.share for each in environment.own_packages})
-    return any(_in_folder(db, share, patterns, LAUNCH_SUFFIXES) for share in shares)
+    return any(_in_folder(db, share, patterns, None) for share in shares)
 
 
 @query
 def _around(
-    db: Database, environment: Environment, root: str, patterns: Patterns, suffixes: tuple[str, ...]
+    db: Database, environment: Environment, root: str, patterns: Patterns, suffixes: tuple[str, ...] | None
 ) -> Mapping[str, int]:
     package = package_around(environment, root)
     if package is None:
@@ -65,8 +65,9 @@ def _around(
 
 
 @query
-def _in_folder(db: Database, folder: str, patterns: Patterns, suffixes: tuple[str, ...]) -> Mapping[str, int]:
-    paths = [path for path in files_in(Disk(db), folder, deep=True) if path.endswith(suffixes)]
+def _in_folder(db: Database, folder: str, patterns: Patterns, suffixes: tuple[str, ...] | None) -> Mapping[str, int]:
+    paths = files_in(Disk(db), folder, deep=True)
+    paths = launch_files_of(db, paths) if suffixes is None else [path for path in paths if path.endswith(suffixes)]
     return dict(Counter(chain.from_iterable(_in_file(db, path, patterns) for path in paths[:_MOST])))
 
 

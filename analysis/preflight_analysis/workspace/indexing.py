@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import logging
 import os
-import re
 import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, PYTHON_SUFFIX
+from preflight_analysis.documents.python_text import PYTHON_SUFFIX
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.installed_paths import installed_at, package_around
 from preflight_analysis.environment.loaded_modules import is_loaded_module
@@ -19,7 +18,7 @@ from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ros
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
-from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_SUFFIXES, YAML_SUFFIXES, is_module
+from preflight_analysis.launch.recognize import LAUNCH_FOLDER, LAUNCH_SUFFIXES
 from preflight_analysis.workspace.facts import FileFacts, facts_of
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.observations import Notes
@@ -32,13 +31,6 @@ SKIPPED = frozenset({"build", "devel", "install", "log", "logs", "node_modules"}
 MAX_INCLUDED = 200_000
 """How many includes are evaluated for one index."""
 _MAX_UPSTREAM = 100
-_HEAD = 2_000
-_PARAMETERS = re.compile(r"^\s+ros__parameters:", re.MULTILINE)
-_YAML_LAUNCH = re.compile(r"^launch:", re.MULTILINE)
-_ROOT = re.compile(r"\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^>]*>\s*)*<([\w:.-]+)", re.DOTALL)
-"""The outermost element of a document that begins so."""
-_OTHER_ROOTS = frozenset(("launchConfiguration", "sdf", "gazebo", "robot", "COLLADA", "html", "opencv_storage"))
-"""Those of documents that programs beside ROS read: Eclipse, simulators, robot models, OpenCV."""
 _log = logging.getLogger(__name__)
 
 Report = Callable[[int, int, str], None]
@@ -280,10 +272,10 @@ def _written_text(parts: Iterable[Literal | Substitution], path: str, packages: 
 
 
 def launch_files(folder: str, workspace: Workspace) -> list[str]:
-    """The launch files below a workspace, without those of ROS 2 that colcon ignores: by their names, and what makes a
-    launch description in Python, where it lies in a launch folder or is installed. A folder that is nobody's
-    workspace (`/tmp`, the home folder), taken for one because a file in it was opened alone, is not walked: only its
-    own files count."""
+    """The launch files below a workspace, without those of ROS 2 that colcon ignores. In Python that is what is called
+    like one, and what makes a launch description where it lies in a launch folder or is installed. A folder that is
+    nobody's workspace (`/tmp`, the home folder), taken for one because a file in it was opened alone, is not walked:
+    only its own files count."""
     found: list[str] = []
     for place, folders, names, ignored in walk_unignored(folder, SKIPPED):
         if place in (tempfile.gettempdir(), os.path.expanduser("~"), "/"):
@@ -291,15 +283,8 @@ def launch_files(folder: str, workspace: Workspace) -> list[str]:
         in_launch_folder = LAUNCH_FOLDER in place.split(os.sep)
         for name in names:
             path = os.path.join(place, name)
-            if name.endswith(LAUNCH_SUFFIXES):
-                is_one = not (ignored and _is_of_ament(path, workspace.sources))
-                is_one = is_one and not _is_document_of_other(path, workspace.sources)
-                is_one = is_one and (in_launch_folder or not _is_of_other(path, workspace.sources))
-                is_one = is_one and not is_loaded_module(workspace.sources, path)
-            else:
-                placed = name.endswith(PYTHON_SUFFIX) and (in_launch_folder or _is_shared(workspace, path))
-                is_one = placed and not ignored and _makes_launch_description(path, workspace.sources)
-            if is_one:
+            placed = in_launch_folder or name.endswith(LAUNCH_SUFFIXES) or not name.endswith(PYTHON_SUFFIX)
+            if (placed or _is_shared(workspace, path)) and _is_launch_file(path, workspace.sources, ignored=ignored):
                 found.append(path)
     return sorted(found)  # a folder's own order changes with each file that is replaced
 
@@ -310,30 +295,9 @@ def _is_shared(workspace: Workspace, path: str) -> bool:
     return package is not None and bool(installed_at(workspace.sources, package, path))
 
 
-def _makes_launch_description(path: str, sources: Sources) -> bool:
-    found = sources.text(path)
-    return not isinstance(found, Unreadable) and LAUNCH_FUNCTION.search(found.text) is not None
-
-
-def _is_of_other(path: str, sources: Sources) -> bool:
-    """Whether a `.test` is no XML (LLVM's are command lines), a YAML file one of parameters, or a Python file a module
-    that helps to make launch files."""
-    found = sources.text(path) if path.endswith((".launch", ".test", *YAML_SUFFIXES, PYTHON_SUFFIX)) else None
-    if found is None or isinstance(found, Unreadable):
-        return False
-    if path.endswith(YAML_SUFFIXES):
-        return _PARAMETERS.search(found.text) is not None and _YAML_LAUNCH.search(found.text) is None
-    if path.endswith(PYTHON_SUFFIX):
-        return is_module(path, found.text)
-    return bool(found.text.strip()) and not found.text.lstrip().startswith("<") and "<launch" not in found.text
-
-
-def _is_document_of_other(path: str, sources: Sources) -> bool:
-    """Whether a `.launch` is XML of another kind: Eclipse, and what is made of it for microcontrollers, starts programs
-    by such, and the world of a simulator may be called so."""
-    found = sources.text(path) if path.endswith((".launch", ".test")) else None
-    root = _ROOT.match(found.text[:_HEAD]) if found is not None and not isinstance(found, Unreadable) else None
-    return root is not None and root[1] in _OTHER_ROOTS
+def _is_launch_file(path: str, sources: Sources, *, ignored: bool) -> bool:
+    is_one = sources.launch_format(path) is not None and not (ignored and _is_of_ament(path, sources))
+    return is_one and not is_loaded_module(sources, path)
 
 
 def _is_of_ament(path: str, sources: Sources) -> bool:

@@ -17,6 +17,7 @@ from preflight_analysis.incremental.database import Cancelled, Database
 from preflight_analysis.incremental.query import Input, query
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.read import generation_of_manifest
+from preflight_analysis.launch.recognize import Format, launch_format_on_disk
 
 T = TypeVar("T")
 _TRIES = 3
@@ -72,6 +73,10 @@ class Sources(Files):
     def launch_file(self, path: str, generation: int | None = None) -> LaunchFile | Unreadable:
         """The launch file at `path`, read as that generation of ROS reads it; None: as the file looks."""
         return launch_file_of(self.db, self._looked_at(os.path.normpath(path)), generation)
+
+    def launch_format(self, path: str) -> Format | None:
+        """The format of the launch file at `path`; None where it is none."""
+        return launch_format_on_disk(self.db, self._looked_at(os.path.normpath(path)))
 
     def in_one_revision(
         self,

@@ -9,7 +9,7 @@ from functools import cache
 
 from preflight_analysis.environment.git import GitError, Repository, open_repository
 from preflight_analysis.environment.packages import MANIFEST, crawl
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES
+from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli.errors import CannotDoError

@@ -5,60 +5,29 @@ from __future__ import annotations
 
 import re
 
-from preflight_analysis.documents.python_text import LAUNCH_FUNCTION, is_python
-from preflight_analysis.launch.read import LAUNCH_SUFFIXES, is_module, is_yaml
+from preflight_analysis.documents.python_text import is_python
+from preflight_analysis.documents.xml_text import document_element
+from preflight_analysis.launch.recognize import is_yaml, launch_format
 from preflight_analysis.workspace.handed_over import ROBOTS
 
 from preflight_server.lsp.text_store import OpenDocument
 
-_LIKE_OTHER_XML = "_launch.xml"
-"""Usual in ROS 2, but no name that only a launch file can have."""
-_BLANKS = re.compile(r"\s*")
-_DOCTYPE = re.compile(r"<!DOCTYPE[^<>]*>")
-_TAG = re.compile(r"<([\w:.-]+)(?=[\s/>]|\Z)")
 _XML = ("xml", "urdf", "xacro", "srdf")
 """What editors call the languages of XML."""
 _TREE = re.compile(r"<BehaviorTree\b|\b(?:BTCPP_format|main_tree_to_execute)\s*=")
 
 
 def is_launch_file(document: OpenDocument) -> bool:
-    """By its name, by the language that the editor gave it, or, for other XML, by its document element."""
+    """By what is in it and by its name, or by the language that the editor gave it."""
     if document.path is None:
         return False
-    if is_python_launch_file(document):
-        return True
-    says_so = document.path.endswith(LAUNCH_SUFFIXES) and not document.path.endswith(_LIKE_OTHER_XML)
-    if document.language_id == "roslaunch" or says_so:
-        return document.language_id != "python"
-    return document.language_id == "xml" and _first_tag(document.text) == "launch"
-
-
-def _first_tag(text: str) -> str:
-    """The first tag, behind declarations and comments; "" where there is none."""
-    at = 1 if text.startswith("\ufeff") else 0
-    while True:
-        blanks = _BLANKS.match(text, at)
-        at = blanks.end() if blanks else at
-        if text.startswith(("<?", "<!--"), at):
-            closing = "?>" if text.startswith("<?", at) else "-->"
-            close = text.find(closing, at + 2)
-            if close < 0:
-                return ""
-            at = close + len(closing)
-        elif doctype := _DOCTYPE.match(text, at):
-            at = doctype.end()
-        else:
-            found = _TAG.match(text, at)
-            return found[1] if found is not None else ""
+    is_roslaunch = document.language_id == "roslaunch" and not is_python(document.path, document.text)
+    return is_roslaunch or launch_format(document.path, document.text) is not None
 
 
 def is_python_launch_file(document: OpenDocument) -> bool:
-    """By its name, or by the function that launch calls. The user's Python language server has it too: we say only
-    what is ours to say."""
-    if document.path is None or not is_python(document.path, document.text):
-        return False
-    is_named = document.path.endswith(LAUNCH_SUFFIXES) and not is_module(document.path, document.text)
-    return is_named or LAUNCH_FUNCTION.search(document.text) is not None
+    """The user's Python language server has it too: we say only what is ours to say."""
+    return document.path is not None and launch_format(document.path, document.text) == "python"
 
 
 def may_be_parameter_file(document: OpenDocument) -> bool:
@@ -74,7 +43,7 @@ def is_handed_over(document: OpenDocument) -> bool:
         return False
     if path.endswith(ROBOTS):
         return True
-    tag = _first_tag(document.text)
+    tag = document_element(document.text)
     return tag == "robot" or (tag == "root" and _TREE.search(document.text) is not None)
 
 

@@ -28,7 +28,7 @@ from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
 from preflight_analysis.launch.python_actions import actions_of
 from preflight_analysis.launch.python_source import PythonSource
-from preflight_analysis.launch.read import LAUNCH_FOLDER, LAUNCH_SUFFIXES
+from preflight_analysis.launch.recognize import LAUNCH_FOLDER, LAUNCH_SUFFIXES
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root

@@ -14,7 +14,7 @@ from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
 from preflight_analysis.evaluation.tree import Tag
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_source import PythonSource
-from preflight_analysis.launch.read import YAML_SUFFIXES
+from preflight_analysis.launch.recognize import is_yaml
 
 _CATALOGUED_PYTHON = PYTHON_SUFFIX + SUFFIX
 """Of what the catalogue has of a program."""
@@ -77,7 +77,7 @@ class Place:
         YAML aliases and tags."""
         if self.is_python:
             return None
-        if not self.file.endswith(YAML_SUFFIXES):
+        if not is_yaml(self.file):
             return action.span
         start = min((action.span.start, *(comment.span.start for comment in action.comments)))
         is_all = _SAID_ELSEWHERE.search(self.lines.text, start, action.span.end) is None
