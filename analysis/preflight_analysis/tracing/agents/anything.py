@@ -10,12 +10,22 @@ from __future__ import annotations
 import abc
 import builtins
 import dis
+import re
 import sys
 import types
 from typing import Any, Callable, Iterator
 
 BEGIN, END = "\ufdd0", "\ufdd1"
 """Around what a text that is not known stands for: noncharacters, which no file has, and YAML and XML allow."""
+_DIGITS = "".join(map(chr, range(0xFDD2, 0xFDE2)))
+"""What the name is written with: whatever a program cuts out of a mark is known to be a part of one."""
+_ENCODED, _DECODED = str.maketrans("0123456789abcdef", _DIGITS), str.maketrans(_DIGITS, "0123456789abcdef")
+MARKS = re.compile("[\ufdd0-\ufdef]+")
+_MARK = re.compile(f"{BEGIN}((?:[{_DIGITS}]{{2}})+){END}")
+_ESCAPED = re.compile(r"\\u([fF][dD][dDeE][0-9a-fA-F])")
+"""A mark as `repr`, JSON and YAML write it."""
+_LOST = "..."
+"""What stands for a mark of which only some is left."""
 MAX_NAME = 100
 MAX_ASKED = 1000
 """How often one place of a program has one answer to what is not known: `while camera.is_open()` has an end."""
@@ -47,23 +57,34 @@ def _too_often(frame: Any) -> bool:
 
 def unknown_text(name: str) -> str:
     """A text that is not known; `name` says of what."""
-    text: str = marked(f"{BEGIN}{name[:MAX_NAME].replace(BEGIN, '').replace(END, '')}{END}")
+    encoded = readable(name)[:MAX_NAME].encode("utf-8", "surrogatepass").hex().translate(_ENCODED)
+    text: str = marked(f"{BEGIN}{encoded}{END}")
     return text
 
 
 def is_unknown(text: Any) -> bool:
     """Whether some of a text is not known."""
-    return isinstance(text, str) and BEGIN in text
+    return isinstance(text, str) and not text.isascii() and MARKS.search(text) is not None
 
 
 def readable(text: str) -> str:
     """The same for people."""
-    return text.replace(BEGIN, "").replace(END, "")
+    return str(text) if text.isascii() else MARKS.sub(lambda found: name_of(found[0]), text)
+
+
+def name_of(marks: str) -> str:
+    """What stands between marks: the names of what is not known."""
+    names = (bytes.fromhex(each.translate(_DECODED)).decode("utf-8", "replace") for each in _MARK.findall(marks))
+    return " ".join(names) or _LOST
 
 
 def marked(text: Any) -> Any:
     """A text; where some of it is not known, and somebody wants to be told of conditions, one that tells."""
-    return UnknownText(text) if on_condition and type(text) is str and BEGIN in text else text
+    if type(text) is not str or not on_condition:
+        return text
+    if "\\u" in text:
+        text = _ESCAPED.sub(lambda found: chr(int(found[1], 16)), text)
+    return UnknownText(text) if is_unknown(text) else text
 
 
 class UnknownText(str):
@@ -77,6 +98,16 @@ class UnknownText(str):
     def __bool__(self) -> bool:
         return asked(self, sys._getframe(1))
 
+    def __repr__(self) -> str:
+        return marked(str.__repr__(self))  # type: ignore[no-any-return]
+
+    def __format__(self, spec: str) -> str:
+        return self  # a precision would cut it
+
+    def __iter__(self) -> Iterator[Any]:
+        """Nobody knows how many characters there are."""
+        return iter([self])
+
 
 _TEXTS = (
     *(
@@ -86,9 +117,12 @@ _TEXTS = (
         "__mul__",
         "capitalize",
         "casefold",
+        "center",
+        "expandtabs",
         "format",
         "format_map",
         "join",
+        "ljust",
         "lower",
     ),
     *(
@@ -96,12 +130,14 @@ _TEXTS = (
         "removeprefix",
         "removesuffix",
         "replace",
+        "rjust",
         "rstrip",
         "strip",
         "swapcase",
         "title",
         "translate",
         "upper",
+        "zfill",
     ),
 )
 _LISTS = ("partition", "rpartition", "rsplit", "split", "splitlines")
@@ -118,6 +154,18 @@ def _of_text(method: Any, result: Callable[[Any], Any]) -> Any:
     return called
 
 
+def _parts_of_text(method: Any) -> Any:
+    """What takes a text apart. Where it finds nothing at which to do so, what is not known may have that."""
+
+    def called(self: Any, *args: Any, **kwargs: Any) -> Any:
+        found = method(self, *args, **kwargs)
+        if isinstance(found, tuple) and not found[1]:
+            found = tuple(each or unknown_text(self) for each in found)
+        return type(found)(map(marked, found))
+
+    return called
+
+
 def _truth_of_text(method: Any) -> Any:
     def called(self: Any, *args: Any) -> Any:
         result = method(self, *args)
@@ -130,7 +178,7 @@ for _each in _TEXTS:
     if hasattr(str, _each):  # an older Python has fewer
         setattr(UnknownText, _each, _of_text(getattr(str, _each), marked))
 for _each in _LISTS:
-    setattr(UnknownText, _each, _of_text(getattr(str, _each), lambda found: type(found)(map(marked, found))))
+    setattr(UnknownText, _each, _parts_of_text(getattr(str, _each)))
 for _each in _TRUTHS:
     setattr(UnknownText, _each, _truth_of_text(getattr(str, _each)))
 

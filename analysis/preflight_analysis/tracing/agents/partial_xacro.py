@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from typing import Any, Optional
 
-from .anything import BEGIN, END, is_unknown, unknown_text
+from .anything import MARKS, is_unknown, unknown_text
 from .skeletons import PACKAGE, Skeletons
 
 INCOMPLETE = " incomplete for ros-preflight without "
@@ -23,7 +23,6 @@ INEXACT = " values unknown to ros-preflight without "
 CATALOGUED = " from the catalogue of ros-preflight for "
 """How the comment begins that names a distribution and the packages that the catalogue has of it, apart by commas."""
 MOST_NAMED = 20
-_MARKED = re.compile(f"{BEGIN}[^{END}]*{END}?")
 _OTHERS = "unresolved values"
 _NAMED = re.compile(r"[A-Za-z][\w-]*")
 _FIND = re.compile(r"\$\(find +([^\s()]+) *\)")
@@ -295,7 +294,7 @@ def _clean(element: Any, lacking: Lacking) -> None:
     while waiting:
         each = waiting.pop()
         for name, value in list((each.attributes or {}).items()):
-            cleaned = lacking.skeletons.without_folders(_MARKED.sub("${unknown}", value))
+            cleaned = lacking.skeletons.without_folders(MARKS.sub("${unknown}", value))
             if cleaned == value:
                 continue
             if name == "type" and each.getAttribute(PACKAGE):
@@ -304,7 +303,7 @@ def _clean(element: Any, lacking: Lacking) -> None:
                 lacking.miss()
             each.setAttribute(name, cleaned)
         data = getattr(each, "data", None) or ""
-        cleaned = lacking.skeletons.without_folders(_MARKED.sub("${unknown}", data))
+        cleaned = lacking.skeletons.without_folders(MARKS.sub("${unknown}", data))
         if cleaned != data:
             each.data = cleaned
             if each.parentNode.nodeName in _NAMING:

@@ -8,7 +8,7 @@ import os
 import sys
 from typing import Any, Iterable, Optional
 
-from ..anything import Anything, marked
+from ..anything import Anything, marked, unknown_text
 from .answers import Answers
 
 OURS = os.path.dirname(os.path.abspath(__file__))
@@ -51,6 +51,8 @@ class Recorder:
         """What is known of robot descriptions in packages that are not here (`skeletons.Skeletons`)."""
         self.unknown = False
         """Whether something that the file is given is not known."""
+        self.none: dict[str, Any] = {}
+        """Variables of the environment that are not set, for which a program got `None`, with the place."""
         self.reads: Any = None
         """What notes what is read (`reads.Reads`), while something does."""
         self.last_reads: Any = None
@@ -68,6 +70,15 @@ class Recorder:
         """Note a module or package that is not here, where it is asked for first."""
         self.missed.setdefault((what, name), self.place())
         self.unknown = True
+
+    def in_place_of_none(self, value: Any) -> Any:
+        """What a program writes into a text: `None` is there for a variable that this machine does not have."""
+        if value is not None or not self.none:
+            return value
+        variable, place = next(iter(self.none.items()))
+        self.missed.setdefault(("variable", variable), place)
+        self.unknown = True
+        return unknown_text(f"the variable {variable}")
 
     def asks_for(self, variable: Any, frame: Any) -> None:
         """Note that a program asks for a variable of the environment, where its value is but assumed."""

@@ -19,7 +19,7 @@ import types
 import zlib
 from typing import Any, Callable, Optional
 
-from ..anything import BEGIN, AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
+from ..anything import AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from ..process import own_seconds
 from . import installed, programs, reads, rewrites, rewritten, unknown_files, waiting, written
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
@@ -284,7 +284,7 @@ def _error_record(error: BaseException) -> dict[str, Any]:
     absent = _looked_for(error)
     if absent is not None:
         record["absent"] = absent[:2000]
-    if RECORDER.unknown and not _of_ours(error, message):
+    if (RECORDER.unknown or RECORDER.guessed) and not _of_ours(error, message):
         record["unsure"] = True
     if isinstance(error, NotHereError):
         record["refused"] = True
@@ -310,11 +310,13 @@ def _is_set_somewhere(message: str) -> bool:
 
 
 def _of_ours(error: BaseException, message: str) -> bool:
-    """Whether it says what launch would say whatever is unknown: of arguments that an action does not take."""
-    if not isinstance(error, TypeError) or BEGIN in message:
+    """Whether it says what launch would say whatever is unknown: of arguments that an action does not take, and of
+    values that no condition has chosen."""
+    if not isinstance(error, TypeError) or is_unknown(message):
         return False
     frames = traceback.extract_tb(error.__traceback__)
-    return bool(frames and frames[-1].filename.startswith(OURS)) or _ARGUMENTS.search(message) is not None
+    is_ours = bool(frames and frames[-1].filename.startswith(OURS)) and not RECORDER.guessed
+    return is_ours or _ARGUMENTS.search(message) is not None
 
 
 def _files() -> dict[str, str]:

@@ -1,39 +1,46 @@
 """Code in which what is made of something unknown stays unknown where Python alone would lose it.
 
-An f-string gives a plain text, `int` and `dict` want a real number and real pairs, `type` and `isinstance` tell what
-stands in for the value, a dictionary has no item of a name that nobody knows, and nobody knows how many parts a text
-has, or what `**` of a mapping gives a call. The code of a launch file, and of the modules of the workspace, asks us in
-these places.
+`str` and an f-string give a plain text, `int` and `dict` want a real number and real pairs, `type` and `isinstance`
+tell what stands in for the value, a dictionary has no item of a name that nobody knows, and nobody knows how many parts
+a text has, what a number of it is, or what `**` of a mapping gives a call. The code of a launch file, and of the
+modules of the workspace, asks us in these places.
 """
 
 from __future__ import annotations
 
 import ast
 import builtins
+import collections
 import importlib.machinery
 import inspect
+import os
+import re
 import sys
 import types
 from typing import Any, Iterator
 
-from ..anything import BEGIN, AnyModule, Anything, asked, is_unknown, marked, unknown_text
+from ..anything import MARKS, AnyModule, Anything, asked, is_unknown, marked, readable, unknown_text
 from .base import RECORDER, is_own_file
 
 _TEXT, _OF, _IN = "__preflight_text__", "__preflight_of__", "__preflight_in__"
 _PARTS, _EACH = "__preflight_parts__", "__preflight_each__"
 _WITH, _MORE = "__preflight_with__", "__preflight_more__"
+_PERCENT = "__preflight_percent__"
 _CALLED, _AS_TEXT, _MODULE = "__preflight_called__", "__preflight_as_text__", "__preflight_module__"
 _AS_CODE, _VALUE = "__preflight_as_code__", "__preflight_value__"
-_OF_VALUES = ("int", "float", "dict", "type", "isinstance")
+_FORMATTED = "__preflight_formatted__"
 _GIVEN = {"map": _CALLED, "eval": _AS_CODE}
 """Functions of which the first argument is asked."""
-_OF_TEXTS = ("join", "replace", "startswith", "endswith", "write", "writelines")
+_OF_TEXTS = ("join", "replace", "startswith", "endswith", "write", "writelines", "format")
 """Methods that want texts."""
+_MAY_BE_TEXTS = (ast.Name, ast.Attribute, ast.Subscript, ast.IfExp, ast.BoolOp)
+"""What may be a text that does not tell: others are asked as they are made."""
+_FORMAT = re.compile(r"%(\(\w+\))?[#0\- +]*(?:\*|\d+)?(?:\.(?:\*|\d+))?[diouxXeEfFgGcrsa]")
 _COLLECTIONS: tuple[type, ...] = (dict, list, tuple)
 _PLAIN: tuple[type, ...] = (str, int, float, bool)
 _PASSED: tuple[type, ...] = (list, tuple, map, types.GeneratorType)
 """What a text is taken apart with."""
-_SETS: tuple[type, ...] = (dict, set, frozenset, str, type({}.keys()))
+_SETS: tuple[type, ...] = (dict, set, frozenset, type({}.keys()))
 """Which tell whether something is in them without asking it."""
 
 
@@ -48,7 +55,16 @@ def compiled(text: Any, file: str) -> types.CodeType:
 
 def install() -> None:
     """From now on the modules of the workspace are compiled so."""
-    values = {_TEXT: marked, _OF: _of, _IN: _in, _PARTS: _parts, _EACH: _each, _AS_TEXT: _as_text}
+    values = {
+        _TEXT: marked,
+        _FORMATTED: _formatted,
+        _PERCENT: _percent,
+        _OF: _of,
+        _IN: _in,
+        _PARTS: _parts,
+        _EACH: _each,
+        _AS_TEXT: _as_text,
+    }
     calls = {_CALLED: _called, _WITH: _with, _MORE: _more, _MODULE: AnyModule, _AS_CODE: _as_code}
     vars(builtins)[_VALUE] = Anything("eval()")
     vars(builtins).update({**values, **calls})
@@ -67,17 +83,54 @@ def install() -> None:
 
 class _Rewriter(ast.NodeTransformer):
     def visit_JoinedStr(self, node: ast.JoinedStr) -> Any:
-        self.generic_visit(node)
+        for value in node.values:
+            if isinstance(value, ast.FormattedValue):
+                value.value = _call(_FORMATTED, self.visit(value.value))
+                if value.format_spec is not None:
+                    self.generic_visit(value.format_spec)
         return _call(_TEXT, node)
-
-    def visit_FormattedValue(self, node: ast.FormattedValue) -> Any:
-        node.value = self.visit(node.value)
-        return node
 
     def visit_Subscript(self, node: ast.Subscript) -> Any:
         self.generic_visit(node)
-        if isinstance(node.ctx, ast.Load) and not isinstance(node.slice, (ast.Slice, ast.Tuple)):
+        if isinstance(node.ctx, ast.Load) and not isinstance(node.slice, ast.Tuple):
             node.value = _call(_OF, node.value)
+        return node
+
+    def visit_BinOp(self, node: ast.BinOp) -> Any:
+        self.generic_visit(node)
+        if isinstance(node.op, ast.Mod):
+            return ast.copy_location(ast.Call(_named(_PERCENT, node), [node.left, node.right], []), node)
+        return _call(_TEXT, node) if isinstance(node.op, (ast.Add, ast.Mult)) else node
+
+    def visit_If(self, node: Any) -> Any:
+        self.generic_visit(node)
+        node.test = _may_tell(node.test)
+        return node
+
+    visit_While = visit_IfExp = visit_Assert = visit_If  # noqa: N815, as ast calls them
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> Any:
+        self.generic_visit(node)
+        node.values = list(map(_may_tell, node.values))
+        return node
+
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> Any:
+        self.generic_visit(node)
+        node.operand = _may_tell(node.operand) if isinstance(node.op, ast.Not) else node.operand
+        return node
+
+    def visit_Match(self, node: Any) -> Any:
+        node.subject = _may_tell(self.visit(node.subject))
+        for case in node.cases:  # patterns are no expressions
+            case.guard = case.guard and _may_tell(self.visit(case.guard))
+            case.body = [self.visit(each) for each in case.body]
+        return node
+
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> Any:
+        node.value = node.value and self.visit(node.value)
+        return node
+
+    def visit_arg(self, node: ast.arg) -> Any:
         return node
 
     def visit_Assign(self, node: ast.Assign) -> Any:
@@ -93,36 +146,52 @@ class _Rewriter(ast.NodeTransformer):
 
     def visit_comprehension(self, node: ast.comprehension) -> Any:
         self.generic_visit(node)
+        node.ifs = list(map(_may_tell, node.ifs))
         return node if node.is_async else _with_parts(node)
 
     def visit_Compare(self, node: ast.Compare) -> Any:
         self.generic_visit(node)
+        node.left, node.comparators = _may_tell(node.left), list(map(_may_tell, node.comparators))
         if len(node.ops) == 1 and isinstance(node.ops[0], (ast.In, ast.NotIn)):
             node.comparators[0] = _call(_IN, node.comparators[0])
         return node
 
     def visit_Call(self, node: ast.Call) -> Any:
         self.generic_visit(node)
-        if isinstance(node.func, ast.Attribute) and node.func.attr == "get":
-            node.func.value = _call(_OF, node.func.value)
-        elif isinstance(node.func, ast.Name) and node.func.id in _OF_VALUES:
-            node.func = _call(_CALLED, node.func)
+        if isinstance(node.func, ast.Attribute):
+            node.func.value = _may_tell(node.func.value)
+            if node.func.attr == "get":
+                node.func.value = _call(_OF, node.func.value)
+            elif node.func.attr in _OF_TEXTS:
+                name = _FORMATTED if node.func.attr == "format" else _AS_TEXT
+                node.args = [each if isinstance(each, ast.Starred) else _call(name, each) for each in node.args]
+                for each in node.keywords if name == _FORMATTED else ():
+                    each.value = _call(name, each.value) if each.arg is not None else each.value
         elif isinstance(node.func, ast.Name) and node.func.id in _GIVEN and node.args:
             node.args[0] = _call(_GIVEN[node.func.id], node.args[0])
-        elif isinstance(node.func, ast.Attribute) and node.func.attr in _OF_TEXTS:
-            node.args = [each if isinstance(each, ast.Starred) else _call(_AS_TEXT, each) for each in node.args]
+        if isinstance(node.func, (ast.Name, ast.Attribute)):
+            node.func = _call(_CALLED, node.func)
         more = [each for each in node.keywords if each.arg is None]
         for each in more:
             each.value = _call(_MORE, each.value)
         starred = any(isinstance(each, ast.Starred) for each in node.args)
         if more or starred:
             node.func = _call(_WITH, node.func, int(starred))
-        return node
+        return _call(_TEXT, node)
+
+
+def _may_tell(node: Any) -> Any:
+    """What is asked whether it holds, or compared: a text that is not known tells of it."""
+    return _call(_TEXT, node) if isinstance(node, _MAY_BE_TEXTS) else node
+
+
+def _named(name: str, node: Any) -> ast.Name:
+    return ast.copy_location(ast.Name(name, ast.Load()), node)
 
 
 def _call(name: str, node: Any, *numbers: int) -> ast.Call:
     of = [node, *(ast.copy_location(ast.Constant(number), node) for number in numbers)]
-    return ast.copy_location(ast.Call(ast.copy_location(ast.Name(name, ast.Load()), node), of, []), node)
+    return ast.copy_location(ast.Call(_named(name, node), of, []), node)
 
 
 def _count(target: Any) -> int:
@@ -172,7 +241,7 @@ def _as_text(value: Any) -> Any:
     if isinstance(value, Anything):
         return str(value)
     if type(value) not in _PASSED:
-        return value
+        return marked(value)
     texts = [str(each) if isinstance(each, Anything) else each for each in value]
     return tuple(texts) if isinstance(value, tuple) else texts
 
@@ -215,12 +284,16 @@ class _Of:
         self._of = of
 
     def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, slice):
+            return self._slice(key)
         if isinstance(key, Anything) and not isinstance(self._of, dict):
             return key[0]
+        if isinstance(self._of, dict) and _is_unknown(key) and key not in self._of:
+            return Anything(f"[{key}]")
         try:
             return self._of[key]
         except KeyError:
-            if not _is_unknown(key) and not any(map(_is_unknown, self._of)):
+            if not any(map(_is_unknown, self._of)):
                 raise
         except IndexError:
             if not any(map(_is_unknown, self._of)):
@@ -229,35 +302,140 @@ class _Of:
             return part if isinstance(part, str) else part[0]
         return Anything(f"[{key}]")
 
+    def _slice(self, key: slice) -> Any:
+        bounds = [each for each in (key.start, key.stop, key.step) if isinstance(each, Anything)]
+        found = self._of[key]
+        unknown = next(filter(_is_unknown, self._of), None)
+        return [*found, bounds[0][0]] if bounds else found or ([] if unknown is None else [unknown])
+
     def get(self, key: Any, *default: Any) -> Any:
         found = self._of.get(key, *default)
-        if not _is_unknown(key) or key in self._of or not asked(str(key), sys._getframe(1), False):
+        is_open = key not in self._of and (_is_unknown(key) or any(map(_is_unknown, self._of)))
+        if not is_open or not asked(str(key), sys._getframe(1), False):
             return found
         return Anything(f"get({key})")
 
     def __contains__(self, item: Any) -> bool:
         found = item in self._of
-        return asked(str(item), sys._getframe(1), found) if _is_unknown(item) else found
+        is_open = _is_unknown(item) or (not found and any(map(_is_unknown, self._of)))
+        return asked(str(item), sys._getframe(1), found) if is_open else found
+
+
+class _OfText:
+    """A text of which some is not known: what is in front of that is known, and what is behind it."""
+
+    def __init__(self, of: str) -> None:
+        self._of = of
+
+    def __getitem__(self, key: Any) -> Any:
+        parts = MARKS.split(self._of)
+        before, behind = len(parts[0]), len(parts[-1])
+        start, stop = (key.start, key.stop) if isinstance(key, slice) else (key, None)
+        if any(isinstance(each, Anything) for each in (start, stop)):
+            return unknown_text(f"a part of {readable(self._of)}")
+        if isinstance(key, slice):
+            is_before = stop is not None and (start or 0) >= 0 and 0 <= stop <= before
+            is_behind = start is not None and -behind <= start < 0 and (stop is None or stop < 0)
+        else:
+            is_before, is_behind = 0 <= start < before, -behind <= start < 0
+        return self._of[key] if is_before or is_behind else unknown_text(f"a part of {readable(self._of)}")
 
 
 def _called(function: Any) -> Any:
-    if function is isinstance:
-        return _isinstance
-    return _MADE_OF_UNKNOWN.get(function, function) if isinstance(function, type) else function
+    """A function, or what a launch file gets in the place of one that would make a fact of what is not known."""
+    kind = type(function)
+    if kind is type or kind is types.FunctionType:
+        return _INSTEAD.get(function, function)
+    if kind not in _BUILTIN:
+        return function
+    of = getattr(function, "__self__", None)
+    if isinstance(of, str) and is_unknown(of) and function.__name__ in _NUMBERS_OF_TEXT:
+        return lambda *args: Anything(f"{readable(of)}.{function.__name__}()")
+    counts = getattr(function, "__module__", None) in _CALCULATING or function in _COUNTING
+    return _calculated(function) if counts or isinstance(of, re.Pattern) else _INSTEAD.get(function, function)
+
+
+def _calculated(function: Any) -> Any:
+    """A function that gives numbers or the like: of what is not known nobody knows them."""
+
+    def called(*args: Any, **kwargs: Any) -> Any:
+        given = (*args, *kwargs.values())
+        if any(map(_is_unknown, given)):
+            return Anything(f"{function.__name__}()")
+        return function(*args, **kwargs)
+
+    return called
+
+
+def _ordered(function: Any) -> Any:
+    """One that compares what it is given."""
+
+    def called(*args: Any, **kwargs: Any) -> Any:
+        args = tuple(list(each) if type(each) in _PASSED else each for each in args)
+        unknown = next((each for each in _items(args) if _is_unknown(each)), None)
+        if unknown is not None:
+            asked(str(unknown), sys._getframe(1))
+        return function(*args, **kwargs)
+
+    return called
+
+
+def _items(values: Any) -> Iterator[Any]:
+    for value in values:
+        yield from value if isinstance(value, list) else (value,)
 
 
 def _of(thing: Any) -> Any:
-    return _Of(thing) if type(thing) in _COLLECTIONS else thing
+    if isinstance(thing, str):
+        return _OfText(thing) if is_unknown(thing) else thing
+    return _Of(thing) if type(thing) in _COLLECTIONS or type(thing) in _KINDS_OF_DICT else thing
 
 
 def _in(thing: Any) -> Any:
+    if type(thing) in (list, tuple):
+        return type(thing)(map(marked, thing)) if any(map(_is_unknown, thing)) else thing
     return _Of(thing) if type(thing) in _SETS else thing
 
 
 def _is_unknown(value: Any) -> bool:
-    if isinstance(value, bytes):
-        return BEGIN.encode() in value
+    if isinstance(value, (bytes, bytearray)):
+        return is_unknown(value.decode(errors="ignore"))
     return isinstance(value, Anything) or is_unknown(value)
+
+
+def _formatted(value: Any) -> Any:
+    """What is written into a text."""
+    return marked(RECORDER.in_place_of_none(value))
+
+
+def _percent(left: Any, right: Any) -> Any:
+    """What `%` gives. Of what is not known no precision is taken."""
+    if type(left) is str:
+        given = right if isinstance(right, tuple) else right.values() if isinstance(right, dict) else (right,)
+        if any(map(_is_unknown, given)):
+            left = _FORMAT.sub(lambda found: f"%{found[1] or ''}s", left)
+        if isinstance(right, tuple):
+            right = tuple(map(RECORDER.in_place_of_none, right))
+        elif right is None:
+            right = RECORDER.in_place_of_none(right)
+    return marked(left % right)
+
+
+def _str(*args: Any, **kwargs: Any) -> Any:
+    return marked(str(*map(RECORDER.in_place_of_none, args), **kwargs))
+
+
+def _bool(*args: Any) -> Any:
+    return asked(str(args[0]), sys._getframe(1)) if args and _is_unknown(args[0]) else bool(*args)
+
+
+def _getattr(thing: Any, name: Any, *default: Any) -> Any:
+    return Anything(f"{name}") if _is_unknown(name) else getattr(thing, name, *default)
+
+
+def _dirname(path: Any) -> Any:
+    found = _os_dirname(path)
+    return found if found or not _is_unknown(path) else unknown_text(f"the folder of {readable(str(path))}")
 
 
 def _int(*args: Any, **kwargs: Any) -> Any:
@@ -300,4 +478,15 @@ def _kinds(kind: Any) -> Any:
     return [found for each in kind for found in _kinds(each)] if isinstance(kind, tuple) else [kind]
 
 
-_MADE_OF_UNKNOWN: dict[type, Any] = {int: _int, float: _float, dict: _dict, type: _type}
+_os_dirname = os.path.dirname
+_INSTEAD: dict[Any, Any] = {
+    **{int: _int, float: _float, dict: _dict, type: _type, str: _str, bool: _bool, isinstance: _isinstance},
+    **{getattr: _getattr, _os_dirname: _dirname},
+    **{each: _ordered(each) for each in (min, max, sorted)},
+}
+_BUILTIN = (types.BuiltinFunctionType, types.MethodWrapperType, type(re.compile("").search))
+_CALCULATING = ("math", "cmath", "_hashlib", "_sha1", "_sha256", "_md5", "zlib", "binascii")
+"""Modules whose functions give a value that shows nothing of what it is made of."""
+_COUNTING = frozenset((abs, bin, divmod, hash, hex, len, oct, ord, pow, round))
+_NUMBERS_OF_TEXT = ("count", "find", "index", "rfind", "rindex", "__len__", "__hash__")
+_KINDS_OF_DICT = (collections.OrderedDict, collections.defaultdict)

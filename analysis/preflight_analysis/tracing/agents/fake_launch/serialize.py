@@ -8,10 +8,10 @@ if the host may ask for its execution. A value is a list of pieces, or `{"v": pl
 from __future__ import annotations
 
 import contextlib
-import re
+import itertools
 from typing import Any, Iterable, Iterator, Optional
 
-from ..anything import BEGIN, END, AnyBase, Anything, is_unknown
+from ..anything import MARKS, AnyBase, Anything, is_unknown, name_of
 from .base import (
     Action,
     Condition,
@@ -213,12 +213,11 @@ class Serializer:
         if type(sub) is not TextSubstitution or not is_unknown(sub.text):
             yield self._part(sub)
             return
-        for text in re.split(f"({BEGIN}[^{END}]*{END}?)", sub.text):
-            if text.startswith(BEGIN):
-                name = text.strip(BEGIN + END)
-                yield {"s": "unknown", "w": [[name]], "n": "", "p": sub.preflight_place}
-            elif text:
-                yield text
+        for known, marks in itertools.zip_longest(MARKS.split(sub.text), MARKS.findall(sub.text)):
+            if known:
+                yield known
+            if marks:
+                yield {"s": "unknown", "w": [[name_of(marks)]], "n": "", "p": sub.preflight_place}
 
     def _part(self, sub: Any) -> Any:
         if type(sub) is TextSubstitution:

@@ -14,20 +14,19 @@ import importlib.util
 import io
 import os
 import pathlib
-import re
 import shutil
 import sys
 import xml.dom.minidom
 from typing import Any, Callable, Iterator
 
 from .. import partial_xacro
-from ..anything import BEGIN, END, Anything, UnknownText, asked, is_unknown, marked, readable, unknown_text
+from ..anything import MARKS, Anything, UnknownText, asked, is_unknown, marked, name_of, readable, unknown_text
 from ..missing_modules import provided_for
 from ..skeletons import Skeletons
 from . import programs, written
 from .base import OURS, RECORDER, is_own
 
-_SHARE = re.compile(f"{BEGIN}the share folder of ([^{END}]*){END}")
+_SHARE = "the share folder of "
 _PARSERS = {
     "ast": ("literal_eval",),
     "json": ("load", "loads"),
@@ -161,7 +160,7 @@ def _guarded(function: Any, name: str) -> Any:
             # A file that was written of something unknown has its mark and nothing else.
             return unknown() if name.startswith(_DATA) and isinstance(found, str) and is_unknown(found) else found
         except Exception as error:
-            if BEGIN not in str(error) and not name.startswith("xacro."):
+            if not is_unknown(str(error)) and not name.startswith("xacro."):
                 raise
             if not RECORDER.unknown:
                 raise
@@ -175,7 +174,12 @@ def _as_described(path: Any) -> Any:
     if not isinstance(path, (str, os.PathLike)):
         return path
     skeletons = Skeletons(RECORDER.descriptions)
-    return _SHARE.sub(lambda found: skeletons.folder_of(found[1]) or found[0], str(path))
+
+    def described(found: Any) -> str:
+        name = name_of(found[0])
+        return (skeletons.folder_of(name[len(_SHARE) :]) if name.startswith(_SHARE) else None) or str(found[0])
+
+    return MARKS.sub(described, str(path))
 
 
 def _as_json(default: Any) -> Any:
@@ -202,9 +206,9 @@ class _Document(xml.dom.minidom.Document):
 def _is_of_unknown(value: Any) -> bool:
     """Whether it is a path, a text, a file or a command line in which something is unknown."""
     if isinstance(value, (str, Anything)):
-        return isinstance(value, Anything) or BEGIN in value
+        return isinstance(value, Anything) or is_unknown(value)
     if isinstance(value, bytes):
-        return BEGIN.encode() in value
+        return is_unknown(value.decode(errors="ignore"))
     if isinstance(value, (list, tuple)):
         return any(map(_is_of_unknown, value))
     if isinstance(value, os.PathLike):
@@ -317,15 +321,20 @@ def _look_for_variables(environment: Any) -> None:
     def contains(self: Any, key: Any) -> bool:
         return bool(is_set(self, key)) or _is_assumed(key, sys._getframe(1))
 
+    def given(value: Any, key: Any) -> Any:
+        if value is None and isinstance(key, str):
+            RECORDER.none.setdefault(key, RECORDER.place())
+        return value
+
     def found(self: Any, key: Any, default: Any = None) -> Any:
         RECORDER.asks_for(key, sys._getframe(1))
         assumed = not default and not is_set(self, key) and _is_assumed(key, sys._getframe(1))
-        return unknown_text(f"the variable {key}") if assumed else get(self, key, default)
+        return unknown_text(f"the variable {key}") if assumed else given(get(self, key, default), key)
 
     def getenv(key: Any, default: Any = None) -> Any:
         RECORDER.asks_for(key, sys._getframe(1))
         assumed = not default and not is_set(os.environ, key) and _is_assumed(key, sys._getframe(1))
-        return unknown_text(f"the variable {key}") if assumed else get(os.environ, key, default)
+        return unknown_text(f"the variable {key}") if assumed else given(get(os.environ, key, default), key)
 
     environment.__contains__, environment.get, os.getenv = contains, found, getenv
 
