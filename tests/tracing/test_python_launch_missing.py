@@ -933,3 +933,30 @@ def generate_launch_description():
     )
     assert "AttributeError" not in {each.what for each in tree.unknowns}
     assert names(tree) == ["/n"]
+
+
+IMPORTS = {
+    "from launch.actions import Node": (
+        "cannot import name 'Node' from 'launch.actions'; it is in 'launch_ros.actions'",
+        "error",
+    ),
+    "from launch.substitutions import FindPackageShar": (
+        "cannot import name 'FindPackageShar' from 'launch.substitutions'; "
+        "no launch of Humble, Jazzy, Kilted or Rolling has it",
+        "error",
+    ),
+    "from p.utlis import helper": ("module 'p.utlis' does not exist; did you mean 'p.utils'?", "error"),
+    "from p import utlis": ("module 'p.utlis' does not exist; did you mean 'p.utils'?", "error"),
+    "import numpyy": ("module 'numpyy' is not known; did you mean 'numpy'?", "warning"),
+}
+
+
+@pytest.mark.parametrize("line", IMPORTS)
+def test_an_import_that_no_machine_can_do_is_certain(harness: PythonHarness, line: str) -> None:
+    harness.write("setup.py", "from setuptools import setup\nsetup(name='p', packages=['p'])\n")
+    harness.write("p/__init__.py", "")
+    harness.write("p/utils.py", "def helper(): pass\n")
+    text = f"from launch import LaunchDescription\n{line}\n\ndef generate_launch_description():\n    "
+    path = harness.write("launch/a.launch.py", f"{text}return LaunchDescription([])\n")
+    (finding,) = harness.launch(path).findings
+    assert (finding.rule, finding.message, finding.severity) == ("LCH032", *IMPORTS[line])

@@ -144,6 +144,8 @@ class PythonImportFailed(ProblemKind):
     module: str
     message: str
     stood_in_for: bool = False
+    instead: str = ""
+    """The module of launch that has the name which was imported from another one of launch."""
 
     @property
     def leaves_out(self) -> bool:

@@ -17,7 +17,9 @@ from preflight_analysis.rules.elsewhere import absent_top, asks_for_unbuilt_pack
 from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
+from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.problems import problem_finding, problems_of, shown
+from preflight_analysis.rules.python_imports import absent_module, slip_of
 from preflight_analysis.rules.rule import Context, Rule
 
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
@@ -31,6 +33,8 @@ _BEFORE = 4
 _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
 """What is raised where a text does not have what was looked for in it."""
 _WORD = re.compile(r"\w+")
+_RELEASES = "Humble, Jazzy, Kilted or Rolling"
+_NO_NAME = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
 _LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
 """The modules of which all names are known."""
 
@@ -45,9 +49,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case PythonImportFailed() as failed:
                 # Which modules there are is a matter of the environment, which may be another one when it is launched.
                 there = has_ros(context)
-                lack = _lack(context, failed)
-                severity, confidence = ("warning", "likely") if there else ("info", "possible")
-                message = _import(context, failed, problem.location.file, has_ros=there)
+                wrong = _wrong_import(context, failed, problem.location.file)
+                if wrong is not None:
+                    message, severity, confidence = wrong
+                else:
+                    lack = _lack(context, failed)
+                    severity, confidence = ("warning", "likely") if there else ("info", "possible")
+                    message = _import(context, failed, problem.location.file, has_ros=there)
             case PythonException("InvalidPythonLaunchFileError") if is_loaded_module(
                 context.disk, problem.location.file
             ):
@@ -154,6 +162,26 @@ def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:
     return lack_of_module(context, failed.module)
 
 
+def _wrong_import(
+    context: Context, failed: PythonImportFailed, file: str
+) -> tuple[str, Severity | None, Confidence] | None:
+    """What is said of an import that no machine can do; None of one that a machine may."""
+    name = _NO_NAME.search(failed.message)
+    if name is not None and _LAUNCH.match(name[2].partition(".")[0]):
+        top = name[2].partition(".")[0]
+        instead = f"it is in '{failed.instead}'" if failed.instead else f"no {top} of {_RELEASES} has it"
+        return f"cannot import name '{name[1]}' from '{name[2]}'; {instead}", None, "certain"
+    if name is None and not failed.message.startswith("No module named"):
+        return None
+    absent = absent_module(context, file, f"{name[2]}:{name[1]}" if name is not None else failed.module)
+    if absent is not None:
+        return f"module '{absent[0]}' does not exist{did_you_mean(absent[1])}", None, "certain"
+    near = slip_of(context, file, failed.module) if name is None else None
+    if near is None:
+        return None
+    return f"module '{failed.module}' is not known{did_you_mean(near)}", "warning", "likely"
+
+
 def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros: bool) -> str:
     """What is missing, what that means for the rest of the file, and what to do about it."""
     said = failed.message
@@ -161,8 +189,6 @@ def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros:
     message = f"{said}; the launch file is read statically, results may be incomplete"
     if failed.stood_in_for:
         message = f"{said}; values that depend on module '{failed.module}' are unresolved"
-    if _LAUNCH.match(module):
-        return f"{message}; no {module} of Humble, Jazzy, Kilted or Rolling has it"
     if not said.startswith("No module named"):
         return message
     if module in context.environment.packages:

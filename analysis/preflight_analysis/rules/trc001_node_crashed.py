@@ -26,6 +26,7 @@ from preflight_analysis.rules.installed import (
 )
 from preflight_analysis.rules.missing_params import missing_params
 from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.python_imports import absent_module
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import describes_robot, is_for_tools
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
@@ -34,6 +35,7 @@ from preflight_analysis.tracing.request import split_args
 _WORD = re.compile(r"\w+")
 _NO_PARAM = re.compile(r"(?i)\b(?:could not|cannot|can't|failed to|no|not|missing|without)\b.*\bparam(?:eter)?s?\b")
 """How a program says that a parameter is not set, whose name it may not say."""
+_NO_MODULE = re.compile(r"No module named '([\w.]+)'")
 _NOT_IN_MODULE = re.compile(r"ImportError: cannot import name '\w+' from '(\w+)")
 _TEMPORARY = re.compile(r"(?<![\w/.])/(?:var/)?tmp/[\w.+-]+(?![\w.+/-])")
 """A file right in the folder for temporary ones, which another program writes before."""
@@ -69,6 +71,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lacking = next(filter(None, map(lost.why, reads)), None)
         lacking = lacking or next((why for read in reads if (why := lost.possible_cause(read, outcome))), None)
         told = f"{outcome.reason or ''}\n{telling_line(outcome.stderr_tail)}"
+        if _lacks_own_module(context, node, told):
+            continue  # PKG009 says it
         lacking = lacking or lost.named_in(told) or _unresolved_param(node, told)
         # Of a parameter that is missing another rule says more, as a warning.
         reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
@@ -105,6 +109,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             lack=_lack(context, node, outcome),
         )
         yield replace(found, crash_of=node.name) if reported else found
+
+
+def _lacks_own_module(context: Context, node: LaunchNode, told: str) -> bool:
+    """Whether the node ends for a module that a package of the workspace does not have."""
+    found, path = _NO_MODULE.search(told), node.resolved.path
+    return found is not None and path is not None and absent_module(context, path, found[1]) is not None
 
 
 def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:

@@ -473,7 +473,8 @@ def _raised(state: Collector, place: Place, run: PythonRun, error: Mapping[str, 
         state.problem(UnsetVariable(variable), origin)
     elif name in _IMPORT_ERRORS:
         module = str(error.get("module", ""))
-        state.problem(PythonImportFailed(module, message), origin)
+        instead = str(error.get("instead", ""))
+        state.problem(PythonImportFailed(module, message, instead=instead), origin)
     else:
         behind = [(file, line) for file, line in own if file.startswith("/") and state.text_made(file) is None]
         places = tuple(_frame(state, place, run, file, line) for file, line in behind)

@@ -26,12 +26,14 @@ from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, N
 from .library import InvalidPythonLaunchFileError
 from .modules import install
 from .serialize import Serializer
+from .tables import TABLE
 
 _FUNCTION = "generate_launch_description"
 MAX_FILES = 200
 MAX_FILE_BYTES = 500_000
 MAX_FRAMES = 30
 _SKIPPED = ("ros_home", "ros_log", programs.PRINTED)
+_NOT_IN_MODULE = re.compile(r"cannot import name '(\w+)' from '(?:launch|launch_ros)[.']")
 _NOT_DEFINED = re.compile(r"name '(\w+)' is not defined")
 _fork, _dup2 = os.fork, os.dup2
 _ARGUMENTS = re.compile(r"\(\) (missing|got an unexpected keyword argument)")
@@ -277,6 +279,7 @@ def _error_record(error: BaseException) -> dict[str, Any]:
         record["elsewhere"] = True
     if isinstance(error, ImportError):
         record["module"] = error.name or ""
+        record["instead"] = _module_with(message)
     if isinstance(error, OSError) and isinstance(error.filename, str):
         record["path"] = error.filename
     if isinstance(error, OSError):
@@ -289,6 +292,13 @@ def _error_record(error: BaseException) -> dict[str, Any]:
     if isinstance(error, NotHereError):
         record["refused"] = True
     return record
+
+
+def _module_with(message: str) -> str:
+    """The module of launch that has the name which another one does not; "" where there is none."""
+    name = _NOT_IN_MODULE.match(message)
+    having = [module for module, names in TABLE.items() if name is not None and name[1] in names]
+    return min(having, key=lambda module: (module.count("."), module), default="") if name is not None else ""
 
 
 def _looked_for(error: BaseException) -> Optional[str]:

@@ -1,0 +1,48 @@
+"""PKG009: a node in Python imports a module that is not there."""
+
+from collections.abc import Iterator
+
+from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.rules.further_reading import ROSDEP
+from preflight_analysis.rules.nearest import did_you_mean
+from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.python_imports import Absent, imports_of
+from preflight_analysis.rules.rule import Context, Rule
+
+
+def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    said: set[str] = set()
+    for node in context.tree.nodes:
+        path = node.resolved.path
+        if path is None or package_around(context.environment, path) is None:
+            continue
+        for found in imports_of(context, path):
+            if found.name in said:
+                continue
+            said.add(found.name)
+            absent = isinstance(found, Absent)
+            what = f"module '{found.name}' does not exist" if absent else f"module '{found.name}' is not known"
+            yield rule.finding(
+                f"{what}; {node.name} imports it{did_you_mean(found.near)}",
+                node.location,
+                severity=None if absent else "warning",
+                confidence="certain" if absent else "likely",
+                related=(Related("imported here", found.location), *include_chain(node.origin)),
+            )
+
+
+RULE = Rule(
+    id="PKG009",
+    name="python-module-not-found",
+    severity="error",
+    what="Checks for a node in Python that imports a module which its own package, or another one of the workspace, "
+    "does not have. The sources are read, nothing is run. Imports in a `try`, in a function or under a condition do "
+    "not count, nor do modules that a build makes. A module of no package of the workspace is a warning if its name is "
+    "a typo of a module that many programs import, and the package names it nowhere.",
+    why="The node exits at once with `ModuleNotFoundError`.",
+    example="from tank_station.calibraton import offset",
+    instead="from tank_station.calibration import offset",
+    references=(ROSDEP,),
+    check=_check,
+)
