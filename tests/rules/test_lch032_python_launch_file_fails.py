@@ -100,6 +100,25 @@ def test_a_file_of_another_machine_is_no_mistake_of_the_launch_file(tmp_path: Pa
 
 
 @pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("FileNotFoundError", "[Errno 2] No such file or directory: '/workspaces/bot/src/bot/config/hall.yaml'"),
+        ("XacroException", "No such file or directory: /workspaces/bot/src/bot/config/hall.yaml"),
+        ("RuntimeError", "map '/workspaces/bot/src/bot/config/hall.yaml' does not exist"),
+        ("RuntimeError", "map '/home/nobody-here/bot/config/hall.yaml' does not exist"),
+    ],
+)
+def test_a_path_of_a_container_or_of_somebody_else(tmp_path: Path, kind: str, said: str) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>robot</name></package>")
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "hall.yaml").touch()
+    analysis = _launched(tmp_path, _error(tmp_path, kind, said))
+    (finding,) = (finding for finding in analysis.findings if finding.rule == "LCH032")
+    assert finding.severity == "info"
+    assert "this machine has no '/" in finding.message
+
+
+@pytest.mark.parametrize(
     ("absent", "severity"),
     [("/home/robot/recordings/**/cloud-*.ply", "info"), ("mapproxy-util", "info"), ("{}/maps/hall.yaml", "error")],
 )

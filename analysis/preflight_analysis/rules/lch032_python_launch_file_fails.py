@@ -13,7 +13,12 @@ from preflight_analysis.evaluation.problems import PythonException, PythonImport
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.asked_variables import lack_of_asked
-from preflight_analysis.rules.elsewhere import absent_top, asks_for_unbuilt_package, names_folder_of_build
+from preflight_analysis.rules.elsewhere import (
+    absent_top,
+    absent_top_said,
+    asks_for_unbuilt_package,
+    names_folder_of_build,
+)
 from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
@@ -63,14 +68,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near, missing = _near_file(context, error, said), _missing_file(error, said)
+                top = absent_top(context.disk, missing) if missing is not None else None
                 if near is not None:
                     message += f"; did you mean '{shown(near, context)}'?"
-                    if missing is not None and is_below_own_home(context, missing, problem.location.file):
-                        severity = "info"
+                    if top is None and missing is not None:
+                        severity = "info" if is_below_own_home(context, missing, problem.location.file) else None
                 elif missing is not None:
                     lack = lack_of_made(context, missing) or lack_of_file(context, missing)
-                    if lack is None and (top := absent_top(context.disk, missing)) is not None:
-                        severity, message = "info", f"{message}; this machine has no '{top}'"
+                    top = top if lack is None else None
+                else:
+                    top = absent_top_said(context.disk, f"{error}: {said}")
+                if top is not None:
+                    severity, message = "info", f"{message}; this machine has no '{top}'"
+                elif near is not None or missing is not None:
+                    pass
                 elif absent and not _is_of_workspace(context, absent):
                     severity, message = "info", f"{message}; this machine has no '{absent}'"
                 elif absent and (lack := lack_of_made(context, absent)) is not None:
