@@ -16,6 +16,8 @@ from preflight_analysis.launch.python_classes import PythonClass, PythonClasses
 from preflight_analysis.launch.python_source import PythonSource
 
 MAX_DEPTH = 120
+OF_CODE = ("python", "own", "unknown")
+"""Commands of substitutions that stand for what only code gives."""
 _NO_CLASS = PythonClass("")
 
 
@@ -144,7 +146,8 @@ class _Reader:
             spans = [self._source.span(each) for each in (*call.args, *(k.value for k in call.keywords))]
         words = tuple(tuple(self._parts(word, at, depth + 1)) for word, at in zip(piece["w"], spans, strict=True))
         arguments = " ".join("".join(part.text for part in word) for word in words)
-        text = f"$({command} {arguments})" if words else f"$({command})"
+        shown = _shown(piece, arguments) if command in OF_CODE else f"{command} {arguments}" if words else command
+        text = f"$({shown})"
         return Substitution(command, span, arguments, inside, text, span, words)
 
     def _part_span(self, kind: str, record: dict[str, Any], parent: _Parent | None) -> Span | None:
@@ -201,6 +204,16 @@ class _Reader:
             for found in ast.walk(each):
                 if isinstance(found, ast.Constant):
                     yield found, None
+
+
+def _shown(piece: dict[str, Any], arguments: str) -> str:
+    """What is written for people in the place of a value that only code makes: the code, its class, or what is not
+    known."""
+    if piece["s"] == "python":
+        return str(piece.get("t"))
+    if piece["s"] == "own":
+        return str(piece.get("n"))
+    return f"var {arguments}" if arguments.isidentifier() else arguments
 
 
 def _arguments(call: ast.Call, made_by: PythonClass) -> dict[str, ast.expr]:

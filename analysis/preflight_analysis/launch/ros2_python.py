@@ -22,6 +22,9 @@ from preflight_analysis.launch.python_source import PythonSource, last_name
 from preflight_analysis.launch.references import COMPONENT
 
 _MAX_DEPTH = 40
+_LONGEST = 60
+"""Characters of code that is shown in the place of a value."""
+_CONDITIONS = {"IfCondition": "if", "UnlessCondition": "unless"}
 _SUBSTITUTIONS = {
     "LaunchConfiguration": "var",
     "EnvironmentVariable": "env",
@@ -155,7 +158,10 @@ class _Reader:
         attributes = {ours: self._value(given[theirs]) for ours, theirs in parameters.items() if theirs in given}
         if "condition" in given:
             # Taken for unknown: whether it is executed is not for us to say.
-            attributes["if"] = [_unknown()]
+            condition, of = self._source.resolved(given["condition"]), "if"
+            if isinstance(condition, ast.Call) and condition.args and last_name(condition.func) in _CONDITIONS:
+                condition, of = condition.args[0], _CONDITIONS[last_name(condition.func)]
+            attributes[of] = [_unknown(condition)]
         children: list[dict[str, Any]] = []
         if kind == "arg" and "choices" in given and id(call) in self._sure:
             children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
@@ -193,7 +199,7 @@ class _Reader:
             if isinstance(item, ast.Call) and last_name(item.func) == "ParameterFile" and item.args:
                 item = item.args[0]
             path = self._value(item)
-            if path and _unknown() not in path:
+            if path and all(isinstance(piece, str) or piece["s"] != "python" for piece in path):
                 found.append({"k": "param", "a": {"from": path}, "c": [], "part": number})
         return found
 
@@ -224,8 +230,11 @@ class _Reader:
                     arguments = list(inner.elts) if isinstance(inner, (ast.List, ast.Tuple)) else arguments
                 words = [self._value(each, depth + 1) for each in arguments]
                 return [{"s": _SUBSTITUTIONS[name], "w": words, "n": name, "p": [node.lineno, node.col_offset]}]
-        return [_unknown()]
+        return [_unknown(node)]
 
 
-def _unknown() -> dict[str, Any]:
-    return {"s": "python", "w": [], "n": "", "p": None}
+def _unknown(node: ast.expr) -> dict[str, Any]:
+    """What only a run tells, shown as it is written."""
+    written = ast.unparse(node)
+    shown = written if len(written) <= _LONGEST else f"{written[: _LONGEST - 3]}..."
+    return {"s": "python", "w": [], "n": "", "p": None, "t": shown}

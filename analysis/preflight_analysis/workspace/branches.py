@@ -28,7 +28,8 @@ from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.incremental.query import Input
-from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.launch.model import Action, LaunchFile, Substitution
+from preflight_analysis.launch.python_actions import OF_CODE
 from preflight_analysis.rules.problems import INCLUDED_HERE
 from preflight_analysis.rules.syntax import CONDITIONS
 from preflight_analysis.workspace.index import Root
@@ -299,7 +300,10 @@ def _shown(args: Assignment, given: Assignment) -> str:
 
 
 def _in_words(left_out: NotTaken) -> str:
+    parts = left_out.written.parts
+    is_code = len(parts) == 1 and isinstance(parts[0], Substitution) and parts[0].command in OF_CODE
     written = " ".join(left_out.written.text.split())
+    written = written[len("$(") : -1] if is_code else written
     shown = written if len(written) <= _LONGEST else f"{written[: _LONGEST - 3]}..."
     return f"{shown} is {'true' if left_out.condition == 'if' else 'false'}"
 
