@@ -42,6 +42,14 @@ def test_files_are_no_nodes() -> None:
     assert regardless_of_node("see /a/b.yaml") == "see /a/b.yaml"
 
 
+def test_what_another_program_says_is_left_as_it_is() -> None:
+    given = [said(f"command failed: cat: /data/serial_{n}: Permission denied") for n in ("front", "back")]
+    assert unique(given) == given
+    given = [said(f"/robot{n}/base: no permission to read /dev/serial: it is busy") for n in (1, 2)]
+    (found,) = unique(given)
+    assert found.message == "/robot1/base and 1 more: no permission to read /dev/serial: it is busy"
+
+
 def test_a_file_that_is_included_for_each_robot() -> None:
     findings = findings_of("""
         <launch>

@@ -9,8 +9,9 @@ from dataclasses import replace
 
 from preflight_analysis.findings.finding import Finding, Related
 
-_NODE = re.compile(r"(?<![\w'\"./~$-])/[A-Za-z_]\w*(?:/\w+)*(?![\w/.'-])")
-"""A node as messages name it: a full name without quotes."""
+_NODE = re.compile(r"(?:(?<![\w'\"./~$-])/[A-Za-z_]\w*(?:/\w+)*(?![\w/.':-])|\A/[A-Za-z_]\w*(?:/\w+)*(?=: ))")
+"""A node as messages name it: a full name without quotes. A colon is behind what another program names, as in
+`cat: /data/front: Permission denied`; a message of ours begins with a node that has one."""
 
 
 def node_named(message: str) -> str | None:
