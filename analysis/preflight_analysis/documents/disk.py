@@ -24,6 +24,7 @@ from preflight_analysis.documents.reading import (
     read_beginning,
     read_text,
 )
+from preflight_analysis.documents.secrets import Access, has_private_key
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import Input, query
@@ -78,6 +79,10 @@ def _lines(path: str) -> _Lines:
     return _Lines()
 
 
+def _access() -> Access:
+    return Access()
+
+
 STATUS = Input(_status)
 """Of the file or folder that a path leads to; None where it leads nowhere."""
 REAL_PATH = Input(_real_path)
@@ -85,6 +90,8 @@ BUFFER = Input(_buffer)
 """What an editor has of a file; None where none has it open."""
 LINES = Input(_lines)
 """By which locations stay right, and equal to what they were, where other lines of their file come or go."""
+ACCESS = Input(_access)
+"""What may be read for the workspace."""
 _OF_DISK: tuple[Input[[str], Any], ...] = (STATUS, REAL_PATH)
 
 
@@ -106,19 +113,33 @@ def names_in(db: Database, folder: str) -> tuple[str, ...]:
 
 
 @query
+def refusal_of(db: Database, path: str) -> str | None:
+    """Why a file that is there is not read, as `Access.refusal`."""
+    return ACCESS(db).refusal(path) if STATUS(db, path) is not None else None
+
+
+@query
 def text_of(db: Database, path: str) -> Text | Unreadable:
-    """What a file holds."""
-    opened = BUFFER(db, path)
-    if opened is None:
+    """What a file holds. That of a secret is not read, whoever asks, nor taken from an editor."""
+    refusal = refusal_of(db, path)
+    if refusal is not None:
+        return Unreadable(path, refusal, "withheld")
+    found = BUFFER(db, path)
+    if found is None:
         STATUS(db, path)
         found = read_text(path)
-        return replace(found, lines=LINES(db, path).of(found.text)) if isinstance(found, Text) else found
-    return opened
+        if isinstance(found, Text):
+            found = replace(found, lines=LINES(db, path).of(found.text))
+    if isinstance(found, Text) and has_private_key(path, found.text):
+        refusal = ACCESS(db).refusal_of_content(path)
+    return found if refusal is None else Unreadable(path, refusal, "withheld")
 
 
 @query
 def beginning_of(db: Database, path: str) -> str:
-    """The first kilobytes of a file, as text; "" where it cannot be read."""
+    """The first kilobytes of a file, as text; "" where it cannot be read, or is a secret."""
+    if refusal_of(db, path) is not None:
+        return ""
     opened = BUFFER(db, path)
     if opened is None:
         STATUS(db, path)
@@ -153,6 +174,9 @@ def data_of(db: Database, path: str) -> bytes | Unreadable:
     if mode is None or not stat.S_ISREG(mode):
         reason, kind = ("does not exist", "missing") if mode is None else ("is not a regular file", "unreadable")
         return Unreadable(path, reason, "missing" if kind == "missing" else "unreadable")
+    refusal = refusal_of(db, path)
+    if refusal is not None:
+        return Unreadable(path, refusal, "withheld")
     STATUS(db, path)
     try:
         with open(path, "rb") as file:
@@ -161,7 +185,8 @@ def data_of(db: Database, path: str) -> bytes | Unreadable:
         return Unreadable(path, f"cannot be read: {error}", "unreadable")
     if len(content) > SIZE_LIMIT:
         return Unreadable(path, "is too large to be read here", "unreadable")
-    return content
+    refusal = ACCESS(db).refusal_of_content(path) if has_private_key(path, content) else None
+    return content if refusal is None else Unreadable(path, refusal, "withheld")
 
 
 def _plain(path: str, content: bytes | Unreadable) -> Text | Unreadable:
@@ -182,6 +207,17 @@ class Disk:
 
     def __init__(self, db: Database | None = None) -> None:
         self.db = db or Database()
+
+    @property
+    def access(self) -> Access:
+        """What may be read."""
+        return ACCESS(self.db)
+
+    @access.setter
+    def access(self, access: Access) -> None:
+        if self.access != access:
+            with self.db.writing() as write:
+                write.set(ACCESS, access, durable=True)
 
     def open(self, path: str, text: str) -> None:
         """The editor's text counts from now on; call it again for each change."""

@@ -64,12 +64,13 @@ class Text:
 class Unreadable:
     """Why there is no text. `reason` goes on from the file's name: "x.launch " + "is a folder".
 
-    `kind`: nothing is there; it cannot be read; or it can, and is not text that we analyse.
+    `kind`: nothing is there; it cannot be read; it can, and is not text that we analyse; or it is not read, as it is
+    a secret or out of reach (`secrets.py`).
     """
 
     path: str
     reason: str
-    kind: Literal["missing", "unreadable", "not-text"]
+    kind: Literal["missing", "unreadable", "not-text", "withheld"]
 
 
 def digest(content: str | bytes) -> str:

@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents import secrets
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import (
@@ -47,9 +48,14 @@ class _Python:
 
 
 def detect(
-    place: str | None, package_path: Sequence[str] | None = None, variables: Mapping[str, str] | None = None
+    place: str | None,
+    package_path: Sequence[str] | None = None,
+    variables: Mapping[str, str] | None = None,
+    *,
+    outside: bool = True,
 ) -> Environment:
     """The environment of `variables` (None: this process's own) for a workspace folder, or for the workspace of a file.
+    `outside`: whether its launch files may name files out of the workspace and the package paths.
 
     A folder inside of a package, as editors take that of the first file for one, is no workspace: it is like a file.
     """
@@ -57,7 +63,7 @@ def detect(
         place = workspace_of(place)
     elif place and any(map(_is_package, _with_parents(os.path.dirname(os.path.abspath(place))))):
         place = workspace_of(os.path.join(place, "any.launch"))
-    return detect_environment(place, os.environ if variables is None else variables, package_path)
+    return detect_environment(place, os.environ if variables is None else variables, package_path, outside=outside)
 
 
 def workspace_of(file: str) -> str:
@@ -95,6 +101,7 @@ def detect_environment(
     prefixes: Sequence[str] = (),
     *,
     root: str = "/",
+    outside: bool = True,
 ) -> Environment:
     """What launch files and nodes of a workspace (a folder, or None) see, given a process's environment variables.
 
@@ -156,12 +163,14 @@ def detect_environment(
         *([] if ros2 else _workspace_problems(catkin or workspace, devel, found)),
         *([] if ros2 else _installation_problems(variables, python)),
     ]
+    access = secrets.Access((*folders, *named), secrets.allowed_by_user(), outside)
+    withheld = secrets.withheld(given, access)
     return Environment(
         generation=2 if ros2 else 1,
         distro=distribution(variables, prefixes)
         if ros2
         else distro or (_debian_distribution(debian) if has_debian else None),
-        variables=given,
+        variables={name: value for name, value in given.items() if name not in withheld},
         package_path=tuple(path),
         packages=packages,
         shadowed=shadowed,
@@ -176,6 +185,8 @@ def detect_environment(
         workspace_folders=folders,
         named_folders=named,
         debians=prefix is None and (has_debian or _is_debian(root)),
+        withheld=withheld,
+        access=access,
     )
 
 

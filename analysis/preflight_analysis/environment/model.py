@@ -7,6 +7,7 @@ from dataclasses import field, replace
 from functools import cached_property
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.secrets import Access
 from preflight_analysis.generation import Generation, ros
 
 
@@ -72,7 +73,8 @@ class Environment:
     equal to itself alone, and so a key by which is remembered what was found with it.
 
     `packages` has, for each name, the first package in the order of the package path; `shadowed` the others.
-    `variables` is what `$(env)` reads and what nodes get (before the sandbox filters it).
+    `variables` is what `$(env)` reads and what nodes get (before the sandbox filters it), without those that are
+    `withheld`.
     """
 
     generation: int
@@ -105,6 +107,10 @@ class Environment:
     """Folders and files that the user named, likewise: by variables, package path and interpreters. See `reach.py`."""
     debians: bool = False
     """Whether ROS 1 comes from Debian's own archive here, whose packages have other names than those of ROS's."""
+    withheld: frozenset[str] = frozenset()
+    """The names of the variables that are set and whose values are secrets: nobody is told these."""
+    access: Access = Access()
+    """What may be read of the disk for its launch files."""
 
     @property
     def ros(self) -> Generation:

@@ -13,6 +13,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 
+from preflight_analysis.documents.secrets import dot_folder, within
 from preflight_analysis.environment.model import Environment
 
 _VARIABLES = (
@@ -31,11 +32,6 @@ _VARIABLES = (
     "PATH",
 )
 _PYTHONS = ("python3", "python")
-
-
-def within(path: str, folder: str) -> bool:
-    """Whether `path` is `folder` or lies below it."""
-    return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
 def may_be_shown(environment: Environment, path: str) -> bool:
@@ -119,28 +115,17 @@ def _entries(variables: Mapping[str, str], name: str) -> Iterator[str]:
 def _leads_astray(entry: str, workspaces: tuple[str, ...]) -> bool:
     """Whether an entry of the workspace leads to a dot folder of a home folder: nobody has that sourced."""
     real = os.path.realpath(entry)
-    return _is_below(entry, workspaces) and not _is_in(real, workspaces) and _dot_folder(real) is not None
+    return _is_below(entry, workspaces) and not _is_in(real, workspaces) and dot_folder(real) is not None
 
 
 def _is_in(real: str, roots: Iterable[str]) -> bool:
-    private = _dot_folder(real)
+    private = dot_folder(real)
     return any(within(real, root) and (private is None or within(root, private)) for root in roots)
 
 
 def _is_below(path: str, folders: Iterable[str]) -> bool:
     path = os.path.normpath(path)
     return any(within(path, folder) for folder in folders)
-
-
-def _dot_folder(real: str) -> str | None:
-    """The hidden folder of a home folder that a path is, or is in."""
-    homes = [_home(), "/root"]
-    if real.startswith("/home/"):
-        homes.append("/".join(real.split("/")[:3]))
-    for home in homes:
-        if home != "/" and real.startswith(home + "/."):
-            return home + "/" + real[len(home) + 1 :].partition("/")[0]
-    return None
 
 
 def is_wide(folder: str) -> bool:

@@ -11,11 +11,19 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 
+WITHHELD = "\0"
+"""In place of a secret; no variable has this value."""
+
 
 @query
 def variable_of(db: Database, environment: Environment, name: str) -> str | None:
-    """The value of a variable; None where it is not set."""
-    return environment.variables.get(name)
+    """The value of a variable; None where it is not set, `WITHHELD` where that is a secret."""
+    return value_of(environment, name)
+
+
+def value_of(environment: Environment, name: str) -> str | None:
+    """The same, not remembered."""
+    return WITHHELD if name in environment.withheld else environment.variables.get(name)
 
 
 def with_queried_variables(db: Database, environment: Environment) -> Environment:
@@ -29,7 +37,7 @@ def with_variables(environment: Environment, others: Mapping[str, str]) -> Envir
         return environment
     variables = copied(environment.variables)
     variables.update(others)
-    return replace(environment, variables=variables)
+    return replace(environment, variables=variables, withheld=environment.withheld.difference(others))
 
 
 def copied(variables: Mapping[str, str]) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import replace
@@ -15,7 +16,7 @@ from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.catalogued import data_of
-from preflight_analysis.evaluation.commands import Commands
+from preflight_analysis.evaluation.commands import Commands, named_paths
 from preflight_analysis.evaluation.files import Executables, Files, without_dots
 from preflight_analysis.evaluation.problems import (
     IncludeNotCatalogued,
@@ -24,7 +25,10 @@ from preflight_analysis.evaluation.problems import (
     Problem,
     UnreadableFile,
     UnreadableInclude,
+    UnreadablePath,
     ValueTooLong,
+    WithheldFile,
+    WithheldVariable,
 )
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import (
@@ -180,9 +184,36 @@ class Collector:
 
     def unreadable_include(self, path: str, found: Unreadable, origin: Origin) -> None:
         """Note that an included file cannot be read, and so that what it holds is not known."""
-        kind = IncludeNotFound if found.kind == "missing" else UnreadableInclude
-        self.problem(kind(path, found.reason), origin)
+        self.unreadable_file(path, found, IncludeNotFound, UnreadableInclude, origin)
         self.note_unknown("<include>", f"{path} {found.reason}", origin[-1])
+
+    def unreadable_file(
+        self,
+        path: str,
+        found: Unreadable,
+        missing: type[UnreadablePath],
+        otherwise: type[UnreadablePath],
+        origin: Origin,
+        *,
+        fatal: bool | None = None,
+    ) -> None:
+        """Note why a file has no text: it is `missing`, or not to be read."""
+        kind = {"missing": missing, "withheld": WithheldFile}.get(found.kind, otherwise)
+        self.problem(kind(path, found.reason), origin, fatal=None if kind is WithheldFile else fatal)
+
+    def withholds_files_of(self, line: str, origin: Origin) -> str | None:
+        """Why a command is not run that names a file which is not read, as is noted; None where it names none."""
+        for path in named_paths(shlex.split(line)[1:], self.cwd):
+            found = self.files.text(path) if self.files.is_file(path) else None
+            if isinstance(found, Unreadable) and found.kind == "withheld":
+                self.problem(WithheldFile(path, found.reason), origin)
+                return f"its command names the file {path}, which {found.reason}"
+        return None
+
+    def withheld_variable(self, text: str, name: str, origin: Origin) -> None:
+        """Note that the value of a variable is not read, and so that of `text` is not known."""
+        self.problem(WithheldVariable(name), origin)
+        self.note_unknown(text, f"environment variable '{name}' is a secret", origin[-1])
 
     def of_catalogue(self, file: CataloguedFile | None, origin: Origin) -> str | None:
         """The path of the data of a launch file of a package that is not here; None, with a note, where the catalogue

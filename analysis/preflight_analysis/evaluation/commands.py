@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+import os
+import re
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from typing import Literal, Protocol
 
 from preflight_analysis.dataclass import dataclass
@@ -27,6 +29,18 @@ class CommandResult:
     """For the user, where it is not done: `it ended with exit code 2`."""
     stderr_tail: tuple[str, ...] = ()
     """The last lines that it printed on standard error."""
+
+
+def named_paths(words: Iterable[str], cwd: str) -> Iterator[str]:
+    """The paths that arguments of a command may name: `file`, `name:=file`, `--option=file`, or a word within an
+    argument, as for `bash -c`."""
+    for word in words:
+        candidates = [word, word.partition("=")[2]]
+        if any(c.isspace() for c in word):
+            candidates += re.split(r"[\s'\";|&<>()]+", word)
+        for candidate in candidates:
+            if candidate and "\0" not in candidate:
+                yield os.path.normpath(os.path.join(cwd, os.path.expanduser(candidate)))
 
 
 class Commands(Protocol):

@@ -207,6 +207,13 @@ class ValueTooLong(_Limit):
     usually_fatal = False
 
 
+class WithheldVariable(OfName):
+    """A variable that is set and whose value is a secret, which is not read."""
+
+    __slots__ = ()
+    usually_fatal = False
+
+
 # Arguments
 
 
@@ -329,6 +336,13 @@ class NestedTooDeeply(_Limit):
 
     __slots__ = ()
     leaves_out = True
+    usually_fatal = False
+
+
+class WithheldFile(UnreadablePath):
+    """A file is there and not read: a secret, or out of reach of a workspace that is not trusted."""
+
+    __slots__ = ()
     usually_fatal = False
 
 

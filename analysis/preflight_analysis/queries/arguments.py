@@ -136,6 +136,8 @@ def _put_together(
 def _substituted(analysis: Analysis, file: str, words: list[str], args: Mapping[str, str] | None) -> str | None:
     variables = analysis.environment.variables
     match words:
+        case ["env" | "optenv", name, *_] if name in analysis.environment.withheld:
+            return None
         case ["find" | "find-pkg-share", name]:
             package = analysis.environment.packages.get(name)
             return package.share if package is not None else None

@@ -240,7 +240,8 @@ def argument_doc(declared: ArgDeclaration) -> str:
 
 
 def _variables(asked: Asked) -> Iterator[Item]:
-    variables = asked.analysis.environment.variables
+    environment = asked.analysis.environment
+    variables = {*environment.variables, *environment.withheld}
     # roslaunch's own variables are what is asked for most; those of the shell may hold secrets, so no values.
     return (Item("variable", name, name) for name in sorted(variables, key=lambda n: (not n.startswith("ROS"), n)))
 

@@ -5,10 +5,10 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.secrets import within
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.loaded_modules import is_loaded_module
-from preflight_analysis.environment.reach import within
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
 from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Lack

@@ -8,7 +8,12 @@ from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.problems import BadYaml, ParameterFileNotFound, UnreadableParameterFile
+from preflight_analysis.evaluation.problems import (
+    BadYaml,
+    ParameterFileNotFound,
+    UnreadableParameterFile,
+    WithheldFile,
+)
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
@@ -23,7 +28,7 @@ from preflight_analysis.rules.unread_params import unread_params
 from preflight_analysis.rules.written_elsewhere import around
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
-_UNREAD = (ParameterFileNotFound, UnreadableParameterFile, BadYaml)
+_UNREAD = (ParameterFileNotFound, UnreadableParameterFile, WithheldFile, BadYaml)
 _SET = (re.compile(r"""<param\b[^<>]*?\bname\s*=\s*["'](?:[^"'<>]*/)?(\w+)["']"""),)
 _WITH_ZEROS = ("dashing", "eloquent", "foxy")
 """Distributions in which a parameter that is declared by its type alone begins with a zero of it."""

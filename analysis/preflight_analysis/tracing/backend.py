@@ -16,7 +16,7 @@ from typing import IO
 import aspectlib  # type: ignore[import-untyped]
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.tracing.interior import within
+from preflight_analysis.documents.secrets import within
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.own_programs import OLD_XACRO, own_arguments
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
-from preflight_analysis.evaluation.commands import CommandResult
+from preflight_analysis.evaluation.commands import CommandResult, named_paths
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.python_runs import MARK, parse_request
 from preflight_analysis.tracing import (
@@ -351,15 +351,8 @@ def differs(path: str, text: str) -> bool:
 
 
 def _files_of(words: Iterable[str], cwd: str) -> Iterator[str]:
-    """The regular files that arguments name: `file`, `name:=file`, `--option=file`, or a word within an argument."""
-    for word in words:
-        candidates = [word, word.partition("=")[2]]
-        if any(c.isspace() for c in word):
-            candidates += re.split(r"[\s'\";|&<>()]+", word)
-        for candidate in candidates:
-            path = os.path.join(cwd, candidate)
-            if candidate and "\0" not in candidate and os.path.isfile(path):
-                yield os.path.normpath(path)
+    """The regular files that arguments name."""
+    return filter(os.path.isfile, named_paths(words, cwd))
 
 
 def _read(raw: run.RawRun) -> _Ended:

@@ -13,6 +13,7 @@ import pwd
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
 
+from preflight_analysis.documents.secrets import within
 from preflight_analysis.tracing import mounts, seccomp, sockets
 from preflight_analysis.tracing.backend import (
     Backend,
@@ -21,7 +22,7 @@ from preflight_analysis.tracing.backend import (
     lay_agents,
     run_folder,
 )
-from preflight_analysis.tracing.interior import PRIVATE, within
+from preflight_analysis.tracing.interior import PRIVATE
 
 _TMP = "/tmp"  # noqa: S108
 _OWN = ("/proc", "/dev", "/sys", "/run")

@@ -6,17 +6,14 @@ import functools
 import os
 from collections.abc import Iterable
 
+from preflight_analysis.documents.secrets import within
+
 PRIVATE = "/run/preflight"
 """What is ours inside: `lib` with the agents and aspectlib, `site` with `sitecustomize.py`, and the pipe `events`."""
 LIBRARY = f"{PRIVATE}/lib"
 """Where the agents (as package `preflight_agents`) and aspectlib are, inside."""
 SITE = f"{PRIVATE}/site"
 """The folder with `sitecustomize.py`, inside."""
-
-
-def within(path: str, folder: str) -> bool:
-    """Whether `path` is `folder` or lies below it."""
-    return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
 def masked(path: str) -> bool:

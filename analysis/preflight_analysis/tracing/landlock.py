@@ -20,6 +20,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from preflight_analysis.documents.secrets import within
 from preflight_analysis.tracing import mounts, seccomp
 from preflight_analysis.tracing.backend import (
     Backend,
@@ -29,7 +30,7 @@ from preflight_analysis.tracing.backend import (
     lay_agents,
     run_folder,
 )
-from preflight_analysis.tracing.interior import PRIVATE, within
+from preflight_analysis.tracing.interior import PRIVATE
 
 _LAUNCHER = Path(__file__).parent / "landlock_launcher.py"
 _CREATE_RULESET, _VERSION = 444, 1

@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from preflight_analysis.documents.secrets import within
 from preflight_analysis.tracing.backend import Seen
-from preflight_analysis.tracing.interior import within
 
 _TABLE = Path("/proc/self/mountinfo")
 _KERNELS = frozenset(("proc", "sysfs", "cgroup", "cgroup2", "debugfs", "tracefs", "securityfs", "configfs"))

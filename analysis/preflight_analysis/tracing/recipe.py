@@ -14,10 +14,10 @@ from dataclasses import field
 from pathlib import Path
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.secrets import ALLOWED
 from preflight_analysis.environment import reach
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
-from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.tracing import interior
 from preflight_analysis.tracing.agents.variables import LOAD, STAND_INS
 from preflight_analysis.tracing.cache_folder import VARIABLE
@@ -151,7 +151,7 @@ def command_paths(
 
 
 def _may_be_named(environment: Environment, path: str) -> bool:
-    hidden = "/." in path + os.path.realpath(path)
+    hidden = "/." in path + os.path.realpath(path) or environment.access.refusal(path) is not None
     return os.path.isfile(path) and not hidden and not reach.in_workspace(environment, path)
 
 
@@ -175,13 +175,11 @@ def variables(environment: Environment, extra: Iterable[tuple[str, str]], genera
     """What a node of a generation of ROS gets of the user's variables, with what the set-up of that ROS would set
     whatever is sourced here, and what the launch file sets."""
     overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
-    overridden.add(VARIABLE)  # where the cache lies is nothing that a run may depend on
+    overridden |= {VARIABLE, ALLOWED}  # where the cache lies is nothing that a run may depend on, nor what we may read
     kept = {
         name: value
         for name, value in environment.variables.items()
-        if (name in _PASSED or name.startswith(_PASSED_PREFIXES))
-        and name not in overridden
-        and not is_secret(name, value)
+        if (name in _PASSED or name.startswith(_PASSED_PREFIXES)) and name not in overridden
     }
     kept.setdefault("PATH", _DEFAULT_PATH)
     if kept.get("ROS_VERSION") != str(generation):

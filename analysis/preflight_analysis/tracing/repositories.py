@@ -11,9 +11,10 @@ import os
 from collections import deque
 from collections.abc import Iterable, Iterator
 
+from preflight_analysis.documents.secrets import within
 from preflight_analysis.environment.git import GitError, folders_of
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.environment.reach import is_wide, within
+from preflight_analysis.environment.reach import is_wide
 
 NAME = ".git"
 MOST_FOLDERS = 20_000

@@ -137,7 +137,7 @@ class _Reader:
         self._observations = [
             Observation(_text(what), _text(name), _text(answer)) for what, name, answer in data["observations"]
         ]
-        self._world = World(workspace.sources, workspace.environment.variables, workspace.commands)
+        self._world = World(workspace.sources, workspace.environment, workspace.commands)
         self._revision = 0
         self._right: dict[int, bool] = {}
         """What is known in that revision of the observations, by number."""

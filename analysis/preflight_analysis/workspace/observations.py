@@ -8,8 +8,8 @@ from typing import Any, NamedTuple, TypeVar
 
 from preflight_analysis.documents.disk import REAL_PATH, STATUS, data_of, mode_of, names_in, text_of
 from preflight_analysis.documents.reading import Text, Unreadable, digest
-from preflight_analysis.environment.secrets import is_secret
-from preflight_analysis.environment.variables import variable_of
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.environment.variables import WITHHELD, value_of, variable_of
 from preflight_analysis.evaluation.commands import CommandResult, Commands, lines_answering, result_of
 from preflight_analysis.workspace.sources import Sources
 
@@ -80,18 +80,27 @@ class Notes:
         return tuple(self._noted)
 
     def _observation(self, kind: object, name: str, value: Any) -> Observation:
+        if kind is text_of and isinstance(value, Text) and self._is_elsewhere(name):
+            return Observation("text", name, None)
         if kind in _OF_FILES:
             what, of = _OF_FILES[kind]
             return Observation(what, name, of(value))
-        return _OF_OTHERS[kind](name, value) if kind in _OF_OTHERS else _data(self._sources, name)
+        if kind in _OF_OTHERS:
+            return _OF_OTHERS[kind](name, value)
+        found = _data(self._sources, name)
+        return found._replace(answer=None) if self._is_elsewhere(name) else found
+
+    def _is_elsewhere(self, path: str) -> bool:
+        """Whether a file is the user's own and not the workspace's: nothing of it is written to the disk."""
+        return self._sources.access.is_outside(path)
 
 
 class World:
     """What is there now."""
 
-    def __init__(self, sources: Sources, variables: Mapping[str, str], commands: Commands) -> None:
+    def __init__(self, sources: Sources, environment: Environment, commands: Commands) -> None:
         self._sources = sources
-        self._variables = variables
+        self._environment = environment
         self._commands = commands
 
     def same(self, observation: Observation) -> bool:
@@ -111,7 +120,7 @@ class World:
             case "data":
                 return _data(self._sources, name)
             case "variable":
-                return _variable(name, self._variables.get(name))
+                return _variable(name, value_of(self._environment, name))
             case "command":
                 return _result(name, self._commands.result(name))
             case "answering":
@@ -126,7 +135,7 @@ def _data(sources: Sources, path: str) -> Observation:
 
 
 def _variable(name: str, value: str | None) -> Observation:
-    if value is not None and is_secret(name, value):
+    if value == WITHHELD:
         return Observation("variable", name, None)
     return Observation("variable", name, "" if value is None else digest(value))
 

@@ -187,6 +187,7 @@ class Workspace:
         self.environment = environment
         self.sources = sources
         sources.undecided = environment.generation
+        sources.access = environment.access
         self.commands = commands or NoResults()
         self.cwd = cwd or environment.workspace or os.getcwd()
         self._similar = similar

@@ -119,6 +119,8 @@ def _printed(state: State, scope: Scope, action: Action, line: str, param: str) 
     except ValueError as error:
         state.problem(MalformedCommand(str(error)), origin)
         return _NoValue(f"its command cannot be split into words: {error}")
+    if (reason := state.withholds_files_of(line, origin)) is not None:
+        return _NoValue(reason)
     result = state.results.result(line)
     state.commands.append(Command(line, _full_name(scope, param), origin, result))
     if result is None:
@@ -141,9 +143,8 @@ def _full_name(scope: Scope, param: str) -> str:
 def report_file(state: State, scope: Scope, action: Action, attribute: str, found: Unreadable) -> None:
     """Note that a file named in a parameter tag cannot be read."""
     written = action.attribute(attribute)
-    kind = ParameterFileNotFound if found.kind == "missing" else UnreadableParameterFile
     origin = scope.origin(written.value.span if written else action.kind_span)
-    state.problem(kind(found.path, found.reason), origin)
+    state.unreadable_file(found.path, found, ParameterFileNotFound, UnreadableParameterFile, origin)
 
 
 def _file_use(scope: Scope, action: Action, attribute: str, path: str) -> Use:

@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.problems import (
     PackageNotFound,
     UndeclaredArgument,
     UnsetVariable,
+    WithheldVariable,
 )
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros1.scope import Scope
@@ -96,7 +97,9 @@ def _one(state: State, scope: Scope, part: Substitution, span: Span, *, record: 
         else:
             text = _COMMANDS.get(part.command, _unknown_command)(state, scope, part, words)
     except _Failure as failure:
-        if failure.kind is not None:
+        if isinstance(failure.kind, WithheldVariable):
+            state.withheld_variable(part.text, failure.kind.name, scope.origin(span))
+        elif failure.kind is not None:
             state.problem(failure.kind, failure.origin or scope.origin(span))
         text = None
     if record:
@@ -130,13 +133,22 @@ def _environment_variable(state: State, name: str) -> str:
     try:
         return state.environment.variables[name]
     except KeyError:
-        raise _Failure(UnsetVariable(name)) from None
+        withheld = name in state.environment.withheld
+        raise _Failure(WithheldVariable(name) if withheld else UnsetVariable(name)) from None
+
+
+def _is_unset(state: State, name: str) -> bool:
+    return name not in state.environment.variables and name not in state.environment.withheld
 
 
 def _optenv(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
     if not words:
         raise _Failure(BadSubstitution(part.text, "$(optenv NAME default) needs a name"))
-    return state.environment.variables.get(words[0], " ".join(words[1:]))
+    return _optional_variable(state, words[0], " ".join(words[1:]))
+
+
+def _optional_variable(state: State, name: str, default: str) -> str:
+    return default if _is_unset(state, name) else _environment_variable(state, name)
 
 
 def _anon(state: State, scope: Scope, part: Substitution, words: list[str]) -> str:
@@ -169,7 +181,7 @@ def _eval(state: State, scope: Scope, part: Substitution, words: list[str]) -> s
     functions: dict[str, Callable[..., object]] = {
         "arg": lambda name: values.convert(_arg(scope, name), "auto"),
         "env": lambda name: _environment_variable(state, name),
-        "optenv": lambda name, default="": state.environment.variables.get(name, default),
+        "optenv": lambda name, default="": _optional_variable(state, name, default),
         "find": lambda name: _package(state, name),
         "anon": lambda name: _anonymous(state, scope, name),
         "dirname": lambda: os.path.dirname(scope.file),

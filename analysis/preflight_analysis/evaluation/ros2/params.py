@@ -189,8 +189,9 @@ def file_source(
         if empty:
             state.problem(UnreadableParameterFile("", empty), origin, fatal=fatal)
         else:
-            kind = ParameterFileNotFound if found.kind == "missing" else UnreadableParameterFile
-            state.problem(kind(path, found.reason), origin, fatal=fatal)
+            state.unreadable_file(path, found, ParameterFileNotFound, UnreadableParameterFile, origin, fatal=fatal)
+        if found.kind == "withheld":
+            state.note_unknown(path, found.reason, origin[-1])
         return None
     text = found.text
     if substitute:

@@ -12,6 +12,7 @@ import ast
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -21,7 +22,6 @@ from preflight_analysis.documents.change import Change, change
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Location, Origin, Span
-from preflight_analysis.environment.secrets import is_secret
 from preflight_analysis.evaluation.collector import Collector
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import (
@@ -51,6 +51,7 @@ MARK = "\0launch file "
 _PACKAGE = re.compile(r"package '([^']*)' not found")
 _ENVIRON = re.compile(r"environ\s*\[\s*['\"]([^'\"]+)['\"]\s*\]")
 _READS_ENVIRONMENT = re.compile(r"\b(?:environ|getenv)\b")
+_READS = r"(?:environ(?:\.get)?|getenv)\s*[\[(]\s*['\"](%s)['\"]"
 _NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
 """What no run is told, whatever its file asks for."""
 _PACKAGE_ERROR = "PackageNotFoundError"
@@ -100,12 +101,13 @@ def recorded(
 ) -> tuple[LaunchFile, PythonRun | None]:
     """The launch file as its run tells it, and the run; without one as it can be read."""
     document, whole = launch_file.document, Span(0, 0)
-    given = _given(document.text, context.initial_environment)
+    given = _given(document.text, context.initial_environment, state.environment.withheld)
     run = PythonRun(
         launch_file.path, document.text, context.changed_variables(), (), _source(document.text), given=given
     )
     run = _reusable(state, replace(run, packages=state.environment.meant))
     place = Place(launch_file.path, document.lines, chain, run)
+    _note_withheld(state, place, run)
     unknowns, problems = len(state.unknowns), len(state.problems)
     reply = None
     if document.problems:
@@ -297,13 +299,22 @@ def calls_own_code(launch_file: LaunchFile) -> bool:
     return False
 
 
-def _given(text: str, environment: Mapping[str, str]) -> dict[str, str]:
-    """The variables of the environment that a launch file names, as `os.environ['ROBOT']`: XML reads them as well."""
+def _given(text: str, environment: Mapping[str, str], withheld: AbstractSet[str]) -> dict[str, str]:
+    """The variables of the environment that a launch file names, as `os.environ['ROBOT']`: XML reads them as well. Of a
+    secret it is told that it is set."""
     if _READS_ENVIRONMENT.search(text) is None:
         return {}
-    names = {name for _, name in _NAMED.findall(text)}
-    known = {name: value for name in sorted(names) if (value := environment.get(name)) is not None}
-    return {name: value for name, value in known.items() if not is_secret(name, value)}
+    names = sorted({name for _, name in _NAMED.findall(text)})
+    known = {name: value for name in names if (value := environment.get(name)) is not None}
+    return {**known, **{name: unknown_text(f"the variable {name}") for name in names if name in withheld}}
+
+
+def _note_withheld(state: Collector, place: Place, run: PythonRun) -> None:
+    """Note the secrets that a launch file reads: each where it does first."""
+    for name in run.given:
+        if name in state.environment.withheld and (read := re.search(_READS % re.escape(name), run.text)) is not None:
+            origin = place.origin(Span(read.start(1), read.end(1)))
+            state.withheld_variable(run.text[read.start() : read.end()], name, origin)
 
 
 def _configurations(context: Context) -> dict[str, Any]:
@@ -390,6 +401,8 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 state.note_unknown(
                     readable(name), f"the name of the {what} is unresolved", _line(place, run, at, origin)[-1]
                 )
+            case ["variable", str(name), at] if name in state.environment.withheld:
+                state.withheld_variable(name, name, _line(place, run, at, origin))
             case ["variable", str(name), at] if name in state.environment.variables:
                 there = _line(place, run, at, origin)[-1]
                 state.note_unknown(name, f"the sandbox is not told what {name} is", there)
@@ -467,6 +480,8 @@ def _raised(state: Collector, place: Place, run: PythonRun, error: Mapping[str, 
     variable = _variable(run, here[-1], message) if name == "KeyError" and here else None
     if package is not None:
         state.problem(PackageNotFound(package[1]), origin)
+    elif variable is not None and variable in state.environment.withheld:
+        state.withheld_variable(name, variable, origin)
     elif variable is not None and variable in state.environment.variables:
         state.note_unknown(name, f"the sandbox is not told what {variable} is", origin[-1])
     elif variable is not None:

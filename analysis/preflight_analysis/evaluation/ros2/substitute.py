@@ -27,6 +27,7 @@ from preflight_analysis.evaluation.problems import (
     UndeclaredArgument,
     UnsetParameter,
     UnsetVariable,
+    WithheldFile,
 )
 from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2 import expressions
@@ -162,6 +163,9 @@ class Performer:
         name = self._word(part, 0)
         found = self.context.variable(name)
         if found is None:
+            if name in self.state.environment.withheld:
+                self.state.withheld_variable(part.text, name, self.place.origin(part.span))
+                raise _Failure
             if len(part.words) == 2:
                 return self._word(part, 1)
             raise _Failure(UnsetVariable(name))
@@ -276,6 +280,9 @@ class Performer:
                 line = line.replace(word, self.state.located(word))
         if self.state.results.placeholder is not None:
             return self.state.results.placeholder
+        if (reason := self.state.withholds_files_of(line, self.place.origin(part.span))) is not None:
+            self.state.note_unknown(part.text, reason, self._at(part))
+            raise _Failure
         result = self.state.results.result(line)
         self.state.commands.append(Command(line, "", self.place.origin(part.span), result))
         if result is not None and result.status == "done":
@@ -339,6 +346,8 @@ class Performer:
     def _file_content(self, part: Substitution) -> str:
         path = self._word(part, 0)
         found = self.state.read_text(os.path.join(self.state.cwd, path))
+        if isinstance(found, Unreadable) and found.kind == "withheld":
+            raise _Failure(WithheldFile(path, found.reason))
         if isinstance(found, Unreadable):
             message = f"the file '{path}' {found.reason}"
             raise _Failure(BadSubstitution(part.text, message))
