@@ -13,7 +13,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing import repositories
 from preflight_analysis.tracing.commands import CommandRunner
-from preflight_analysis.tracing.repositories import git_paths
+from preflight_analysis.tracing.repositories import hidden_paths
 from preflight_analysis.tracing.trace import Tracer
 from support.tracing_harness import request, write_node
 
@@ -106,7 +106,7 @@ def test_a_command_that_asks_git_has_not_failed(tmp_path: Path) -> None:
 
 
 def hidden(workspace: Path) -> set[Path]:
-    return {Path(path) for path in git_paths(detect_environment(str(workspace), VARIABLES))}
+    return {Path(path) for path in hidden_paths(detect_environment(str(workspace), VARIABLES))}
 
 
 def test_what_is_looked_at(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,6 +17,15 @@ export type Environments = Readonly<Record<string, NodeJS.ProcessEnv>>;
 /** Tells a running server that the user has come to trust the workspace. */
 export const workspaceTrust = new NotificationType<{ trusted: boolean }>("rosPreflight/workspaceTrust");
 
+const ALLOW_SECRETS = "ROS_PREFLIGHT_ALLOW_SECRETS";
+
+/** The secrets that the user allows: by settings and the own environment, whatever the set-ups of a workspace say. */
+function allowedSecrets(): string {
+  const named = workspace.getConfiguration("rosPreflight").get<unknown>("allowSecrets");
+  const given = Array.isArray(named) ? named.filter((each): each is string => typeof each === "string") : [];
+  return [process.env[ALLOW_SECRETS] ?? "", ...given].filter((each) => each !== "").join(":");
+}
+
 /** What the server must know before it may run anything. */
 function initializationOptions(environments: Environments): Record<string, unknown> {
   const settings = workspace.getConfiguration("rosPreflight");
@@ -49,7 +58,7 @@ export function createClient(
       command: server.program,
       args: [...server.args],
       // Not the workspace: `python -m` would import from it, trusted or not.
-      options: { cwd: homedir(), env: environment },
+      options: { cwd: homedir(), env: { ...environment, [ALLOW_SECRETS]: allowedSecrets() } },
     },
     {
       documentSelector: [...servedFiles],

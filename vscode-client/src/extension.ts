@@ -28,7 +28,7 @@ import { registerUnserved } from "./unserved";
 import { type Question, why } from "./why";
 
 /** The settings that say which server is started, and with which environment. */
-const OF_THE_START = ["server.command", "server.python", "server.install", "environment.setup"];
+const OF_THE_START = ["server.command", "server.python", "server.install", "environment.setup", "allowSecrets"];
 
 const WALKTHROUGH = "ros-preflight.ros-preflight#rosPreflight.start";
 /** Where launch files are, for the list of them; of ROS 2's in Python those that are named as such. */

@@ -43,62 +43,26 @@ _SYSTEM = (
 _OPEN_DOT_FOLDERS = frozenset((".ros",))
 _KEY_FOLDERS = frozenset((".ssh", ".gnupg", ".aws", ".azure", ".kube", ".docker"))
 _KEY_FILES = re.compile(
-    r"id_[a-z0-9_]+|[._]netrc|\.env(?:\..+)?|\.envrc|\.pgpass|\.git-credentials|\.npmrc|\.pypirc|\.htpasswd|\.vault-token"
-    r"|.+\.(?:pem|key|p12|pfx|ppk|jks|keystore|kdbx)"
+    r"id_(?:rsa|dsa|ecdsa|ed25519|xmss)(?:[._-](?!pub$).*)?|[._]netrc|\.env(?:\..+)?|\.envrc|\.pgpass|\.git-credentials|\.npmrc|\.pypirc|\.htpasswd"
+    r"|\.vault-token|.+\.(?:pem|key|p12|pfx|ppk|jks|keystore|kdbx)"
 )
 _EXAMPLES = re.compile(r"\.env\.(?:example|sample|template|dist)")
 _OF_GIT = frozenset(("config", "config.worktree", "credentials", "FETCH_HEAD"))
 _PRIVATE_KEY = re.compile(r"^[ \t]*-----BEGIN (?:[A-Z0-9]+ )*PRIVATE KEY(?: BLOCK)?-----", re.MULTILINE)
+_SHOWN_KEY = re.compile(r"-----BEGIN (?:[A-Z0-9]+ )*PRIVATE KEY(?: BLOCK)?-----")
 _PRIVATE_KEY_BYTES = re.compile(_PRIVATE_KEY.pattern.encode(), re.MULTILINE)
 _SOURCES = (".py", ".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".md", ".rst")
 """What speaks of private keys in its tests and examples."""
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-_SECRET_WORDS = frozenset(
-    [
-        "TOKEN",
-        "TOKENS",
-        "SECRET",
-        "SECRETS",
-        "PASSWD",
-        "PASSWORD",
-        "PASSWORDS",
-        "PASSPHRASE",
-        "CREDENTIAL",
-        "CREDENTIALS",
-        "CREDS",
-        "AUTH",
-        "AUTHORIZATION",
-        "COOKIE",
-        "COOKIES",
-        "BEARER",
-        "JWT",
-        "APIKEY",
-        "APIKEYS",
-        "WEBHOOK",
-    ]
+_SECRET_WORD = re.compile(
+    r"TOKENS|SECRETS|PASSWORDS|CREDENTIAL|CREDS|AUTH|AUTHORIZATION|COOKIES?|BEARER|JWT|APIKEYS|WEBHOOK"
+    r"|[A-Z0-9]*(?:TOKEN|SECRET|PASSWORD|PASSWD|PASSPHRASE|APIKEY|CREDENTIALS)"
 )
-_SECRET_ENDS = ("TOKEN", "SECRET", "PASSWORD", "PASSWD", "PASSPHRASE", "APIKEY", "CREDENTIALS")
-_KEY_WORDS = frozenset(("KEY", "KEYS"))
-_KEY_KINDS = frozenset(("API", "ACCESS", "SECRET", "PRIVATE", "DEPLOY", "SIGNING", "ENCRYPTION"))
-_AFTER_KEY = frozenset(
-    ["ID", "DATA", "BASE64", "B64", "PEM", "CONTENT", "CONTENTS", "VALUE", "TEXT", "PROD", "DEV", "STAGING", "TEST"]
-)
-_FILTERS = frozenset(("LOW", "HIGH", "BAND", "ALL", "BY"))
-_KNOWN = frozenset(
-    [
-        "SSHPASS",
-        "MYSQL_PWD",
-        "GITHUB_PAT",
-        "GH_PAT",
-        "AZURE_DEVOPS_EXT_PAT",
-        "AZURE_STORAGE_CONNECTION_STRING",
-        "SENTRY_DSN",
-        "KUBECONFIG_DATA",
-        "SSH_PRIVATE_KEY",
-        "AWS_ACCESS_KEY_ID",
-    ]
-)
+_KEY_KIND = re.compile(r"API|ACCESS|SECRET|PRIVATE|DEPLOY|SIGNING|ENCRYPTION")
+_AFTER_KEY = re.compile(r"ID|DATA|BASE64|B64|BASE|B|PEM|CONTENTS?|VALUE|TEXT|PROD|DEV|STAGING|TEST|\d+")
+_FILTER = re.compile(r"LOW|HIGH|BAND|ALL|BY")
+_KNOWN = re.compile(r"SSHPASS|MYSQL_PWD|\w*_PAT|AZURE_STORAGE_CONNECTION_STRING|SENTRY_DSN|KUBECONFIG_DATA")
 """Of CI services and clouds, without a word that says it."""
 _SWITCHES = frozenset(("", "0", "1", "true", "false", "yes", "no", "on", "off", "none"))
 """Values of variables that say whether there is a secret."""
@@ -145,6 +109,12 @@ class Access:
         real = _real(path)
         return not within(real, _OURS) and not any(within(real, folder) for folder in self.named)
 
+    def is_text_elsewhere(self, path: str) -> bool:
+        """Whether it is a file out there that a program may have made its output of: code is none."""
+        name = os.path.basename(path)
+        is_code = name.endswith((".py", ".pyc", ".so")) or ".so." in name
+        return not is_code and os.path.isfile(path) and self.is_outside(path)
+
     def withholds(self, name: str, value: str) -> bool:
         """Whether the value of an environment variable is a secret."""
         return is_secret_variable(name, value) and name not in self.allowed
@@ -177,16 +147,16 @@ def is_secret_variable(name: str, value: str) -> bool:
 
 
 def _is_secret_name(name: str) -> bool:
-    if name.upper() in _KNOWN:
+    if _KNOWN.fullmatch(name.upper()):
         return True
     words = [word.upper() for word in _WORD.findall(name)]
-    for at, word in enumerate(words):
-        before, after = words[at - 1] if at else "", words[at + 1 :]
-        if word in _SECRET_WORDS or word.endswith(_SECRET_ENDS):
+    for before, word, at in zip(("", *words), words, range(len(words)), strict=False):
+        after = words[at + 1 :]
+        if _SECRET_WORD.fullmatch(word):
             return True
-        if word in _KEY_WORDS and (before in _KEY_KINDS or all(w in _AFTER_KEY or w.isdigit() for w in after)):
+        if word in ("KEY", "KEYS") and (_KEY_KIND.fullmatch(before) or all(map(_AFTER_KEY.fullmatch, after))):
             return True
-        if word == "PASS" and not after and before not in _FILTERS:
+        if word == "PASS" and not after and not _FILTER.fullmatch(before):
             return True
     return False
 
@@ -203,6 +173,11 @@ def has_private_key(path: str, content: str | bytes) -> bool:
     if isinstance(content, bytes):
         return b"PRIVATE KEY" in content and _PRIVATE_KEY_BYTES.search(content) is not None
     return "PRIVATE KEY" in content and _PRIVATE_KEY.search(content) is not None
+
+
+def shows_private_key(text: str) -> bool:
+    """Whether a private key is somewhere in what a program printed."""
+    return "PRIVATE KEY" in text and _SHOWN_KEY.search(text) is not None
 
 
 def dot_folder(real: str) -> str | None:

@@ -27,6 +27,8 @@ from typing import Any
 from preflight_analysis.catalogue.descriptions import is_described
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.secrets import is_key_file, shows_private_key
+from preflight_analysis.environment import reach
 from preflight_analysis.environment.catkin_python import source_folders
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.own_programs import OLD_XACRO, own_arguments
@@ -49,7 +51,7 @@ from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import Visible
 from preflight_analysis.tracing.outcome import stderr_tail
 from preflight_analysis.tracing.records import paths
-from preflight_analysis.tracing.repositories import git_paths
+from preflight_analysis.tracing.repositories import hidden_paths
 from preflight_analysis.tracing.store import (
     MAX_BYTES,
     Place,
@@ -70,6 +72,7 @@ _NO_NETWORK = re.compile(
     r"|[Uu]nable to (communicate|contact|register) with (my |the )?(ROS )?master",
 )
 _PATH = re.compile(r"(?<![\w.])/[^\s:;,'\"`()<>\[\]]+")
+_SHELLS = frozenset(("sh", "bash", "dash", "zsh", "ksh", "busybox", "perl", "ruby", "node", "awk"))
 _LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
 _VARIABLES = {1: ros1_recipe.variables, 2: ros2_recipe.variables}
 
@@ -220,7 +223,7 @@ class CommandRunner:
 
     @functools.cached_property
     def _repositories(self) -> tuple[str, ...]:
-        return git_paths(self.environment)
+        return hidden_paths(self.environment)
 
     @property
     def _interpreter(self) -> str:
@@ -320,6 +323,12 @@ class CommandRunner:
     def _kept(self, line: str, job: _Job, done: _Done) -> CommandResult:
         """The result, which is kept if it is one to rely on."""
         result = done.result
+        hidden = (path for path in on_host(done.ended.files, job.visible) if is_key_file(os.path.basename(path)))
+        withheld = next(filter(self.environment.access.refusal, filter(os.path.isfile, hidden)), None)
+        if withheld is not None:
+            return CommandResult("not-run", reason=f"{withheld} {self.environment.access.refusal(withheld)}")
+        if shows_private_key(result.output):
+            return CommandResult("not-run", reason="it printed a private key, which is not kept")
         if result.status == "done" and line.startswith(MARK):
             narrow = sandbox.probe().narrow
             refused = launch_files.sandbox_to_blame(result.output, job.visible, narrow=narrow)
@@ -328,8 +337,19 @@ class CommandRunner:
         if result.status == "done" and self.cache is not None and done.unchanged:
             files = (*job.named, *on_host(done.ended.files, job.visible))
             output, started = result.output, done.started
+            if not self._may_be_kept(job, files):
+                return own_xacro.judged(result)
             self.cache.store(job.recipe, self._packages, output, files, started=started, state=self._state)
         return own_xacro.judged(result)
+
+    def _may_be_kept(self, job: _Job, files: Iterable[str]) -> bool:
+        """Whether nothing of the user's own files outside of the workspace can be in the output: what shells and the
+        workspace's programs read is not seen, unless they are in Python."""
+        program = job.named[0] if job.named else job.recipe.argv[0]
+        name = os.path.basename(program)
+        seen = name.startswith("python") or recipes.is_python(program)
+        seen = seen or not (reach.in_workspace(self.environment, program) or name in _SHELLS)
+        return seen and not any(map(self.environment.access.is_text_elsewhere, files))
 
 
 def alike(lines: Iterable[str], most: int) -> list[tuple[str, ...]]:

@@ -32,7 +32,7 @@ from preflight_analysis.tracing.file_lock import file_lock
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.tracing.kept_traces import NO_PRELOAD, KeptTraces, preloaded, still_named, under_own_names
 from preflight_analysis.tracing.observation import Observation, observe
-from preflight_analysis.tracing.repositories import git_paths
+from preflight_analysis.tracing.repositories import hidden_paths
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.store import identity
 
@@ -55,7 +55,7 @@ class Tracer(KeptTraces):
 
     @functools.cached_property
     def _repositories(self) -> tuple[str, ...]:
-        return git_paths(self.environment)
+        return hidden_paths(self.environment)
 
     def trace(self, request: TraceRequest, cancel: threading.Event, *, fresh: bool = False) -> Interface:
         """The cached trace, or a new run; with `fresh` a new run in any case. Never raises: what stands in the way of a
@@ -143,6 +143,7 @@ class Tracer(KeptTraces):
         if status.narrow and observed.interface.outcome.status == "crashed":
             observed = replace(observed, lasting=False, interface=_mark_speculative(observed.interface, status))
         lasting = observed.lasting and not nodelets.may_turn_up(observed.interface)
+        lasting = lasting and not any(map(self.environment.access.is_text_elsewhere, _files(observed, recipe, visible)))
         if self.cache is not None and lasting and _identities(request) == before:
             self.cache.store(
                 recipe,

@@ -7,7 +7,6 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
-from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.report import Report, missing_json
 from preflight_analysis.tracing import sandbox
@@ -46,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
     """Print what there is."""
     if not os.path.exists(args.place):
         raise CannotDoError(f"{args.place} does not exist")
-    environment = detect(os.path.abspath(args.place), package_path=options.package_path(args))
+    environment = options.environment(args, os.path.abspath(args.place))
     status = None if args.no_run else sandbox.probe()
     folder = args.place if os.path.isdir(args.place) else environment.workspace
     lacks = _lacks(folder, args) if folder else Report((), {})

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.environment.detect import detect, workspace_of
+from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.project_settings import read_project_settings
 
@@ -49,7 +49,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
         folder = os.path.isdir(path)
         home = workspace_of(os.path.join(path, "_") if folder else path)
         if home not in opened:
-            opened[home] = open_workspace(detect(home, package_path=options.package_path(args)), args)
+            opened[home] = open_workspace(options.environment(args, home), args)
         if folder and values:
             raise CannotDoError(f"{given} is a folder; arguments for its launch files stand in .ros-preflight.yaml")
         named = _named_below(path, home) if folder else [Root.of(path, options.launch_args(values, path))]

@@ -58,6 +58,10 @@ def main(argv: Sequence[str] | None = None, *, program: str = "ros-preflight") -
         from preflight_analysis.tracing.cache_folder import VARIABLE  # noqa: PLC0415, `--version` starts faster without
 
         os.environ[VARIABLE] = args.cache_dir
+    if getattr(args, "allow_secret", None):
+        from preflight_analysis.documents.secrets import ALLOWED  # noqa: PLC0415, likewise
+
+        os.environ[ALLOWED] = os.pathsep.join(filter(None, [os.environ.get(ALLOWED), *map(_secret, args.allow_secret)]))
     try:
         code: int = args.run(args)
         sys.stdout.flush()
@@ -76,6 +80,11 @@ def main(argv: Sequence[str] | None = None, *, program: str = "ros-preflight") -
         say(f"ros-preflight: internal error: {error_line(error)}. Please report this.")
         return BROKEN
     return code
+
+
+def _secret(given: str) -> str:
+    """A path that is allowed, whole; the name of a variable as it is."""
+    return os.path.abspath(os.path.expanduser(given)) if "/" in given or os.path.exists(given) else given
 
 
 def _parse(argv: Sequence[str], program: str) -> argparse.Namespace:

@@ -9,7 +9,7 @@ from contextlib import ExitStack
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.reading import Unreadable, read_text
-from preflight_analysis.environment.detect import detect, workspace_of
+from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.environment.revision import (
     NoRevisionError,
     environment_at,
@@ -77,7 +77,7 @@ def snapshot_of_operand(operand: Operand, args: argparse.Namespace, cleanup: Exi
 
 def from_launch(path: str, values: dict[str, str], args: argparse.Namespace) -> tuple[Analysis, Snapshot]:
     """A launch file of the disk as it is now."""
-    environment = detect(path, package_path=options.package_path(args))
+    environment = options.environment(args, path)
     # What executables did elsewhere is known on this machine only.
     analysis = run_nodes(analyse(path, values, environment, args, similar=False), args)
     if analysis.graph is None:
@@ -111,7 +111,7 @@ def _at_revision(operand: Operand, values: dict[str, str], args: argparse.Namesp
         return _read(operand, text.text)
     # The file may not be there any more.
     workspace = workspace_of(os.path.join(revision.repository, revision.file))
-    now = detect(workspace, package_path=options.package_path(args))
+    now = options.environment(args, workspace)
     environment = environment_at(now, revision.repository, folder)
     analysis = run_nodes(analyse(path, values, environment, args, similar=False), args)
     if analysis.graph is None:

@@ -6,6 +6,9 @@ import argparse
 import os
 from collections.abc import Iterable, Sequence
 
+from preflight_analysis.documents.secrets import ALLOWED
+from preflight_analysis.environment.detect import detect
+from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.generation import ROS1
@@ -57,6 +60,18 @@ def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None
         "--package-path",
         metavar="A:B",
         help="search packages in these folders only, in this order",
+    )
+    parser.add_argument(
+        "--allow-secret",
+        action="append",
+        default=[],
+        metavar="PATH|NAME",
+        help=f"read this file, folder or environment variable though it is a secret (also: {ALLOWED})",
+    )
+    parser.add_argument(
+        "--workspace-only",
+        action="store_true",
+        help="read no files outside of the workspace and the package paths",
     )
     parser.add_argument(
         "--cache-dir",
@@ -111,6 +126,11 @@ def package_path(args: argparse.Namespace) -> tuple[str, ...] | None:
     if args.package_path is None:
         return None
     return tuple(os.path.abspath(folder) for folder in args.package_path.split(os.pathsep) if folder)
+
+
+def environment(args: argparse.Namespace, place: str | None) -> Environment:
+    """The environment for a workspace folder, or for the workspace of a file, as the options have it."""
+    return detect(place, package_path=package_path(args), outside=not args.workspace_only)
 
 
 def failing(findings: Iterable[Finding], fail_on: str) -> tuple[Finding, ...]:

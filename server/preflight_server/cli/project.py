@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import place, relative
@@ -64,7 +63,7 @@ def open_project(args: argparse.Namespace) -> Project:
     """
     path = options.launch_file(args)
     values = options.launch_args(args.launch_args, path)
-    return analyse(path, values, detect(path, package_path=options.package_path(args)), args)
+    return analyse(path, values, options.environment(args, path), args)
 
 
 def analyse(

@@ -198,8 +198,12 @@ class Session:
 
     def set_trusted(self, trusted: bool) -> None:
         """Whether the user trusts the workspace, so that its nodes may be run in the sandbox."""
+        changed = trusted != self.runs.trusted
         self.runs.set_trusted(trusted)
-        self.analyses.ask_again()
+        if changed:  # it may read other files
+            self.environment_changed()
+        else:
+            self.analyses.ask_again()
 
     def traces_cleared(self) -> None:
         """What earlier runs told is to be forgotten."""
@@ -313,10 +317,10 @@ class Session:
         self._workspace = None
 
     async def _detect(self) -> None:
-        folder, package_path = self.folder, self.settings.package_path
+        folder, package_path, trusted = self.folder, self.settings.package_path, self.runs.trusted
 
         def work() -> Workspace:
-            environment = detect(folder, package_path=package_path, variables=self._variables)
+            environment = detect(folder, package_path=package_path, variables=self._variables, outside=trusted)
             similar = SimilarTraces(TraceCache(), environment, self._sources)
             return Workspace(environment, self._sources, commands=self.runs.commands.results, similar=similar)
 
@@ -324,6 +328,6 @@ class Session:
             workspace = await self.in_pool(work)
         finally:
             self._detecting = None
-        if (folder, package_path) == (self.folder, self.settings.package_path):
+        if (folder, package_path, trusted) == (self.folder, self.settings.package_path, self.runs.trusted):
             self._workspace = workspace
             self.runs.set_workspace(workspace)

@@ -108,7 +108,7 @@ async def _called(workspace: Workspace, name: str, given: dict[str, Any]) -> typ
     wrong = best_match(Draft202012Validator(tool.input_schema).iter_errors(given))
     if wrong is not None:
         raise BadArgumentError(f"{'.'.join(map(str, wrong.absolute_path)) or 'arguments'}: {wrong.message[:500]}")
-    words = [tool.verb, "--format=json", "--paths=cwd", *([] if workspace.run else ["--no-run"])]
+    words = [tool.verb, "--format=json", "--paths=cwd", "--workspace-only", *([] if workspace.run else ["--no-run"])]
     output = await _output(workspace, [*words, *tool.words(workspace.folder, given)])
     document = bounded(json.loads(output), given.get("limit", ITEMS))
     return types.CallToolResult(
