@@ -130,6 +130,7 @@ def generate_launch_description():
     params += [{{"or_" + name: EnvironmentVariable(name, default_value="none")}} for name in NAMES]
     token = os.environ["ROBOT_TOKEN"]
     params += [{{"got": "x" + token, "password": os.environ.get("DB_PASSWORD", "none"), "origin": os.getenv("ORIGIN")}}]
-    node = Node(package={node[0]!r}, executable={node[1]!r}, name="spy", parameters=params, additional_env={{"T": token}})
+    more = {{"T": token}}
+    node = Node(package={node[0]!r}, executable={node[1]!r}, name="spy", parameters=params, additional_env=more)
     return LaunchDescription([node, *map(IncludeLaunchDescription, PATHS)])
 """
