@@ -31,6 +31,7 @@ ONCE_PER_PROCESS = {
     "_described",  # our own data
     "_agents_digest",  # our own code
     "_digest",  # by path and state of the file
+    "_homes_of",  # by the home folder and the user
     "_in_place_of",  # a folder that the process removes at its end
     "_installed",  # with us
     "_lying_around",  # by the time of ten seconds, too

@@ -11,7 +11,7 @@ import functools
 import os
 import pwd
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from preflight_analysis.dataclass import dataclass
@@ -115,10 +115,6 @@ class Access:
         is_code = name.endswith((".py", ".pyc", ".so")) or ".so." in name
         return not is_code and os.path.isfile(path) and self.is_outside(path)
 
-    def withholds(self, name: str, value: str) -> bool:
-        """Whether the value of an environment variable is a secret."""
-        return is_secret_variable(name, value) and name not in self.allowed
-
     def _is_allowed(self, real: str) -> bool:
         allowed = [os.path.expanduser(each) for each in self.allowed if "/" in each]
         return any(within(real, each) or within(real, _real(each)) for each in allowed) or within(real, _OURS)
@@ -134,9 +130,9 @@ def within(path: str, folder: str) -> bool:
     return path == folder or path.startswith(folder.rstrip("/") + "/")
 
 
-def withheld(variables: Mapping[str, str], access: Access) -> frozenset[str]:
-    """The names of the variables whose values are secrets."""
-    return frozenset(name for name, value in variables.items() if access.withholds(name, value))
+def withheld(variables: Mapping[str, str], allowed: Collection[str]) -> frozenset[str]:
+    """The names of the variables whose values are secrets that nobody allows."""
+    return frozenset(n for n, value in variables.items() if n not in allowed and is_secret_variable(n, value))
 
 
 def is_secret_variable(name: str, value: str) -> bool:

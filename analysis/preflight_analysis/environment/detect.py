@@ -163,8 +163,8 @@ def detect_environment(
         *([] if ros2 else _workspace_problems(catkin or workspace, devel, found)),
         *([] if ros2 else _installation_problems(variables, python)),
     ]
-    access = secrets.Access((*folders, *named), secrets.allowed_by_user(), outside)
-    withheld = secrets.withheld(given, access)
+    allowed = secrets.allowed_by_user()
+    withheld = secrets.withheld(given, allowed)
     return Environment(
         generation=2 if ros2 else 1,
         distro=distribution(variables, prefixes)
@@ -186,7 +186,8 @@ def detect_environment(
         named_folders=named,
         debians=prefix is None and (has_debian or _is_debian(root)),
         withheld=withheld,
-        access=access,
+        allowed_secrets=allowed,
+        outside=outside,
     )
 
 

@@ -109,13 +109,21 @@ class Environment:
     """Whether ROS 1 comes from Debian's own archive here, whose packages have other names than those of ROS's."""
     withheld: frozenset[str] = frozenset()
     """The names of the variables that are set and whose values are secrets: nobody is told these."""
-    access: Access = Access()
-    """What may be read of the disk for its launch files."""
+    allowed_secrets: tuple[str, ...] = ()
+    """The secrets that the user allows: paths and names of variables."""
+    outside: bool = True
+    """Whether its launch files may name files out of the workspace and of what the user named."""
 
     @property
     def ros(self) -> Generation:
         """What is so in its generation of ROS."""
         return ros(self.generation)
+
+    @property
+    def access(self) -> Access:
+        """What may be read of the disk for its launch files."""
+        named = (*self.workspace_folders, *self.named_folders, *self.system_prefixes, *self.ament_prefixes)
+        return Access(named, self.allowed_secrets, self.outside)
 
     def is_installed(self, package: Package) -> bool:
         """Whether a package lies where ROS is installed, and not in the workspace."""

@@ -130,7 +130,7 @@ def environment_at(environment: Environment, repository: str, folder: str) -> En
     packages = {**elsewhere, **{name: p for name, p in there.packages.items() if name not in overlaid}}
     path = [*dict.fromkeys(place for place, _ in entries)]
     path += [entry for entry in environment.package_path if not _is_below(entry, repository)]
-    workspace, folders = environment.workspace, (folder, os.path.realpath(folder))
+    workspace = environment.workspace
     variables = dict(environment.variables)
     if "ROS_PACKAGE_PATH" in variables:
         variables["ROS_PACKAGE_PATH"] = os.pathsep.join(path)
@@ -141,8 +141,7 @@ def environment_at(environment: Environment, repository: str, folder: str) -> En
         package_path=tuple(path),
         variables=variables,
         workspace=moved(workspace) if workspace and _is_below(workspace, repository) else workspace,
-        workspace_folders=(*environment.workspace_folders, *folders),
-        access=replace(environment.access, named=(*environment.access.named, *folders)),
+        workspace_folders=(*environment.workspace_folders, folder, os.path.realpath(folder)),
     )
 
 
