@@ -82,14 +82,16 @@ def test_a_secret_file_and_variable(home: Path, name: str, form: str, substituti
     ],
 )
 @pytest.mark.parametrize("file", [".ros/camera.yaml", "ws/a.yaml"])
-def test_silent_ordinary_files_and_variables(home: Path, name: str, form: str, substitution: str, file: str) -> None:
+@pytest.mark.silent
+def test_ordinary_files_and_variables(home: Path, name: str, form: str, substitution: str, file: str) -> None:
     analysis = _analysis(home, form.format(home=home, file=file, substitution=substitution), name)
     assert _found(analysis) == []
     assert not analysis.tree.unknowns
     assert ("burger" in repr(analysis.tree)) == ("TURTLEBOT3" in substitution)
 
 
-def test_silent_what_the_user_allows(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.silent
+def test_what_the_user_allows(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_PREFLIGHT_ALLOW_SECRETS", f"{home}/.config:API_KEY")
     text = ROS1.format(home=home, file=".config/license.yaml", substitution="env API_KEY")
     analysis = _analysis(home, text)

@@ -73,6 +73,8 @@ _NO_NETWORK = re.compile(
 )
 _PATH = re.compile(r"(?<![\w.])/[^\s:;,'\"`()<>\[\]]+")
 _SHELLS = frozenset(("sh", "bash", "dash", "zsh", "ksh", "busybox", "perl", "ruby", "node", "awk"))
+_PLAIN_LINE = re.compile(r"[\w\s./:=,+'\"|%@-]*")
+"""Of a shell: it names all that it reads."""
 _LIMITS = (signal.SIGXCPU, signal.SIGXFSZ)
 _VARIABLES = {1: ros1_recipe.variables, 2: ros2_recipe.variables}
 
@@ -343,13 +345,24 @@ class CommandRunner:
         return own_xacro.judged(result)
 
     def _may_be_kept(self, job: _Job, files: Iterable[str]) -> bool:
-        """Whether nothing of the user's own files outside of the workspace can be in the output: what shells and the
-        workspace's programs read is not seen, unless they are in Python."""
-        program = job.named[0] if job.named else job.recipe.argv[0]
-        name = os.path.basename(program)
-        seen = name.startswith("python") or recipes.is_python(program)
-        seen = seen or not (reach.in_workspace(self.environment, program) or name in _SHELLS)
-        return seen and not any(map(self.environment.access.is_text_elsewhere, files))
+        """Whether nothing of the user's own files outside of the workspace can be in the output."""
+        access = self.environment.access
+        return self._reads_are_seen(job) and not any(map(access.is_text_elsewhere, files))
+
+    def _reads_are_seen(self, job: _Job) -> bool:
+        """Whether it is known what a command reads: all that Python opens, and of other programs what their arguments
+        name. Not of programs of the workspace, nor of a shell's line that finds files in another way."""
+        programs = (job.recipe.argv[0], *filter(self._is_own_program, job.named[1:]))
+        others = [p for p in programs if not (os.path.basename(p).startswith("python") or recipes.is_python(p))]
+        if any(reach.in_workspace(self.environment, program) for program in others):
+            return False
+        if not others or os.path.basename(others[0]) not in _SHELLS:
+            return True
+        words = job.recipe.argv[1:]
+        return words[:1] == ("-c",) and all(_PLAIN_LINE.fullmatch(word) and "cd" not in word.split() for word in words)
+
+    def _is_own_program(self, path: str) -> bool:
+        return os.access(path, os.X_OK) and reach.in_workspace(self.environment, path)
 
 
 def alike(lines: Iterable[str], most: int) -> list[tuple[str, ...]]:
