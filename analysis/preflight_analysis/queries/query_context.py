@@ -45,11 +45,11 @@ class QueryContext:
         return self.trees_around((self.path,))
 
     def trees_around(self, paths: Iterable[str]) -> tuple[LaunchTree, ...]:
-        """What every root starts that reaches the file, or one of these paths: as a launch file or another that it
-        reads."""
+        """What every root starts that reaches the file (`all_trees`, first), or one of these paths: as a launch file or
+        another that it reads."""
         known = {analysis.launch for analysis in self.analyses}
         roots = dict.fromkeys(self.current.roots_of(self.path))
-        for path in paths:
+        for path in (self.path, *paths):
             roots.update(dict.fromkeys(self.current.roots_touching(path)))
         others = (root for root in roots if root not in known)
         return (*self.trees, *(self.workspace.tree(root.path, dict(root.args)) for root in others))

@@ -284,16 +284,18 @@ class _NodeRename:
         if not self.tags:
             raise RenameRefusedError("This is the name of a test, not that of its node")
 
-    def of(self, tree: LaunchTree) -> frozenset[str]:
-        """The full names that it has in a launch. In those that reach the file of the cursor a name of one is that of
-        all."""
-        trees = self._context.all_trees if tree in self._context.all_trees else (tree,)
-        return frozenset(node.name for each in trees for node in each.nodes if node.location in self.tags)
+    def _named(self) -> Iterator[tuple[LaunchTree, frozenset[str]]]:
+        """The launches with the full names that it has there. In those that reach the file of the cursor a name of one
+        is that of all."""
+        names_in = [frozenset(node.name for node in tree.nodes if node.location in self.tags) for tree in self.trees]
+        reaching = len(self._context.all_trees)
+        common = frozenset[str]().union(*names_in[:reaching])
+        for number, (tree, own) in enumerate(zip(self.trees, names_in, strict=True)):
+            yield tree, common if number < reaching else own
 
     def _mentions(self) -> dict[Location, str]:
         found: dict[Location, str] = {}
-        for tree in self.trees:
-            wanted = self.of(tree)
+        for tree, wanted in self._named():
             self._refuse_ambiguous(tree, wanted)
             mixed: dict[Location, set[Span | None]] = {}
             for mention in mentions_of(self._context, (tree,), wanted):
@@ -354,8 +356,8 @@ class _NodeRename:
             raise RenameRefusedError(
                 f"'{new}' is not a valid node name: use a letter, then letters, digits and underscores"
             )
-        for tree in self.trees:
-            wanted = {names.parent(full) + new for full in self.of(tree)}
+        for tree, own in self._named():
+            wanted = {names.parent(full) + new for full in own}
             for node in tree.nodes:
                 if node.name in wanted:
                     where = shown(self._context, node.location)

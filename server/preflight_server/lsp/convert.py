@@ -280,7 +280,8 @@ class Converter:
         if opened is not None:
             return opened.text != known.text
         read = read_text(path)
-        return not isinstance(read, Text) or read.text != known.text
+        # What is not plain UTF-8 may have been read otherwise, as roslaunch reads it.
+        return not isinstance(read, Text) or (read.plain and read.text != known.text)
 
     def _version(self, path: str) -> int | None:
         opened = self._texts.by_path(path)
