@@ -177,11 +177,12 @@ class Session:
         return True
 
     async def noticed(self, paths: Iterable[str]) -> None:
-        """Somebody found other texts than those that were analysed. Returns when the index has the new ones."""
+        """Somebody found other texts than those that were analysed, of open files those typed a moment ago. Returns
+        when the index has the new ones."""
         closed = [path for path in paths if self._server.texts.by_path(path) is None]
         if closed:
             self.files_changed(closed)
-            await self.indexing.settled()
+        await self.indexing.settled()
 
     def environment_changed(self) -> None:
         """Packages came or went, or settings that say where they are changed."""
