@@ -485,3 +485,16 @@ def test_a_display_without_a_publisher_is_a_hint(tmp_path: Path) -> None:
 @pytest.mark.silent
 def test_rviz_alone(tmp_path: Path) -> None:
     assert _findings_in_rviz(tmp_path, "-d $(dirname)/a.rviz", _DISPLAY, nodes="") == []
+
+
+def test_a_node_with_a_random_name_may_publish_anything() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="sub"/>
+          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ hint[TOP001] 1 of 2 nodes not fully analysed
+          <node pkg="p" type="t" name="pub"/>
+        </launch>
+        //- interfaces
+        {"/sub": {"subscribers": {"topics": "std_msgs/String"}},
+         "/pub": {"publishers": {"topic3": "std_msgs/String"}, "unnamed": ["topic3"]}}
+    """)

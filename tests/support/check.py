@@ -282,10 +282,11 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
     `answers`, `lacks`; `frames` and `frame_uses`, lists with the fields of `Frame` and `FrameUse`; `md5` `{name: sum}`;
     `qos` `{name: {policy: value}}`;
-    `made` `{name: [file, line]}`; `builtin`, `speculative`, `on_demand` and `similar`, lists of names; `catalogued`;
+    `made` `{name: [file, line]}`; `unnamed`, those of the names that are random in each run; `builtin`, `speculative`,
+    `on_demand` and `similar`, lists of names; `catalogued`;
     `nodes`, those that the process makes, with the fields of `MadeNode`.
     """
-    made = data.get("made", {})
+    made, unnamed = data.get("made", {}), data.get("unnamed", ())
     endpoints = [
         Endpoint(
             role,
@@ -326,8 +327,9 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
     return Interface(
         source,
         outcome,
-        tuple(endpoints),
+        tuple(each for each in endpoints if each.name not in unnamed),
         tuple(params),
+        unnamed=tuple(each for each in endpoints if each.name in unnamed),
         notes=tuple(data.get("notes", ())),
         frames=tuple(Frame(*each) for each in data.get("frames", ())),
         frame_uses=tuple(FrameUse(*each) for each in data.get("frame_uses", ())),

@@ -95,10 +95,10 @@ def _result(
         "relatedLocations": [
             {
                 "id": number,
-                "message": {"text": printable(r.message)},
-                "physicalLocation": _physical(r.location, documents, base),
+                "message": {"text": printable(related.message)},
+                "physicalLocation": _physical(related.location, documents, base),
             }
-            for number, r in enumerate(finding.related)
+            for number, related in enumerate(finding.related)
         ],
         "fixes": [_fix(fix, documents, base) for fix in finding.fixes if fix.edits],
         "partialFingerprints": {FINGERPRINT: fingerprint},

@@ -37,7 +37,8 @@ RULE = Rule(
     name="run-notes",
     severity="info",
     what="Checks for events in the run of a node in the sandbox: a refused write, no exit on request, too much "
-    "output, a mock reply, or a name that is random in each run. An import that is missing on this machine, and replaced by a stand-in, is a hint.",
+    "output, a mock reply, or a name that is random in each run. An import that is missing on this machine, and "
+    "replaced by a stand-in, is a hint.",
     why="The sandbox stopped these effects; on the robot they happen. After a refusal or a mock reply the "
     "node may behave differently than on the robot.",
     example="open('/home/me/.calibration', 'w')",
