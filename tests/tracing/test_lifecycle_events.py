@@ -90,6 +90,16 @@ def test_who_activates_a_lifecycle_node(tmp_path: Path, actions: str, said: str 
     )
 
 
+@pytest.mark.parametrize(("condition", "said"), [("'true'", False), ("'false'", True), ("some_robot.GO", False)])
+def test_events_under_a_condition(tmp_path: Path, condition: str, said: bool) -> None:
+    harness = PythonHarness(tmp_path)
+    asked = "ask(matches_action(one), configure), ask(matches_action(one), activate)"
+    group = f"GroupAction([{asked}], condition=IfCondition({condition}))"
+    imports = "import some_robot\nfrom launch.actions import GroupAction\nfrom launch.conditions import IfCondition"
+    analysis = harness.launch(harness.write("launch/a.launch.py", imports + FILE.replace("{}", group)))
+    assert ("LCH035" in [each.rule for each in analysis.findings]) == said
+
+
 @pytest.mark.parametrize("autostart", ["True", "'true'"])
 def test_launch_ros_activates_it(tmp_path: Path, autostart: str) -> None:
     harness = PythonHarness(tmp_path)

@@ -6,14 +6,13 @@ import fnmatch
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import chain
-from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.graph.domains import Domains
-from preflight_analysis.tracing.interface import ENDS, Endpoint, Interface, ParamUse, Role
+from preflight_analysis.tracing.interface import ENDS, Endpoint, Interface, KindOfEnds, ParamUse, Role
 
-ChannelKind = Literal["topics", "services", "actions"]
+ChannelKind = KindOfEnds
 PROVIDERS: tuple[Role, ...] = ("publisher", "service", "action_server")
 """The roles of those at the providing end of a channel."""
 

@@ -23,13 +23,14 @@ DOES: Mapping[str, str] = {
     "action_client": "uses the action",
 }
 """What a node does at an end of each role, in words for the user; the name follows."""
-Kind = Literal["topics", "services", "actions", "parameters"]
+KindOfEnds = Literal["topics", "services", "actions"]
+Kind = KindOfEnds | Literal["parameters"]
 """What a node may do, as it may be known of one kind and not of another."""
 CHANGE_STATE = "lifecycle_msgs/srv/ChangeState"
 """The type of the service `~/change_state` of a lifecycle node, by which others configure and activate it."""
-ENDS: tuple[Kind, ...] = ("topics", "services", "actions")
+ENDS: tuple[KindOfEnds, ...] = ("topics", "services", "actions")
 KINDS: tuple[Kind, ...] = (*ENDS, "parameters")
-_KIND_OF: Mapping[Role, Kind] = {
+_KIND_OF: Mapping[Role, KindOfEnds] = {
     "publisher": "topics",
     "subscriber": "topics",
     "service": "services",
@@ -369,8 +370,8 @@ class Interface:
     @property
     def decided(self) -> bool:
         """Whether a condition that is not known, or a plugin, decides what it does."""
-        conditional = any(each.conditional for each in (*self.endpoints, *self.params))
-        return conditional or any(use.access == "list" for use in self.params)
+        of_params = any(use.conditional or use.access == "list" for use in self.params)
+        return of_params or any(end.conditional for end in self.endpoints)
 
     @property
     def likely_complete(self) -> bool:

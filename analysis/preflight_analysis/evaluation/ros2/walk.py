@@ -48,6 +48,8 @@ MAX_DEPTH_OF_PARTS = 24
 _MALFORMED = {".yaml": MalformedYaml, ".yml": MalformedYaml}
 _UNREAD = frozenset({"event_handler", "opaque", "timer"})
 """Actions of which the text of a Python file does not tell what is in them."""
+_CHANGES_STATES = frozenset({"emit_event", "event_handler", "lifecycle_transition"})
+"""Those that may ask a lifecycle node for a transition."""
 _SURE_UNRUN = (MalformedPython, LaunchFileNotRun, ArgumentNotAChoice, NestedTooDeeply)
 """What can be said of a Python launch file that was not run."""
 
@@ -291,6 +293,8 @@ class Walk:
             performer.state.note_unknown(f"<{action.kind} {attribute.name}>", "its condition is not known", at)
             if known is not None and known.configures:
                 performer.context.cannot_follow(at)
+            if any(below.kind in _CHANGES_STATES for below in action.walk()):
+                performer.state.state_changes.append(ANY_CHANGE)
             _note_not_taken(performer, action, attribute, name, None)
             return False
         word = result.text.strip().lower()
