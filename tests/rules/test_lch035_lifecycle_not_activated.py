@@ -1,7 +1,7 @@
 """LCH035: a lifecycle node that nothing activates (ROS 2)."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 
 
 def test_a_lifecycle_node_beside_nodes_that_cannot_activate_it() -> None:
@@ -98,3 +98,36 @@ def test_what_may_be_activated() -> None:
         //- /nav2_map_server/package.xml
         <package><name>nav2_map_server</name></package>
     """)
+
+
+_SERVES = '"services": {"~/change_state": "lifecycle_msgs/srv/ChangeState"}'
+
+
+@pytest.mark.parametrize(
+    ("driver", "other", "said"),
+    [
+        ("", "", "warning"),
+        (', "transitions": ["configure"]', "", "warning"),
+        (', "transitions": ["activate", "configure"]', "", None),
+        ("", '"source": "source", "status": "not-run", "publishers": {"out": "std_msgs/msg/Empty"}', "info"),
+        ("", '"source": "catalogue", "status": "not-run", "publishers": {"out": "std_msgs/msg/Empty"}', "warning"),
+        (
+            "",
+            '"source": "source", "status": "not-run", "unnamed": [["client", "lifecycle_msgs/srv/ChangeState"]]',
+            None,
+        ),
+        ("", '"source": "source", "status": "not-run", "unnamed": [["client", "std_srvs/srv/Empty"]]', "info"),
+    ],
+)
+def test_a_node_whose_run_or_source_shows_that_it_is_one(driver: str, other: str, said: str | None) -> None:
+    """A manager may have the names from a parameter."""
+    found = findings_of(f"""
+        //- /a.launch.xml
+        <launch>
+          <node pkg="p" exec="driver" name="driver"/>
+          <node pkg="p" exec="other" name="other"/>
+        </launch>
+        //- interfaces
+        {{"/driver": {{{_SERVES}{driver}}}, "/other": {{{other}}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "LCH035"] == ([said] if said else [])

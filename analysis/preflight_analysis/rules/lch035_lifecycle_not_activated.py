@@ -31,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _is_known(interface: Interface) -> bool:
     """Whether a client of the service by which states are changed would be known."""
-    return interface.likely_complete or interface.source in ("source", "catalogue")
+    return interface.likely_complete or interface.source == "catalogue"
 
 
 RULE = Rule(

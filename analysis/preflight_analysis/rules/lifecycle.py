@@ -131,5 +131,9 @@ def _others_may_act(context: Context) -> bool:
     service."""
     if any(node.kind == "process" and not _SET.search(node.args) for node in context.tree.nodes):
         return True
-    services = context.graph.services.values() if context.graph is not None else ()
-    return any(end.endpoint.type == CHANGE_STATE for channel in services for end in channel.consumers)
+    if context.graph is None:
+        return False
+    if any(interface.may_call(CHANGE_STATE) for interface in context.graph.interfaces):
+        return True
+    channels = context.graph.services.values()
+    return any(end.endpoint.type == CHANGE_STATE for channel in channels for end in channel.consumers)

@@ -193,7 +193,12 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
     whole = interface.with_more(node.name, "source", endpoints, params, found.nodes, found.frames, found.frame_uses)
     if not _is_more(whole, interface):
         return interface
-    whole = replace(whole, whole=KINDS if found.whole else (), transitions=whole.transitions or found.transitions)
+    whole = replace(
+        whole,
+        whole=KINDS if found.whole else (),
+        computed=found.unnamed,
+        transitions=whole.transitions or found.transitions,
+    )
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:
         return whole
     # There is no executable, but what it is to be made of.

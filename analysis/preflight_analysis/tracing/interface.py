@@ -330,6 +330,8 @@ class Interface:
     unnamed: tuple[Endpoint, ...] = ()
     """What it was seen to make under names that it makes up in each run, at random: the name of each is that of one
     run, and none of the others. They are not among the endpoints."""
+    computed: tuple[tuple[Role, str | None], ...] = ()
+    """Role and type of what its source makes beside these, under names that are not known."""
     whole: tuple[Kind, ...] = ()
     """The kinds of which its source, which it is known from, told all: each name is computed, each branch gone through;
     or the files and arguments that name the ends of a bridge or a relay."""
@@ -352,6 +354,11 @@ class Interface:
         seen_whole = not self.outcome.answers and not self.looks and not self.unnamed
         spins = self.known and self.outcome.status == "spinning" and seen_whole
         return self.declared or spins
+
+    def may_call(self, type_: str) -> bool:
+        """Whether it makes a client of that type of service under a name that is not known."""
+        ends = (*self.computed, *((end.role, end.type) for end in self.unnamed))
+        return any(role == "client" and each in (None, type_) for role, each in ends)
 
     def tells_all(self, *kinds: Kind) -> bool:
         """Whether it was seen to do all that it does, or its source tells all of these kinds: what is not there is
