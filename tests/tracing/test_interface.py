@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.tracing.interface import ENDS, KINDS, NOT_RUN, Endpoint, Interface, Outcome, ParamUse
 from support.tracing_harness import ROS1_FIXTURES, own, trace, write_node
 
 pytestmark = pytest.mark.ros
@@ -361,3 +361,14 @@ def test_python_is_python_3_where_only_that_is_there(tmp_path: Path, first: str)
     found = trace(script, variables={"PATH": str(programs)})
     assert found.outcome.status == "spinning", found.outcome
     assert own(found) == {("subscriber", "scan", "*")}
+
+
+def test_what_is_known_is_known_kind_by_kind() -> None:
+    ends = Endpoint("publisher", "scan", None), Endpoint("service", "~/get_state", None, builtin=True)
+    bridge = Interface("source", Outcome("not-run"), ends, whole=ENDS)
+    assert (bridge.tells_all(*ENDS), bridge.tells_all("parameters"), bridge.likely_complete) == (True, False, True)
+    catalogued = Interface("catalogue", Outcome("not-run"), ends)
+    assert [kind for kind in KINDS if catalogued.speaks_of(kind)] == ["topics"]
+    assert [kind for kind in KINDS if bridge.speaks_of(kind)] == list(KINDS)
+    assert not any(map(catalogued.tells_all, KINDS))
+    assert not any(map(NOT_RUN.speaks_of, KINDS))
