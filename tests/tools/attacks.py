@@ -460,7 +460,7 @@ def attack_all(proc: str) -> dict[str, dict[str, str]]:
     return found
 
 
-def _readable_python(name: str) -> list[str]:
+def readable_python(name: str) -> list[str]:
     """A Python for another user that has what this one has."""
     site = next(path for path in sys.path if path.endswith("site-packages"))
     path = os.pathsep.join((str(ROOT / "analysis"), str(ROOT / "server"), str(ROOT / "tests"), site))
@@ -476,7 +476,7 @@ def as_user(proc: str) -> dict[str, dict[str, str]]:
     with ordinary_user() as name:
         home = pwd.getpwnam(name).pw_dir
         variables = [f"HOME={home}", f"USER={name}", "PATH=/usr/bin:/bin:/usr/games"]
-        command = [*become(name), "env", "-i", *variables, *_readable_python(name), __file__, "--json", "--proc", proc]
+        command = [*become(name), "env", "-i", *variables, *readable_python(name), __file__, "--json", "--proc", proc]
         done = subprocess.run(command, capture_output=True, text=True, cwd=home, check=False)
     if done.returncode != 0:
         raise RuntimeError(done.stderr[-3000:])

@@ -33,6 +33,8 @@ Status = tuple[int, int, int, int, int]
 """What tells one state of a file from the next: time of the last change, size, inode, mode, and when it was looked at
 where it had changed so shortly before that the next change may not show."""
 _MODE = 3
+_HIDDEN: Status = (0, 0, 0, 0, 0)
+"""What lies in a folder that is shut to the user, if it is there: nobody can say that it is missing."""
 _TICK = 50_000_000
 """Nanoseconds in which a file system may give two changes the same time."""
 
@@ -40,6 +42,8 @@ _TICK = 50_000_000
 def _status(path: str) -> Status | None:
     try:
         found = os.stat(path)
+    except PermissionError:
+        return _HIDDEN
     except (OSError, ValueError):
         return None
     now = time.time_ns()
@@ -253,7 +257,7 @@ class Disk:
         return changed
 
     def exists(self, path: str) -> bool:
-        """Whether there is anything."""
+        """Whether there is anything, or may be, as a folder on the way is shut to the user."""
         return mode_of(self.db, self._looked_at(path)) is not None
 
     def is_file(self, path: str) -> bool:

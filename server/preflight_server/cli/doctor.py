@@ -15,7 +15,7 @@ from preflight_analysis.tracing.sandbox import SandboxStatus
 
 from preflight_server.cli import options
 from preflight_server.cli.check import look_at
-from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError
+from preflight_server.cli.errors import CLEAN, FOUND, require
 from preflight_server.cli.launches import launches
 from preflight_server.cli.output import print_json, print_text
 from preflight_server.cli.paths import by_name, with_paths
@@ -43,9 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print what there is."""
-    if not os.path.exists(args.place):
-        raise CannotDoError(f"{args.place} does not exist")
-    environment = options.environment(args, os.path.abspath(args.place))
+    environment = options.environment(args, require(args.place))
     status = None if args.no_run else sandbox.probe()
     folder = args.place if os.path.isdir(args.place) else environment.workspace
     lacks = _lacks(folder, args) if folder else Report((), {})

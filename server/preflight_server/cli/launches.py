@@ -12,7 +12,7 @@ from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.project_settings import read_project_settings
 
 from preflight_server.cli import options
-from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.errors import CannotDoError, require
 from preflight_server.cli.project import OpenWorkspace, open_workspace
 
 
@@ -43,9 +43,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
     asked: dict[str, set[Root]] = {}
     opened: dict[str, OpenWorkspace] = {}
     for given in paths or ["."]:
-        path = os.path.abspath(given)
-        if not os.path.exists(path):
-            raise CannotDoError(f"{given} does not exist")
+        path = require(given)
         folder = os.path.isdir(path)
         home = workspace_of(os.path.join(path, "_") if folder else path)
         if home not in opened:

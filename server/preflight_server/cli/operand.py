@@ -22,7 +22,7 @@ from preflight_analysis.snapshot.model import Snapshot
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
-from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.errors import CannotDoError, require
 from preflight_server.cli.project import analyse, run_nodes
 
 
@@ -63,7 +63,7 @@ def snapshot_of_operand(operand: Operand, args: argparse.Namespace, cleanup: Exi
         raise CannotDoError(f"{operand.file} is a folder; name a launch file or a snapshot")
     if not os.path.exists(path):
         if ":" not in operand.file:
-            raise CannotDoError(f"{operand.file} does not exist")
+            require(operand.file)
         return _at_revision(operand, values, args, cleanup)
     text = read_text(path)
     if isinstance(text, Unreadable):

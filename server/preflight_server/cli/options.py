@@ -18,7 +18,7 @@ from preflight_analysis.tracing.schedule import most_at_once
 from preflight_analysis.workspace.sources import Sources
 
 from preflight_server.cli.completion import argument_names
-from preflight_server.cli.errors import CannotDoError
+from preflight_server.cli.errors import CannotDoError, require
 from preflight_server.cli.paths import add_paths
 
 NEVER = "never"
@@ -98,9 +98,7 @@ def add_file(parser: argparse.ArgumentParser, *, optional: bool = False) -> None
 
 def launch_file(args: argparse.Namespace) -> str:
     """The absolute path of FILE. Raises `CannotDoError` if nothing is there."""
-    path: str = os.path.abspath(args.file)
-    if not os.path.exists(path):
-        raise CannotDoError(f"{args.file} does not exist")
+    path = require(args.file)
     if os.path.isdir(path):
         raise CannotDoError(f"{args.file} is a folder; name a launch file")
     return path
