@@ -68,14 +68,15 @@ class User:
             for place in (self.home, self.workspace, *self.workspace.rglob("*")):
                 os.chown(place, *NOBODY, follow_symlinks=False)
         variables = ["-i", f"HOME={self.home}", "PATH=/usr/bin:/bin", f"ROS_PACKAGE_PATH={self.workspace}/src"]
+        variables += ["ROS_DISTRO=noetic", "ROS_VERSION=1", f"XDG_CACHE_HOME={self.workspace}/cache"]
+        named = [str(launch)] if launch is not None else []
         done = subprocess.run(
-            [*prefix, *variables, "ROS_DISTRO=noetic", "ROS_VERSION=1", f"XDG_CACHE_HOME={self.workspace}/cache"]
-            + [*python, "-m", "preflight_server.cli.main", "check", "--no-run", *options, *([str(launch)] * bool(launch))],
+            [*prefix, *variables, *python, "-m", "preflight_server.cli.main", "check", "--no-run", *options, *named],
             capture_output=True,
             timeout=60,
             check=False,
             cwd=self.workspace,
-        )  # fmt: skip
+        )
         said = done.stdout.decode("utf-8", "surrogateescape"), done.stderr.decode("utf-8", "surrogateescape")
         assert "Traceback" not in "".join(said), said
         return done.returncode, *said

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import pwd
+import re
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -27,6 +28,7 @@ from preflight_analysis.tracing.interior import PRIVATE
 _TMP = "/tmp"  # noqa: S108
 _OWN = ("/proc", "/dev", "/sys", "/run")
 """Folders that firejail makes itself, or works with; nobody but root may write to them."""
+_NOT_IN_NAMES = re.compile(r"[^\w/.:@+=~ \x80-\U0010ffff-]|(?<=\.)\.")
 _WRITTEN = (_TMP, "/dev/shm", "/run/firejail/mnt")  # noqa: S108
 """File systems of the run's own, the last of them root's."""
 
@@ -75,8 +77,13 @@ def _options(view: View, folder: str) -> list[str]:
             options += [f"--blacklist={path}" for path in _shut(root, home)]
     leading_out = [*sockets.reachable(shown, view.masks), *mounts.leading_out(shown, view.masks)]
     leading_out += view.hidden_repositories()
-    options += [f"--blacklist={path}" for path in (*view.secrets, *leading_out)]
+    options += [f"--blacklist={_pattern(path)}" for path in (*view.secrets, *leading_out)]
     return options
+
+
+def _pattern(path: str) -> str:
+    """What firejail shuts by this name: it takes it as a pattern, and refuses many characters outside of one."""
+    return _NOT_IN_NAMES.sub("?", path)
 
 
 def _shut(root: str, home: str) -> list[str]:
