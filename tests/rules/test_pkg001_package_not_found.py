@@ -275,6 +275,8 @@ def test_a_package_that_only_another_distribution_has_says_so(launch: Path) -> N
     assert finding.severity == "hint"
     assert "is not installed; it is released for indigo and kinetic" in finding.message
     assert finding.lack == Lack("package", "kobuki_node")
+    (of_more,) = of_packages(launch, "yocs_velocity_smoother")
+    assert "it is released for indigo, kinetic and melodic" in of_more.message
     (of_its_own,) = of_packages(launch, "kobuki_node", distro="kinetic")
     assert of_its_own.message.endswith("ros-kinetic-kobuki-node")
 

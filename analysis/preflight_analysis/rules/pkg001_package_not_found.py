@@ -24,7 +24,7 @@ from preflight_analysis.rules.installed import (
 )
 from preflight_analysis.rules.nearest import did_you_mean
 from preflight_analysis.rules.places import attribute_location, program_known
-from preflight_analysis.rules.problems import include_chain, problems_of, rename
+from preflight_analysis.rules.problems import enumerated, include_chain, problems_of, rename
 from preflight_analysis.rules.retired import was_removed
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -104,7 +104,7 @@ def _not_here(
     text = f"package '{name}' is neither installed nor in the workspace"
     if having:
         package = debian_package_of(context, name)
-        which = f"; install {package}" if package else f"; it is released for {' and '.join(having)}"
+        which = f"; install {package}" if package else f"; it is released for {enumerated(having)}"
         text = f"package '{name}' is not installed{which}"
     elif name in context.once(_named_by_manifests):
         text += " nor released for any distribution"

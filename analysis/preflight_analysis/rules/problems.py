@@ -96,7 +96,12 @@ def rename(context: Context, location: Location, old: str, new: str, *, preferre
 
 def quoted(names: Iterable[str]) -> str:
     """`'a', 'b' and 'c'`."""
-    words = [f"'{name}'" for name in names]
+    return enumerated(f"'{name}'" for name in names)
+
+
+def enumerated(names: Iterable[str]) -> str:
+    """`a, b and c`."""
+    words = [*names]
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
