@@ -335,7 +335,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         frame_uses=tuple(FrameUse(*each) for each in data.get("frame_uses", ())),
         nodes=nodes,
         transitions=tuple(data.get("transitions", ())),
-        unnamed=tuple((role, type_) for role, type_ in data.get("unnamed", ())),
+        computed=tuple((role, type_) for role, type_ in data.get("computed", ())),
         stand_ins=tuple(data.get("stand_ins", ())),
     )
 

@@ -669,3 +669,55 @@ def test_a_package_of_python_2_that_imports_its_own_module(tmp_path: Path) -> No
     script = write_node(tmp_path, "import rospy\nimport piksi\n")
     script.write_text(script.read_text().replace("env python3", "env python"))
     assert trace_without(script).outcome.lacks == "Python 2"
+
+
+LAYOUT = """
+import glob, os, pathlib, rclpy
+from ament_index_python.packages import get_package_share_directory
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+def main():
+    rclpy.init()
+    node = Node('own')
+    share = get_package_share_directory('pkg')
+    paths = [os.path.join(share, 'cfg', 'topics.txt'), os.path.join(share, 'renamed', 'topics.txt')]
+    for path in paths:
+        with open(path) as file:
+            node.create_publisher(String, file.read().strip(), 1)
+    if os.path.exists(paths[0]) and pathlib.Path(share, 'cfg').is_dir() and glob.glob(share + '/cfg/*.txt'):
+        node.create_publisher(String, 'all_there', 1)
+    if os.path.exists(share + '/cfg/no_such.txt'):
+        node.create_publisher(String, 'too_much', 1)
+    rclpy.spin(node)
+"""
+
+
+@pytest.mark.parametrize("build_type", ["ament_python", "ament_cmake"])
+def test_a_node_finds_files_where_the_build_installs_them(tmp_path: Path, build_type: str) -> None:
+    harness = Ros2Harness(tmp_path, own=LAYOUT)
+    harness.write("config/topics.txt", "scan")
+    if build_type == "ament_python":
+        setup = harness.package / "setup.py"
+        files = "[('share/pkg/cfg', ['config/topics.txt']), ('share/pkg/renamed', ['config/topics.txt'])]"
+        setup.write_text(setup.read_text().replace("data_files=[]", f"data_files={files}"))
+    else:
+        manifest = harness.package / "package.xml"
+        manifest.write_text(manifest.read_text().replace("ament_python", "ament_cmake"))
+        (harness.package / "setup.py").unlink()
+        harness.write(
+            "CMakeLists.txt",
+            "project(pkg)\nfind_package(ament_cmake REQUIRED)\nament_python_install_package(pkg)\n"
+            "install(PROGRAMS scripts/own DESTINATION lib/pkg)\ninstall(DIRECTORY config/ DESTINATION share/pkg/cfg)\n"
+            "install(DIRECTORY config/ DESTINATION share/${PROJECT_NAME}/renamed)\nament_package()\n",
+        )
+        program = harness.write("scripts/own", f"#!/usr/bin/env python3\n{LAYOUT}\nmain()\n")
+        program.chmod(0o755)
+    launch = harness.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='own' name='own'/></launch>")
+    graph = checked(launch, without_rclpy(harness), None).graph
+    assert graph is not None
+    assert own(graph.processes[0]) == {
+        ("publisher", "scan", "std_msgs/msg/String"),
+        ("publisher", "all_there", "std_msgs/msg/String"),
+    }

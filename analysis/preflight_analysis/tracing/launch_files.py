@@ -8,7 +8,6 @@ import errno
 import hashlib
 import json
 import os
-import re
 import sys
 import zlib
 from collections.abc import Iterable, Sequence
@@ -16,15 +15,12 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
-from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS, distribution
-from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import interior, own_xacro, ros2_recipe
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.backend import AGENTS
 
-_TEXT = re.compile(r"""['"]([A-Za-z]\w*)['"]""")
 _NETWORK = (errno.ENETUNREACH, errno.EHOSTUNREACH, errno.ECONNREFUSED, errno.ENETDOWN)
 _WORD = 100_000
 """Characters of one argument; the system's limit is 128 KiB."""
@@ -46,7 +42,7 @@ def make(environment: Environment, request: dict[str, Any], cwd: str) -> recipes
     job = {
         **request,
         "packages": {name: p.share for name, p in environment.packages.items()} | request.get("packages", {}),
-        "installed": _installed_elsewhere(environment, str(request["file"]), str(request["text"])),
+        "installed": ros2_recipe.installed_for(environment, str(request["file"]), str(request["text"])),
         "paths": _module_folders(environment),
         "own_xacro": own_xacro.module(),
         "descriptions": own_xacro.descriptions_for(environment),
@@ -87,21 +83,11 @@ def apart(output: str, count: int) -> list[str | None]:
     return [each if isinstance(each, str) else None for each in found]
 
 
-def _installed_elsewhere(environment: Environment, file: str, text: str) -> list[tuple[str, str]]:
-    """What the packages that the launch file names, and its own, install at other places of their share folders: it
-    may open those."""
-    own = package_around(environment, file)
-    named = (environment.packages.get(name) for name in sorted(set(_TEXT.findall(text))))
-    packages = {package.name: package for package in (own, *named) if package is not None}
-    disk = Disk()
-    return [pair for package in packages.values() for pair in installed_elsewhere(disk, package)]
-
-
 @lru_cache(maxsize=1)
 def _edition() -> str:
     """Names the code that tells what a launch file makes."""
     digest = hashlib.sha256()
-    besides = (AGENTS.library / f"{name}.py" for name in ("anything", "missing_modules"))
+    besides = (AGENTS.library / f"{name}.py" for name in ("anything", "installed", "missing_modules"))
     for path in (*besides, *sorted((AGENTS.library / "fake_launch").glob("*.py"))):
         digest.update(path.read_bytes())
     return digest.hexdigest()

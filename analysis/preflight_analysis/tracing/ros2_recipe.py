@@ -10,15 +10,18 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment import middleware
 from preflight_analysis.environment.ament import INDEX, python_folders
+from preflight_analysis.environment.installed_paths import installed_elsewhere, package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
-from preflight_analysis.tracing.agents.variables import EXPECTED, LOAD, SHARES
+from preflight_analysis.tracing.agents.variables import EXPECTED, INSTALLED, LOAD, SHARES
 from preflight_analysis.tracing.load_request import load_request
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
@@ -34,6 +37,9 @@ _START = (
     "module, _, name = target.partition(':'); sys.exit(getattr(importlib.import_module(module), name)())"
 )
 """Calls an entry point as its console script does."""
+_TEXT = re.compile(r"""['"]([A-Za-z]\w*)['"]""")
+_MOST_INSTALLED = 100_000
+"""Characters of a variable of the environment; the system's limit is 128 KiB."""
 _ELSEWHERE = (
     "ROS_DISCOVERY_SERVER",
     "ROS_STATIC_PEERS",
@@ -58,6 +64,8 @@ def make(
     stable = variables(environment, request.env)
     stable["PYTHONPATH"] = _joined([*_roots(request), *_split(stable, "PYTHONPATH"), *modules])
     python = environment.ros2_python or recipes.any_python(environment)
+    if preload is None and (installed := _installed_for_node(environment, request.executable)) is not None:
+        stable[INSTALLED] = installed
     if request.entry_point is not None:
         argv = [python, "-c", _START, request.executable, request.entry_point, *request.args]
     elif request.component is not None:
@@ -177,6 +185,23 @@ def _source_packages(environment: Environment) -> dict[str, str]:
         for package in environment.packages.values()
         if package.is_ament and not package.share.startswith(installed)
     }
+
+
+def _installed_for_node(environment: Environment, executable: str) -> str | None:
+    """As `INSTALLED` has it; None where there is nothing."""
+    pairs = installed_for(environment, executable, Disk().content(executable) or "")
+    text = json.dumps(pairs)
+    return text if pairs and len(text) <= _MOST_INSTALLED else None
+
+
+def installed_for(environment: Environment, file: str, text: str) -> list[tuple[str, str]]:
+    """What the packages that a program names, and its own, install at other places of their share folders: it may open
+    those."""
+    own = package_around(environment, file)
+    named = (environment.packages.get(name) for name in sorted(set(_TEXT.findall(text))))
+    packages = {package.name: package for package in (own, *named) if package is not None}
+    disk = Disk()
+    return [pair for package in packages.values() for pair in installed_elsewhere(disk, package)]
 
 
 def _parameters(request: TraceRequest) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from preflight_analysis.tracing.sandbox import SandboxStatus
 
 from preflight_server.cli import options
 from preflight_server.cli.check import look_at
-from preflight_server.cli.errors import CLEAN, FOUND, require
+from preflight_server.cli.errors import CLEAN, FOUND, CannotDoError, require
 from preflight_server.cli.launches import launches
 from preflight_server.cli.output import print_json, print_text
 from preflight_server.cli.paths import by_name, with_paths

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import json
 import os
 import sys
 import threading
@@ -12,7 +13,7 @@ from types import ModuleType
 from typing import Any, Optional, Sequence
 
 from . import channel, genpy_weave, randomness
-from .variables import AGAIN, SOURCES, STAND_INS
+from .variables import AGAIN, INSTALLED, SOURCES, STAND_INS
 
 WOVEN = ("rospy", "actionlib.action_client", "actionlib.simple_action_client", "tf2_ros.buffer", genpy_weave.NAME)
 RCLPY = (
@@ -189,6 +190,10 @@ def install(library: str) -> None:
     atexit.register(files.flush)
     # Last of all: what is built or installed is found first.
     sys.path.extend(folder for folder in os.environ.get(SOURCES, "").split(os.pathsep) if folder)
+    if INSTALLED in os.environ:
+        from . import installed  # noqa: PLC0415 - as few nodes need it
+
+        installed.install(json.loads(os.environ[INSTALLED]))
     if AGAIN in os.environ:
         from .stand_ins import finder  # noqa: PLC0415
 

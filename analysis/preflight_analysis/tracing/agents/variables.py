@@ -14,6 +14,9 @@ SHARES = "PREFLIGHT_SHARES"
 DESCRIPTIONS = "PREFLIGHT_DESCRIPTIONS"
 """The environment variable with what the catalogue has of robot descriptions in packages that are not installed, as
 `skeletons.Skeletons` takes it."""
+INSTALLED = "PREFLIGHT_INSTALLED"
+"""The environment variable with what a build will install elsewhere than it lies in the source, as `installed.install`
+takes it, in JSON."""
 SOURCES = "PREFLIGHT_SOURCES"
 """The environment variable with the folders of Python modules of a workspace that may not be built."""
 STAND_INS = "PREFLIGHT_STAND_INS"

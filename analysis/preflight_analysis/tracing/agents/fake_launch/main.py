@@ -19,9 +19,10 @@ import types
 import zlib
 from typing import Any, Callable, Optional
 
+from .. import installed
 from ..anything import AnyBase, Anything, is_unknown, marked, on_condition, readable, unknown_text
 from ..process import own_seconds
-from . import installed, programs, reads, rewrites, rewritten, unknown_files, waiting, written
+from . import programs, reads, rewrites, rewritten, unknown_files, waiting, written
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .library import InvalidPythonLaunchFileError
 from .modules import install
