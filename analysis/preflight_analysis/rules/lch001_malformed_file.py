@@ -7,7 +7,7 @@ from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(
     id="LCH001",
-    name="malformed-xml",
+    name="malformed-file",
     severity="error",
     what="Checks for a launch file that is not well-formed XML, YAML or Python. The finding is at the place that "
     "has to be changed.",
