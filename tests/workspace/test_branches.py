@@ -488,3 +488,17 @@ def test_a_parameter_that_the_node_of_a_branch_does_not_declare(tmp_path: Path) 
     said = [(each.rule, each.severity, each.condition) for each, _ in branches.findings if each.rule == "PRM013"]
     assert said == [("PRM013", "warning", "sim:=true")] * 2
     assert "did you mean 'width'?" in branches.findings[0][0].message
+
+
+def test_an_argument_that_has_to_be_given_is_tried_with_each_choice(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+    (tmp_path / "a1.launch.xml").write_text("<launch/>")
+    path = tmp_path / "all.launch.xml"
+    path.write_text(
+        '<launch><arg name="model"><choice value="a1"/><choice value="b2"/></arg>'
+        '<include file="$(dirname)/$(var model).launch.xml"/></launch>'
+    )
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "2"}, (str(tmp_path),)), Sources())
+    analysis = workspace.static(str(path))
+    found = [finding for finding, _ in workspace.branches(analysis).findings]
+    assert [(f.rule, f.condition) for f in found] == [("LCH013", "model:=b2")]

@@ -131,10 +131,22 @@ class _Search:
 
     def branches(self) -> Branches:
         """All that is found."""
+        self._choose()
         for key, left_out in self._by_arguments().items():
             for together in _compatible(left_out):
                 self._assume(dict(key), together)
         return Branches(tuple(self._findings.values()), self._documents, len(self._untried), tuple(self._asked))
+
+    def _choose(self) -> None:
+        """Give each choice of an argument that has choices and no value: without one nothing is known of what depends
+        on it."""
+        for name, choices in _choices(self._launch_files.get(self._tree.file)):
+            declared = self._tree.args.get(name)
+            for choice in choices if declared is not None and declared.value is None else ():
+                wanted = {**self._given, name: choice}
+                what_if = self._with(wanted)
+                if what_if is not None:
+                    self._note(what_if.found, _shown(wanted, self._given), what_if.documents)
 
     def _by_arguments(self) -> dict[_Key, list[NotTaken]]:
         """Look at each branch that arguments take. Gives the others, by the arguments that lead there."""
@@ -285,6 +297,16 @@ def _open(tree: LaunchTree) -> Iterator[NotTaken]:
     return (
         each for each in tree.not_taken if not each.written.is_literal and catalogued_file(each.origin[-1].file) is None
     )
+
+
+def _choices(root: LaunchFile | None) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """The arguments that a file declares with choices, and these."""
+    for action in root.root.walk() if root is not None and root.root is not None else ():
+        name = action.value("name") if action.kind == "arg" else None
+        given = (child.value("value") for child in action.children if child.kind == "choice")
+        choices = tuple(value.text for value in given if value is not None)
+        if name is not None and choices:
+            yield name.text, choices
 
 
 def _key(args: Assignment) -> _Key:
