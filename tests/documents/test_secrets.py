@@ -164,6 +164,15 @@ def test_without_trust_nothing_outside_is_read(home: Path) -> None:
     assert _read(home / "ws/link.yaml", access).startswith("withheld: ")
 
 
+def test_without_trust_what_the_user_has_open_is_read(home: Path) -> None:
+    disk = Disk()
+    disk.access = Access((str(home / "ws"),), outside=False)
+    disk.open(str(home / "robot/a.yaml"), "a: 2")
+    found = disk.text(str(home / "robot/a.yaml"))
+    assert isinstance(found, Document)
+    assert found.text == "a: 2"
+
+
 def test_what_is_allowed_is_noticed(home: Path) -> None:
     disk = Disk()
     path = str(home / ".config/app/a.txt")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -25,10 +26,9 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def _analysis(home: Path, text: str, name: str = "a.launch", *, outside: bool = True) -> Analysis:
     (home / "ws" / name).write_text(text)
-    environment = detect_environment(
-        str(home / "ws"), {**VARIABLES, "HOME": str(home)}, root=str(home / "nothing"), outside=outside
-    )
-    return Workspace(environment, Sources()).static(str(home / "ws" / name))
+    variables = {**VARIABLES, "HOME": str(home)}
+    environment = detect_environment(str(home / "ws"), variables, root=str(home / "nothing"))
+    return Workspace(replace(environment, outside=outside), Sources()).static(str(home / "ws" / name))
 
 
 def _found(analysis: Analysis) -> list[Finding]:

@@ -118,8 +118,11 @@ def names_in(db: Database, folder: str) -> tuple[str, ...]:
 
 @query
 def refusal_of(db: Database, path: str) -> str | None:
-    """Why a file that is there is not read, as `Access.refusal`."""
-    return ACCESS(db).refusal(path) if STATUS(db, path) is not None else None
+    """Why a file that is there is not read, as `Access` has it. What the user has open is in reach."""
+    if STATUS(db, path) is None:
+        return None
+    access = ACCESS(db)
+    return access.refusal(path) or (access.out_of_reach(path) if BUFFER(db, path) is None else None)
 
 
 @query

@@ -86,7 +86,8 @@ class Access:
     outside: bool = True
 
     def refusal(self, path: str) -> str | None:
-        """Why the existing file at `path` is not read, a phrase that goes on from its name; None where it may be."""
+        """Why the existing file at `path` is not read as a secret, a phrase that goes on from its name; None where it
+        may be."""
         real = _real(path)
         if self._is_allowed(real):
             return None
@@ -96,9 +97,13 @@ class Access:
                 return f"is not read: {region[1]}; {REMEDY}"
             if (kind := _kind_of_file(place)) is not None:
                 return f"is not read: it is {kind}; {REMEDY}"
-        if not self.outside and self.is_outside(path):
-            return "is not read: it is outside of the workspace, which is not trusted to read there"
         return None
+
+    def out_of_reach(self, path: str) -> str | None:
+        """The same for a file that is out of the workspace's reach."""
+        if self.outside or not self.is_outside(path) or self._is_allowed(_real(path)):
+            return None
+        return "is not read: it is outside of the workspace, which is not trusted to read there"
 
     def refusal_of_content(self, path: str) -> str | None:
         """The same for a file with a private key in it."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents import secrets
@@ -52,10 +53,12 @@ def detect(
     package_path: Sequence[str] | None = None,
     variables: Mapping[str, str] | None = None,
     *,
+    beside: Sequence[str] = (),
     outside: bool = True,
 ) -> Environment:
     """The environment of `variables` (None: this process's own) for a workspace folder, or for the workspace of a file.
-    `outside`: whether its launch files may name files out of the workspace and the package paths.
+    `outside`: whether its launch files may name files out of the workspace and the package paths; those in the folders
+    `beside` they may.
 
     A folder inside of a package, as editors take that of the first file for one, is no workspace: it is like a file.
     """
@@ -63,7 +66,8 @@ def detect(
         place = workspace_of(place)
     elif place and any(map(_is_package, _with_parents(os.path.dirname(os.path.abspath(place))))):
         place = workspace_of(os.path.join(place, "any.launch"))
-    return detect_environment(place, os.environ if variables is None else variables, package_path, outside=outside)
+    found = detect_environment(place, os.environ if variables is None else variables, package_path)
+    return replace(found, beside=tuple(map(os.path.realpath, beside)), outside=outside)
 
 
 def workspace_of(file: str) -> str:
@@ -101,7 +105,6 @@ def detect_environment(
     prefixes: Sequence[str] = (),
     *,
     root: str = "/",
-    outside: bool = True,
 ) -> Environment:
     """What launch files and nodes of a workspace (a folder, or None) see, given a process's environment variables.
 
@@ -187,7 +190,6 @@ def detect_environment(
         debians=prefix is None and (has_debian or _is_debian(root)),
         withheld=withheld,
         allowed_secrets=allowed,
-        outside=outside,
     )
 
 

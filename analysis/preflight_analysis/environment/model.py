@@ -111,6 +111,8 @@ class Environment:
     """The names of the variables that are set and whose values are secrets: nobody is told these."""
     allowed_secrets: tuple[str, ...] = ()
     """The secrets that the user allows: paths and names of variables."""
+    beside: tuple[str, ...] = ()
+    """Further folders that the user has open, as they really are: their files may be read."""
     outside: bool = True
     """Whether its launch files may name files out of the workspace and of what the user named."""
 
@@ -122,7 +124,13 @@ class Environment:
     @property
     def access(self) -> Access:
         """What may be read of the disk for its launch files."""
-        named = (*self.workspace_folders, *self.named_folders, *self.system_prefixes, *self.ament_prefixes)
+        named = (
+            *self.workspace_folders,
+            *self.named_folders,
+            *self.system_prefixes,
+            *self.ament_prefixes,
+            *self.beside,
+        )
         return Access(named, self.allowed_secrets, self.outside)
 
     def is_installed(self, package: Package) -> bool:

@@ -151,7 +151,8 @@ def command_paths(
 
 
 def _may_be_named(environment: Environment, path: str) -> bool:
-    hidden = "/." in path + os.path.realpath(path) or environment.access.refusal(path) is not None
+    access = environment.access
+    hidden = "/." in path + os.path.realpath(path) or access.refusal(path) or access.out_of_reach(path)
     return os.path.isfile(path) and not hidden and not reach.in_workspace(environment, path)
 
 

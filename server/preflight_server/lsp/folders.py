@@ -54,6 +54,8 @@ class Folders:
         keys: list[str | None] = [*new] if new or self._sessions else [None]
         made = [self._session(key) for key in keys]
         self._sessions.update(zip(keys, made, strict=True))
+        for session in self:
+            session.set_beside(tuple(folder for folder in self._sessions if folder not in (None, session.folder)))
         return made
 
     def _session(self, folder: str | None) -> Session:

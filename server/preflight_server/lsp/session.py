@@ -91,6 +91,7 @@ class Session:
         self._variables = variables
         """The environment that the client gives the folder, None for the server's own."""
         self.folder = folder
+        self._beside: tuple[str, ...] = ()
         self.settings = settings
         self._sources = Sources()
         self._buffers = Buffers(server, self._sources)
@@ -196,6 +197,13 @@ class Session:
         if settings != self.settings:
             self.settings = settings
             self.environment_changed()
+
+    def set_beside(self, folders: tuple[str, ...]) -> None:
+        """The folders that are open besides: their files may be read."""
+        if folders != self._beside:
+            self._beside = folders
+            if self._workspace is not None:
+                self.environment_changed()
 
     def set_trusted(self, trusted: bool) -> None:
         """Whether the user trusts the workspace, so that its nodes may be run in the sandbox."""
@@ -317,11 +325,15 @@ class Session:
             self._workspace.close()
         self._workspace = None
 
+    @property
+    def _detected_from(self) -> tuple[str | None, tuple[str, ...] | None, tuple[str, ...], bool]:
+        return self.folder, self.settings.package_path, self._beside, self.runs.trusted
+
     async def _detect(self) -> None:
-        folder, package_path, trusted = self.folder, self.settings.package_path, self.runs.trusted
+        given = folder, package_path, beside, trusted = self._detected_from
 
         def work() -> Workspace:
-            environment = detect(folder, package_path=package_path, variables=self._variables, outside=trusted)
+            environment = detect(folder, package_path, self._variables, beside=beside, outside=trusted)
             similar = SimilarTraces(TraceCache(), environment, self._sources)
             return Workspace(environment, self._sources, commands=self.runs.commands.results, similar=similar)
 
@@ -329,6 +341,6 @@ class Session:
             workspace = await self.in_pool(work)
         finally:
             self._detecting = None
-        if (folder, package_path, trusted) == (self.folder, self.settings.package_path, self.runs.trusted):
+        if given == self._detected_from:
             self._workspace = workspace
             self.runs.set_workspace(workspace)
