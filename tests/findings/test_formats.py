@@ -10,7 +10,8 @@ from typing import Any
 import jsonschema
 from preflight_analysis.documents.span import Location
 from preflight_analysis.documents.xml import parse_xml
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.findings.fingerprint import fingerprints
 from preflight_analysis.findings.github import to_github
 from preflight_analysis.findings.junit import to_junit

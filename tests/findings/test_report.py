@@ -5,8 +5,9 @@ from collections import Counter
 from dataclasses import replace
 
 from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.coverage import Coverage
-from preflight_analysis.findings.finding import Alike, Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Alike, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.findings.report import Report, by_cause, to_json, to_text
 from preflight_analysis.rules.registry import run_rules

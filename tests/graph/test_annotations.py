@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation.tree import Tag
-from preflight_analysis.findings.finding import Edit
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.annotations import (
     annotated,

@@ -10,11 +10,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.findings.finding import Edit
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.rename import RenameRefusedError, rename
 from preflight_analysis.workspace.commands import CommandResults

@@ -23,6 +23,7 @@ A section `//- commands` has, by command line, what the commands of parameters g
 from __future__ import annotations
 
 import json
+import os
 import re
 import textwrap
 from collections.abc import Mapping, Sequence
@@ -34,6 +35,7 @@ from typing import Any
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Executable, Package
@@ -41,7 +43,7 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.inversion import arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.findings.finding import Edit, Finding
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.nodl.plugins import PluginIndex
@@ -63,6 +65,7 @@ from preflight_analysis.tracing.interface import (
 from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
 
+from support.fix_property import tries
 from support.messages import wording
 
 _FILE = re.compile(r"//- (\S+)\s*\Z")
@@ -258,7 +261,22 @@ def check(text: str, **options: Any) -> list[Finding]:
     complaint = [f"missing: {_shown(each)}" for each in unmet] + [f"not expected: {_shown(each)}" for each in extra]
     assert not complaint, "\n" + "\n".join(complaint)
     _check_wording(findings)
+    _check_fixes(fixture, findings, context, options)
     return findings
+
+
+def _check_fixes(fixture: Fixture, findings: Sequence[Finding], context: Context, options: Mapping[str, Any]) -> None:
+    def again(texts: Mapping[str, str]) -> list[Finding]:
+        return run_rules(analyse(replace(fixture, files={**fixture.files, **texts}), **{**options, "sources": None}))
+
+    tried = tries(findings, lambda path: _text_of(context, path), again)
+    wrong = [f"{each.rule}, {each.title}: {each.wrong}" for each in tried if each.wrong is not None]
+    assert not wrong or os.environ.get("FIX_TALLY"), "\n" + "\n".join(wrong)
+
+
+def _text_of(context: Context, path: str) -> str | None:
+    document = context.documents.get(path) or context.disk.text(path)
+    return document.text if isinstance(document, Document) else None
 
 
 def _check_wording(findings: Sequence[Finding]) -> None:

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.findings.finding import Edit
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.interface import NOT_RUN

@@ -80,3 +80,21 @@ def _nested(flat: Iterator[Command], end: str | None, depth: int) -> tuple[Comma
         else:
             found.append(command)
     return tuple(found)
+
+
+def unbalanced(text: str) -> int | None:
+    """Where the first parenthesis or quote stands that has no other end; None where all have."""
+    opened: list[int] = []
+    at = 0
+    for token in _TOKEN.finditer(text):
+        if '"' in text[at : token.start()]:
+            return text.index('"', at)
+        at = token.end()
+        if token["paren"] == "(":
+            opened.append(token.start())
+        elif token["paren"] == ")":
+            if not opened:
+                return token.start()
+            opened.pop()
+    quote = text.find('"', at)
+    return opened[0] if opened else quote if quote >= 0 else None

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.lack import Lack
 
 Severity = Literal["error", "warning", "info", "hint"]
@@ -14,14 +15,6 @@ Confidence = Literal["certain", "likely", "possible"]
 
 SEVERITIES: tuple[Severity, ...] = ("hint", "info", "warning", "error")
 """From the least to the most severe."""
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """Replace the text at `location` by `text`."""
-
-    location: Location
-    text: str
 
 
 @dataclass(frozen=True, slots=True)

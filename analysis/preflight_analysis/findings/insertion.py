@@ -6,7 +6,7 @@ import re
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.finding import Edit
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.launch.model import Action, ActionAttribute
 
 _BLANKS = re.compile(r"[ \t]*")

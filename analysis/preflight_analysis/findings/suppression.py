@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Document, Element, Node
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import Edit, Finding
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.insertion import remove_tag
 
 _MARK = re.compile(r"preflight:\s*ignore\b(?:\[(?P<ids>[^\]]*)\])?")

@@ -23,9 +23,9 @@ from preflight_analysis.documents.hash_comments import MARK, has_hash_comments
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.xml_text import quoted_attribute
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit
 from preflight_analysis.findings.insertion import insert_child, insert_comment_above
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.actions import actions_of

@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.annotations import (
     AnnotatedGroup,

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.annotations import annotation_edit, annotation_template, annotation_text
 from preflight_analysis.graph.outdated import bring_up_to_date, compare
 from preflight_analysis.queries.places import action_at, nodes_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.findings.finding import Edit
+from preflight_analysis.edits.edit import Edit
 
 
 class RenameRefusedError(Exception):

@@ -15,7 +15,8 @@ from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex, Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.yaml import parse_yaml
-from preflight_analysis.findings.finding import Edit, Finding
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.suppression import read_suppressions
 
 _BLANKS = re.compile(r"[ \t]*")

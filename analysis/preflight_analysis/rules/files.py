@@ -10,11 +10,12 @@ from pathlib import Path
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.problems import ParameterFileNotFound, UnreadablePath
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.elsewhere import (
     absent_folder_of_others,

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation.problems import Problem
-from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
 from preflight_analysis.launch.problems import UnknownElement
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.installed import has_ros

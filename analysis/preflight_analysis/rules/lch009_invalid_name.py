@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import InvalidName, Problem
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value

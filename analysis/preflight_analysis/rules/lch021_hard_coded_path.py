@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.rules.files import in_named_package

@@ -8,8 +8,9 @@ from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import expression, values
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.substitutions import is_eval

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value

@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XML_STANDARD

@@ -10,10 +10,11 @@ from itertools import chain
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query

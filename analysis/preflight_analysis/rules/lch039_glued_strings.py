@@ -9,7 +9,8 @@ import tokenize
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource

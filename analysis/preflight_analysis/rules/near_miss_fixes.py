@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.evaluation.value_places import value_place
-from preflight_analysis.findings.finding import Edit, Fix
+from preflight_analysis.findings.finding import Fix
 from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.near_miss import NearMiss

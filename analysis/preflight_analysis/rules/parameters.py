@@ -7,9 +7,10 @@ from dataclasses import replace
 from itertools import compress
 from operator import is_not
 
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule

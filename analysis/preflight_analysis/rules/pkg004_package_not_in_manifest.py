@@ -10,11 +10,12 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tags import tags_of
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP

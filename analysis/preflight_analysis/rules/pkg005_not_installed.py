@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.installed_paths import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tree import Use
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
 from preflight_analysis.rules.rule import Context, Rule

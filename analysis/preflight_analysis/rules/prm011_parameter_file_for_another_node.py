@@ -7,12 +7,13 @@ from itertools import chain
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import known_of_nodes
 from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.nearest import likeness, nearest
 from preflight_analysis.rules.problems import include_chain, quoted

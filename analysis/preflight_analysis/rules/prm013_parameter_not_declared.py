@@ -4,11 +4,12 @@ import re
 from collections.abc import Collection, Iterable, Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Alike, Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Alike, Finding, Fix, Severity
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parameters import OF_ALL_NODES

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterator, Mapping
 
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
 from preflight_analysis.rules.parameters import grouped, namespace_of, renamed

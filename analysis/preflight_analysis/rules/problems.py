@@ -10,8 +10,9 @@ from typing import TypeVar, cast
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation.problems import Problem
-from preflight_analysis.findings.finding import Confidence, Edit, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules.rule import Check, Context, Rule

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Edit, Finding, Fix, Severity
+from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps

@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare

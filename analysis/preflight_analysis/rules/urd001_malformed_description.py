@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.robot.model import Malformed
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of, semantics_of
 from preflight_analysis.robot.sources import files_of

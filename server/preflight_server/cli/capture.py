@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.writing import write_file
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import place
 from preflight_analysis.graph.annotations import annotation_edit, annotation_text

@@ -10,7 +10,8 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.documents.span import LineIndex, Location, Span
-from preflight_analysis.findings.finding import Edit, Finding, Severity
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.queries.rename_edit import RenameEdit
 from preflight_analysis.queries.symbols import Symbol
 

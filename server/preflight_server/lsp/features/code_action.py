@@ -20,8 +20,9 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.documents.span import LineIndex
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.detect import SETTINGS_FILE
-from preflight_analysis.findings.finding import Edit, Finding
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.queries.actions import FixOf, annotating, fix_all, fixes, touching
 from preflight_analysis.queries.suppressing import suppress_on_line
 from preflight_analysis.workspace.settings_edit import turn_off

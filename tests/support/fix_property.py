@@ -1,0 +1,77 @@
+"""Every fix of every finding is tried: the files parse, the finding is gone, and no error is new.
+
+Each try is a line of the file that `FIX_TALLY` names, where it is set: `tests/tools/fixes.py` counts them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+from preflight_analysis.edits.edit import applied, by_file
+from preflight_analysis.edits.gate import refusal
+from preflight_analysis.findings.finding import Finding, Fix
+
+TALLY = "FIX_TALLY"
+
+TextOf = Callable[[str], str | None]
+Again = Callable[[Mapping[str, str]], Iterable[Finding]]
+"""The findings with these texts in place of those of before."""
+
+
+@dataclass(frozen=True)
+class Try:
+    """A fix that was tried, and what is wrong with it; None for one that mends its finding."""
+
+    rule: str
+    format: str
+    title: str
+    wrong: str | None
+
+
+def tries(findings: Iterable[Finding], text_of: TextOf, again: Again) -> list[Try]:
+    """All fixes of the findings, each tried by itself."""
+    findings = list(findings)
+    found = [
+        Try(finding.rule, _format(fix), fix.title, _wrong(finding, fix, findings, text_of, again))
+        for finding in findings
+        for fix in finding.fixes
+    ]
+    if (tally := os.environ.get(TALLY)) is not None:
+        with open(tally, "a", encoding="utf-8") as file:
+            file.writelines(json.dumps([t.rule, t.format, t.title, t.wrong, where()]) + "\n" for t in found)
+    return found
+
+
+def where() -> str:
+    return os.environ.get("PYTEST_CURRENT_TEST", "")
+
+
+def _format(fix: Fix) -> str:
+    names = sorted({PurePosixPath(edit.location.file).name for edit in fix.edits})
+    kinds = {"CMakeLists.txt": "CMake", "package.xml": "package.xml", "setup.py": "setup.py"}
+    return "+".join(dict.fromkeys(kinds.get(name) or PurePosixPath(name).suffix or name for name in names))
+
+
+def _wrong(finding: Finding, fix: Fix, before: list[Finding], text_of: TextOf, again: Again) -> str | None:
+    why = refusal(fix.edits, text_of)
+    if why is not None:
+        return why
+    texts = {file: applied(text_of(file) or "", edits) for file, edits in by_file(fix.edits).items()}
+    after = list(again(texts))
+    if _count(after)[_key(finding)] >= _count(before)[_key(finding)]:
+        return "the finding is still there"
+    errors = _count(f for f in after if f.severity == "error") - _count(f for f in before if f.severity == "error")
+    return f"new errors: {sorted(errors)}" if errors else None
+
+
+def _key(finding: Finding) -> tuple[str, str, str]:
+    return finding.rule, finding.location.file, finding.message
+
+
+def _count(findings: Iterable[Finding]) -> Counter[tuple[str, str, str]]:
+    return Counter(map(_key, findings))
