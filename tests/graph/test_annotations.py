@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.tree import Tag
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.annotations import (
     annotated,
-    annotation_edit,
+    annotation_edits,
     annotation_template,
     annotation_text,
     read_annotation,
@@ -162,8 +162,7 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     node = context.tree.nodes[0]
     node = node._replace(tag=Tag(root.children[0], document.location(root.children[0].head_span)))
     text = annotation_text(interface_from_json({"publishers": {"a": "x/Y"}}))
-    edit = annotation_edit(node, text, document)
-    assert edit is not None
+    (edit,) = annotation_edits(node, text, document)
     result = edited(before, edit)
     start, end = result.index("<!--"), result.index("-->") + 3
     assert result[:start] + "BODY" + result[end:] == after
@@ -172,8 +171,8 @@ def test_the_edit_opens_the_tag_and_keeps_the_style(before: str, after: str) -> 
     assert newlines == {"\r\n"} if "\r\n" in before else "\r\n" not in newlines
     action, of_result = node_action(result), parse_xml("/main.launch", result)
     again = node._replace(tag=Tag(action, of_result.location(action.head_span)))
-    assert annotation_edit(again, text, document) is None
-    assert annotation_edit(node, "", document) is None
+    assert annotation_edits(again, text, document) == ()
+    assert annotation_edits(node, "", document) == ()
 
 
 def test_a_tag_that_is_still_being_typed_is_left_alone() -> None:
@@ -182,7 +181,7 @@ def test_a_tag_that_is_still_being_typed_is_left_alone() -> None:
     root = read_ros1(document).root
     assert root is not None
     node = context.tree.nodes[0]._replace(tag=Tag(root.children[0], document.location(root.children[0].head_span)))
-    assert annotation_edit(node, annotation_template(), document) is None
+    assert annotation_edits(node, annotation_template(), document) == ()
 
 
 def test_the_template_has_one_of_each_to_fill_in() -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
@@ -33,11 +33,12 @@ class Try:
     wrong: str | None
 
 
-def tries(findings: Iterable[Finding], text_of: TextOf, again: Again) -> list[Try]:
-    """All fixes of the findings, each tried by itself."""
-    findings = list(findings)
+def tries(
+    findings: Sequence[Finding], text_of: TextOf, again: Again, before: Sequence[Finding] | None = None
+) -> list[Try]:
+    """All fixes of the findings, each tried by itself. `before` are all findings, where that are not all."""
     found = [
-        Try(finding.rule, _format(fix), fix.title, _wrong(finding, fix, findings, text_of, again))
+        Try(finding.rule, _format(fix), fix.title, _wrong(finding, fix, before or findings, text_of, again))
         for finding in findings
         for fix in finding.fixes
     ]
@@ -57,7 +58,7 @@ def _format(fix: Fix) -> str:
     return "+".join(dict.fromkeys(kinds.get(name) or PurePosixPath(name).suffix or name for name in names))
 
 
-def _wrong(finding: Finding, fix: Fix, before: list[Finding], text_of: TextOf, again: Again) -> str | None:
+def _wrong(finding: Finding, fix: Fix, before: Sequence[Finding], text_of: TextOf, again: Again) -> str | None:
     why = refusal(fix.edits, text_of)
     if why is not None:
         return why

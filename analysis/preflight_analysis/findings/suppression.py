@@ -9,9 +9,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Document, Element, Node
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.findings.insertion import remove_tag
 
 _MARK = re.compile(r"preflight:\s*ignore\b(?:\[(?P<ids>[^\]]*)\])?")
 
@@ -69,7 +69,7 @@ def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tupl
             for at, each in enumerate(ids):
                 base = mark.start("ids")
                 span = content.slice_span(base + each.start(), base + each.end())
-                removal = remove_tag(document, comment.span)
+                removal = layout.removal(document, comment.span)
                 if len(ids) > 1:
                     # With the comma that parts it from the next one, or from the one before.
                     ends = (each.start(), ids[at + 1].start()) if at + 1 < len(ids) else (ids[at - 1].end(), each.end())

@@ -19,14 +19,13 @@ from functools import lru_cache
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, Element, SpannedText
-from preflight_analysis.documents.hash_comments import MARK, has_hash_comments
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.xml_text import quoted_attribute
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.insertion import insert_child, insert_comment_above
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.launch.model import Action
@@ -247,25 +246,16 @@ def _comment(blocks: Mapping[str, Sequence[str]], indent: str) -> str:
     return f"\n{indent}".join(["<!--", *(f"  {line}" for line in lines), "-->"])
 
 
-def annotation_edit(node: LaunchNode, text: str, document: Document) -> Edit | None:
-    """The edit that writes an annotation into the tag of `node`, opening `<node .../>` if need be.
+def annotation_edits(node: LaunchNode, text: str, document: Document) -> tuple[Edit, ...]:
+    """The edits that write an annotation into the tag of `node`, opening `<node .../>` if need be, or above it.
 
     `document` is the file of the node's tag. None if there is nothing to write, an annotation stands there already, or
     the tag is still being typed.
     """
     if not text or read_annotation(node.action)[0] is not None:
-        return None
-    if has_hash_comments(document.path, document.text):
-        return insert_comment_above(node.action, document, _for_hash(text))
-    if not document.text[: node.action.head_span.end].endswith(">"):
-        return None
-    return insert_child(node.action, document, text)
-
-
-def _for_hash(text: str) -> str:
-    """The lines of a comment of XML as those of one that begins with a hash."""
-    inside = [line.strip() for line in text.splitlines()[1:-1]]
-    return "\n".join([f"# {MARK} {inside[0]}", *(f"# {line}" for line in inside[1:])]) if inside else ""
+        return ()
+    inside = [line.removeprefix("  ") for line in text.splitlines()[1:-1]]
+    return document.once(writer_of).annotate(node.action, inside)
 
 
 def _from_action(action: Action) -> _Tag:

@@ -6,12 +6,12 @@ cares about. So only another type is a contradiction.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
+from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -25,8 +25,6 @@ from preflight_analysis.graph.annotations import (
     written,
 )
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
-
-_BLANKS = re.compile(r"[ \t]*")
 
 _Key = tuple[str, str]
 """Role, or `param`, and full name before remapping."""
@@ -143,19 +141,24 @@ def bring_up_to_date(outdated: Outdated, document: Document) -> tuple[Edit, ...]
     return tuple(edits)
 
 
+def remove_item(item: AnnotatedItem, document: Document) -> Edit:
+    """The edit that removes an item from its annotation."""
+    return layout.removal(document, item.span)
+
+
 def _extended(group: AnnotatedGroup, items: Sequence[str], document: Document) -> Edit:
     """More items behind those of a group."""
-    newline = _newline(document)
+    newline = layout.newline(document.text)
     if group.elements:
         at = group.elements[-1].end
-        indent = _indent(group.elements[-1].start, document)
+        indent = layout.blanks_before(document, group.elements[-1].start)
         before = newline + indent if indent is not None else ""
         return Edit(document.location(Span(at, at)), "".join(before + item for item in items))
-    indent = _indent(group.head.start, document)
+    indent = layout.blanks_before(document, group.head.start)
     if indent is None:
         body = "".join(items)
     else:
-        deeper = indent + _unit(document, indent)
+        deeper = layout.deeper(indent)
         body = "".join(newline + deeper + item for item in items) + newline + indent
     start, end = group.head
     if document.text[start:end].endswith("/>"):
@@ -170,25 +173,10 @@ def _extended(group: AnnotatedGroup, items: Sequence[str], document: Document) -
 def _new_groups(last: AnnotatedGroup, lines: Sequence[str], document: Document) -> Edit:
     """More groups behind the last one; a tab in `lines` stands for one step of indentation."""
     at = last.span.end
-    indent = _indent(last.head.start, document)
+    indent = layout.blanks_before(document, last.head.start)
     if indent is None:
         text = "".join(line.strip("\t") for line in lines)
     else:
-        unit = _unit(document, indent)
-        text = "".join(_newline(document) + indent + line.replace("\t", unit) for line in lines)
+        unit = layout.deeper(indent).removeprefix(indent)
+        text = "".join(layout.newline(document.text) + indent + line.replace("\t", unit) for line in lines)
     return Edit(document.location(Span(at, at)), text)
-
-
-def _indent(offset: int, document: Document) -> str | None:
-    """The blanks before `offset`, if nothing else stands before it on its line."""
-    line, _ = document.lines.position(offset)
-    before = document.text[document.lines.line_start(line) : offset]
-    return before if not before.strip(" \t") else None
-
-
-def _unit(document: Document, indent: str) -> str:
-    return "\t" if "\t" in indent else "  "
-
-
-def _newline(document: Document) -> str:
-    return "\r\n" if "\r\n" in document.text else "\n"

@@ -9,7 +9,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.graph.annotations import annotation_edit, annotation_template, annotation_text
+from preflight_analysis.graph.annotations import annotation_edits, annotation_template, annotation_text
 from preflight_analysis.graph.outdated import bring_up_to_date, compare
 from preflight_analysis.queries.places import action_at, nodes_of
 from preflight_analysis.workspace.workspace import Analysis
@@ -100,15 +100,15 @@ def annotating(analysis: Analysis, file: str, offset: int) -> Iterator[Rewrite]:
     if interfaces is not None:
         for index, each in nodes:
             known = interfaces[index]
-            edit = annotation_edit(each, annotation_text(known), document) if known.source in _FROM else None
-            if edit is not None:
-                yield Rewrite(f"Annotate '{each.name}' with {_FROM[known.source]}", (edit,))
+            edits = annotation_edits(each, annotation_text(known), document) if known.source in _FROM else ()
+            if edits:
+                yield Rewrite(f"Annotate '{each.name}' with {_FROM[known.source]}", edits)
                 break
         outdated = compare([(each, interfaces[index]) for index, each in nodes])
         edits = bring_up_to_date(outdated, document) if outdated is not None else ()
         if edits:
             yield Rewrite(f"Update the annotation of '{node.name}' from its run", edits)
     if interfaces is None or not any(interfaces[index].complete for index, _ in nodes):
-        edit = annotation_edit(node, annotation_template(), document)
-        if edit is not None:
-            yield Rewrite(f"Annotate '{node.name}' with an empty template", (edit,))
+        edits = annotation_edits(node, annotation_template(), document)
+        if edits:
+            yield Rewrite(f"Annotate '{node.name}' with an empty template", edits)

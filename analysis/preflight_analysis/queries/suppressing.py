@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
 
 import yaml
 
-from preflight_analysis.documents.document import Document, Element
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.hash_comments import has_hash_comments, preflight_comments
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.reading import digest
-from preflight_analysis.documents.span import LineIndex, Span
+from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.yaml import parse_yaml
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits import layout
+from preflight_analysis.edits.edit import Edit, applied
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.suppression import read_suppressions
-
-_BLANKS = re.compile(r"[ \t]*")
 
 
 def suppress_on_line(document: Document, finding: Finding) -> Edit | None:
@@ -27,44 +26,20 @@ def suppress_on_line(document: Document, finding: Finding) -> Edit | None:
     there, or one is written on the line above, or at the end of its line. None where no comment can stand there, as in
     the middle of a text."""
     offset = finding.location.span.start
-    for span, inserted in _candidates(document, offset, finding.rule):
-        text = document.text[: span.start] + inserted + document.text[span.end :]
-        moved = offset + len(inserted) - (span.end - span.start) if span.start <= offset else offset
+    for edit in _candidates(document, offset, finding.rule):
+        text = applied(document.text, [edit])
+        moved = offset + len(edit.text) if edit.location.span.start <= offset else offset
         if _means_the_same(document, text) and _covers(document.path, text, moved, finding.rule):
-            return Edit(document.location(span), inserted)
+            return edit
     return None
 
 
-def _candidates(document: Document, offset: int, rule: str) -> Iterator[tuple[Span, str]]:
-    text, lines = document.text, document.lines
-    line, _ = lines.position(offset)
-    for suppression in read_suppressions(_parsed(document.path, text))[0]:
+def _candidates(document: Document, offset: int, rule: str) -> Iterator[Edit]:
+    line, _ = document.lines.position(offset)
+    for suppression in read_suppressions(_parsed(document.path, document.text))[0]:
         if suppression.first_line <= line <= suppression.last_line:
-            end = suppression.location.span.end
-            yield Span(end, end), f", {rule}"
-    newline = "\r\n" if "\r\n" in text else "\n"
-    mark = f"preflight: ignore[{rule}]"
-    comment = f"# {mark}" if has_hash_comments(document.path, document.text) else f"<!-- {mark} -->"
-    for above in dict.fromkeys((line, lines.position(_start_of_tag(document, offset))[0])):
-        start = lines.line_start(above)
-        blanks = _BLANKS.match(text, start)
-        yield Span(start, start), f"{blanks.group() if blanks is not None else ''}{comment}{newline}"
-    start, end = lines.line_span(line)
-    end = start + len(text[start:end].rstrip())
-    yield Span(end, end), f" {comment}"
-
-
-def _start_of_tag(document: Document, offset: int) -> int:
-    """Where the start tag begins that an offset is in; the offset itself where it is in none."""
-    inside: Document | Element = document
-    while True:
-        children = (each for each in inside.children if isinstance(each, Element) and each.span.contains(offset))
-        child = next(children, None)
-        if child is None:
-            return offset
-        if child.open_span.contains(offset):
-            return child.open_span.start
-        inside = child
+            yield layout.insertion(document, suppression.location.span.end, f", {rule}")
+    yield from document.once(writer_of).suppress(offset, f"preflight: ignore[{rule}]")
 
 
 def _parsed(path: str, text: str) -> Document:

@@ -42,7 +42,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if problem.kind.not_followed is not None:
             yield _unsure(rule, context, problem, near, problem.kind.not_followed)
             continue
-        fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, place.file, name))
+        fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, problem.origin, name))
         if near is None and (part_of_another or is_configured_elsewhere(context, name)):
             message += "; the including launch file has to set it"
             yield problem_finding(rule, problem, message, severity="info", confidence="possible", fixes=fixes)

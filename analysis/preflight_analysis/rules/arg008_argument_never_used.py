@@ -5,19 +5,19 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import ArgumentNeeded
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.rules.arguments import declarations, pass_on
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG
-from preflight_analysis.rules.problems import problems_of, shown
+from preflight_analysis.rules.problems import fix, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.written_elsewhere import in_package
 
@@ -79,12 +79,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     severity="info" if _is_left_out(context, path, name) else "warning",
                 )
                 continue
-            edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags)
-            remove = Fix(f"Remove the declaration of '{name}'", edits)
+            remove = _removal(context, path, name, tags)
             below = _declared_below(context, path, name)
             if below is None:
                 message = f"unused argument '{name}': no tag of this file uses it"
-                yield rule.finding(message, location, fixes=(remove,))
+                yield rule.finding(message, location, fixes=remove)
             else:
                 included, its_declaration = below
                 yield rule.finding(
@@ -96,7 +95,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                         Related("included here", included.file_location),
                         Related("declared here", its_declaration),
                     ),
-                    fixes=(*pass_on(context, included.origin[-1], name), remove),
+                    fixes=(*pass_on(context, included.origin[-1], name), *remove),
                 )
 
 
@@ -222,13 +221,18 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         value = tags[0].value("name")
         if name in used or quoted != 1 or value is None or not value.is_literal:
             continue
-        xml = not python and launch_file.document.text.lstrip().startswith("<")
-        edits = tuple(remove_tag(launch_file.document, tag.span) for tag in tags) if xml else ()
         yield rule.finding(
             f"unused argument '{name}': nothing in this launch uses it",
             context.location(path, value.span),
-            fixes=(Fix(f"Remove the declaration of '{name}'", edits),) if edits else (),
+            fixes=_removal(context, path, name, tags),
         )
+
+
+def _removal(context: Context, path: str, name: str, tags: tuple[Action, ...]) -> tuple[Fix, ...]:
+    """A fix that removes all declarations of an argument, if each can be."""
+    writer = context.writer(path)
+    edits = [writer.remove(tag) for tag in tags] if writer is not None else []
+    return fix(f"Remove the declaration of '{name}'", tuple(chain(*edits)) if all(edits) else ())
 
 
 def _passed_in_vain_ros2(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.span import Location, Origin
-from preflight_analysis.documents.xml_text import quoted_attribute
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Fix
-from preflight_analysis.findings.insertion import insert_child, remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context
 
 _FAR = 40
@@ -55,34 +55,41 @@ def _include_at(context: Context, place: Location) -> Action | None:
 
 
 def remove_at(context: Context, location: Location, title: str) -> tuple[Fix, ...]:
-    """A fix that removes the tag at `location`."""
+    """A fix that removes the action at `location`."""
     launch_file = context.launch_files.get(location.file)
     action = action_at(launch_file, location.span.start) if launch_file is not None else None
     if launch_file is None or action is None:
         return ()
-    return (Fix(title, (remove_tag(launch_file.document, action.span),)),)
+    return fix(title, launch_file.document.once(writer_of).remove(action))
 
 
-def declare(context: Context, file: str, name: str) -> tuple[Fix, ...]:
-    """A fix that declares an argument at the beginning of a launch file."""
-    launch_file = context.launch_files.get(file)
-    if launch_file is None or launch_file.root is None or launch_file.document.problems:
+def declare(context: Context, origin: Origin, name: str) -> tuple[Fix, ...]:
+    """A fix that declares an argument at the beginning of the launch file at the end of `origin`. None where an include
+    leads there that does not pass it: it would have to."""
+    launch_file = context.launch_files.get(origin[-1].file)
+    if launch_file is None or launch_file.root is None or (len(origin) > 1 and not _is_given(context, origin, name)):
         return ()
-    edit = insert_child(launch_file.root, launch_file.document, f"<arg name={quoted_attribute(name)}/>")
-    return (Fix(f"Declare argument '{name}'", (edit,)),)
+    edits = launch_file.document.once(writer_of).declare_argument(launch_file.root, name)
+    return fix(f"Declare argument '{name}'", edits)
+
+
+def _is_given(context: Context, origin: Origin, name: str) -> bool:
+    """Whether the file that the includes of `origin` lead to is given an argument."""
+    include = _include_at(context, origin[-2])
+    given = (child.value("name") for child in include.children if child.kind == "arg") if include is not None else ()
+    return passes_all(context, origin[:-1]) or any(value is not None and value.text == name for value in given)
 
 
 def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:
-    """A fix that passes an argument in the `<include>` whose start tag is at `include`: the includer's own argument of
-    that name if it has one, else an empty value to be filled in."""
+    """A fix that passes the includer's own argument of that name in the include at `include`, if it has one."""
     launch_file, action = context.launch_files.get(include.file), _include_at(context, include)
-    if launch_file is None or action is None or launch_file.document.problems:
+    if launch_file is None or action is None:
         return ()
-    known = name in declarations(launch_file)
-    value = f"$(arg {name})" if known else ""
-    child = f'<arg name={quoted_attribute(name)} value="{value}"/>'
-    edit = insert_child(action, launch_file.document, child)
-    return (Fix(f"Pass argument '{name}'" + (" on" if known else ""), (edit,), known),)
+    if name not in declarations(launch_file):
+        return ()  # its value is for the user to know
+    command = "var" if context.tree.ros.shared_configurations else "arg"
+    edits = launch_file.document.once(writer_of).pass_argument(action, name, f"$({command} {name})")
+    return fix(f"Pass argument '{name}' on", edits, preferred=True)
 
 
 def empty_arguments(context: Context, place: Location) -> list[str]:

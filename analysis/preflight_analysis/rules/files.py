@@ -10,7 +10,6 @@ from pathlib import Path
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
@@ -25,7 +24,7 @@ from preflight_analysis.rules.elsewhere import (
 )
 from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, shown
+from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, replacement, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
@@ -263,8 +262,8 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
         return ()
     start = location.span.start + written.index(folders)
     text = "/" if below == Path() else f"/{below}/"
-    edit = Edit(context.location(location.file, Span(start, start + len(folders))), text)
-    return (Fix(f"Replace '{folders}' with '{text}'", (edit,), True),)
+    place = context.location(location.file, Span(start, start + len(folders)))
+    return replacement(context, place, text, f"Replace '{folders}' with '{text}'")
 
 
 def package_folder(path: str, environment: Environment) -> Path | None:

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
-from dataclasses import replace
 
-from preflight_analysis.documents.span import Span
-from preflight_analysis.edits.edit import Edit
-from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
 from preflight_analysis.launch.problems import UnknownElement
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import fix, problem_finding, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -33,10 +28,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         elif near is None:
             message += "; no package here extends launch with it"
         message += did_you_mean(near)
-        fixes: list[Fix] = []
+        fixes: tuple[Fix, ...] = ()
         if near is not None:
-            renamed = rename(context, problem.location, name, near)
-            fixes = [_both_tags(context, tags, problem, near, fix) for fix in renamed]
+            tag, writer = tags.named_at(problem.location), context.writer(problem.location.file)
+            edits = writer.rename_element(tag.action, near) if tag is not None and writer is not None else ()
+            fixes = fix(f"Replace '{name}' with '{near}'", edits, preferred=True)
         launcher = _OF_OTHERS.get(name)
         if launcher is not None:
             message += f"; {launcher} reads it"
@@ -47,19 +43,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if problem.fatal and near is None and not has_ros(context):
             severity, confidence = "hint", "possible"
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
-
-
-def _both_tags(context: Context, tags: Tags, problem: Problem[UnknownElement], name: str, fix: Fix) -> Fix:
-    """The fix of the start tag for the end tag too, if there is one."""
-    document, tag = context.documents.get(problem.location.file), tags.named_at(problem.location)
-    if document is None or tag is None:
-        return fix
-    old, end = problem.kind.tag, tag.action.span.end
-    found = re.search(rf"</({re.escape(old)})[ \t\r\n]*>\Z", document.text[tag.action.head_span.end : end])
-    if found is None:
-        return fix
-    start = tag.action.head_span.end + found.start(1)
-    return replace(fix, edits=(*fix.edits, Edit(document.location(Span(start, start + len(old))), name)))
 
 
 RULE = Rule(

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.hash_comments import has_hash_comments
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.problems import MissingAttribute
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.misspelt_attributes import misspelt
 from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tag, Tags
+from preflight_analysis.rules.syntax import Tags
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -27,7 +25,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if mistaken is not None:
                 message += f"; did you mean it by '{mistaken.name}'?"
                 fixes = rename(context, mistaken.location, mistaken.name, mistaken.meant)
-            fixes = fixes or _insertion(context, problem.location.file, tag, needed[0])
         yield problem_finding(rule, problem, message, fixes=fixes)
 
 
@@ -36,13 +33,6 @@ def _message(missing: MissingAttribute) -> str:
     if len(needed) == 1:
         return f"required attribute {needed[0]} of <{missing.tag}> is missing"
     return f"required attribute of <{missing.tag}> is missing: one of {', '.join(needed)}"
-
-
-def _insertion(context: Context, file: str, tag: Tag, name: str) -> tuple[Fix, ...]:
-    document = context.documents.get(file)
-    if document is None or has_hash_comments(document.path, document.text):
-        return ()
-    return (Fix(f"Add attribute '{name}'", (insert_attribute(tag.action, document, name),), True),)
 
 
 RULE = Rule(

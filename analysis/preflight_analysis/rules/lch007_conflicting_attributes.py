@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.findings.insertion import remove_attribute
 from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.rules.further_reading import ROSLAUNCH, ROSLAUNCH_PARAM
-from preflight_analysis.rules.problems import problem_finding, problems_of, quoted
+from preflight_analysis.rules.problems import fix, problem_finding, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -23,13 +23,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _fixes(context: Context, tags: Tags, problem: Problem[ConflictingAttributes]) -> Iterator[Fix]:
     """One for each of the attributes, which removes the others."""
-    tag, document = tags.named_at(problem.location), context.documents.get(problem.location.file)
-    if tag is None or document is None:
+    tag, writer = tags.named_at(problem.location), context.writer(problem.location.file)
+    if tag is None or writer is None:
         return
     attributes = {name: tag.action.attribute(name) for name in problem.kind.names}
     for name in attributes:
         others = [attribute for other, attribute in attributes.items() if other != name and attribute is not None]
-        yield Fix(f"Keep only '{name}'", tuple(remove_attribute(attribute, document) for attribute in others))
+        edits = [writer.remove_attribute(attribute) for attribute in others]
+        yield from fix(f"Keep only '{name}'", tuple(chain(*edits)) if all(edits) else ())
 
 
 RULE = Rule(

@@ -5,16 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import InvalidName, Problem
 from preflight_analysis.findings.finding import Finding, Fix, Severity
-from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.problems import as_written, problem_finding, problems_of, quoted
+from preflight_analysis.rules.problems import as_written, fix, problem_finding, problems_of, quoted, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -40,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"blanks around the argument name '{name}': launch takes them as a part of it, so '{name}' is not set",
                 place,
                 severity="warning",
-                fixes=(Fix(f"Replace '{value.text}' with '{name}'", (Edit(place, name),), True),),
+                fixes=replacement(context, place, name, f"Replace '{value.text}' with '{name}'"),
             )
 
 
@@ -58,9 +56,8 @@ def _named_with_blanks(action: Action) -> tuple[Value, ...]:
 def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Iterator[Fix]:
     """The name without what is not allowed in it, if it is written as it is; a namespace in it becomes `ns`."""
     location = problem.location
-    document = context.documents.get(location.file)
-    written = document.text[location.span.start : location.span.end] if document is not None else ""
-    if document is None or names.canonicalize(written) != problem.kind.name:
+    writer, written = context.writer(location.file), context.text(location)
+    if writer is None or names.canonicalize(written) != problem.kind.name:
         return
     legal = _legal(written)
     if problem.kind.what == "node" and "/" in legal:
@@ -68,10 +65,10 @@ def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Itera
         tag = tags.around(location)
         if tag is None or tag.action.attribute("ns") is not None or not ns or not names.is_legal(name):
             return
-        edits = (Edit(location, name), insert_attribute(tag.action, document, "ns", ns))
-        yield Fix(f'Use ns="{ns}" and name="{name}"', edits, True)
+        edits = (*writer.replace(location.span, name), *writer.set_attribute(tag.action, "ns", ns))
+        yield from fix(f'Use ns="{ns}" and name="{name}"', edits, preferred=True)
     elif legal and legal != written and names.is_legal(legal):
-        yield Fix(f"Replace '{written}' with '{legal}'", (Edit(location, legal),), True)
+        yield from replacement(context, location, legal, f"Replace '{written}' with '{legal}'")
 
 
 def _legal(written: str) -> str:

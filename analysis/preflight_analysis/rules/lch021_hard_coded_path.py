@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.edits.edit import Edit
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.rules.files import in_named_package
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, FILE_SYSTEM, LAUNCH_SUBSTITUTIONS
+from preflight_analysis.rules.problems import replacement
 from preflight_analysis.rules.rule import Context, Rule
 
 _HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             location = context.location(path, Span(start, start + len(text)))
             in_package = _in_package(text, context)
-            fixes = (Fix(f"Replace with '{in_package}'", (Edit(location, in_package),), True),) if in_package else ()
+            fixes = replacement(context, location, in_package, f"Replace with '{in_package}'") if in_package else ()
             instead = f"; use '{in_package}'" if in_package else ""
             yield rule.finding(
                 f"hard-coded path '{text}': {what}{instead}",

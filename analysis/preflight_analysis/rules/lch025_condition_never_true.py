@@ -7,14 +7,15 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.span import Location
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import expression, values
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.substitutions import is_eval
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, ROSLAUNCH_ARG
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import CONDITIONS, has_condition
 
@@ -178,8 +179,8 @@ def _compare_with(launch_file: LaunchFile, value: Value, written: str, plain: st
     if not written or text.count(written) != 1:
         return ()
     start = value.span.start + text.index(written)
-    place = launch_file.document.location(type(value.span)(start, start + len(written)))
-    return (Fix(f"Compare with {plain}", (Edit(place, plain),), True),)
+    edits = launch_file.document.once(writer_of).replace(Span(start, start + len(written)), plain)
+    return fix(f"Compare with {plain}", edits, preferred=True)
 
 
 RULE = Rule(

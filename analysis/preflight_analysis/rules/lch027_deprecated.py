@@ -6,16 +6,15 @@ from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Severity
-from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, rename, shown
+from preflight_analysis.rules.problems import fix, include_chain, rename, replacement, shown
 from preflight_analysis.rules.retired import OLDER_THAN_NOETIC, RETIRED_IN, Retired, retired
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -32,14 +31,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         document = launch_file.document
         old = _old_language(launch_file)
         for tag in old.masters:
-            fix = Fix("Remove <master>", (remove_tag(document, tag.span),), True)
+            fixes = fix("Remove <master>", document.once(writer_of).remove(tag), preferred=True)
             message = "<master> is removed since ROS Fuerte; roslaunch ignores it"
-            yield rule.finding(message, context.location(path, tag.head_span), severity="info", fixes=(fix,))
+            yield rule.finding(message, context.location(path, tag.head_span), severity="info", fixes=fixes)
         if context.environment.distro not in _OLDER_THAN_MELODIC:
             for span in old.in_order:
                 place = context.location(path, span)
                 message = "'--inorder' has no effect: xacro processes in order since ROS Melodic"
-                yield rule.finding(message, place, fixes=(Fix("Remove --inorder", (Edit(place, ""),), True),))
+                yield rule.finding(message, place, fixes=replacement(context, place, "", "Remove --inorder"))
 
 
 def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -77,16 +76,16 @@ def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]
         return rename(context, attribute_location(context, node, "type"), node.executable, each.instead_executable)
     if each.instead_package:
         return rename(context, attribute_location(context, node, "pkg"), node.package, each.instead_package)
-    document = context.documents.get(node.location.file)
-    if each.package != "tf" or document is None:
+    document, writer = context.documents.get(node.location.file), context.writer(node.location.file)
+    if each.package != "tf" or document is None or writer is None:
         return ()
     package, args = attribute_location(context, node, "pkg"), attribute_location(context, node, "args")
     # x y z and yaw pitch roll or a quaternion, two frames, the period.
     period = _PERIOD.search(document.text, args.span.start, args.span.end)
     if period is None or len(node.args.split()) not in (9, 10) or context.text(package) != "tf":
         return ()
-    edits = (Edit(package, "tf2_ros"), Edit(context.location(args.file, Span(period.start(), args.span.end)), ""))
-    return (Fix("Use static_transform_publisher of tf2_ros", edits),)
+    shorter = writer.replace(Span(period.start(), args.span.end), "")
+    return fix("Use static_transform_publisher of tf2_ros", (*writer.replace(package.span, "tf2_ros"), *shorter))
 
 
 def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XML_STANDARD
-from preflight_analysis.rules.problems import problem_finding, problems_of, shortened
+from preflight_analysis.rules.problems import fix, problem_finding, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _TAG = re.compile(rf"(?:{'|'.join(TAGS)})(?=\s+[\w-]+\s*=)")
@@ -34,12 +34,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _fixes(context: Context, place: Location, text: str, lost: bool) -> Iterator[Fix]:
+    writer = context.writer(place.file)
+    if not isinstance(writer, XmlWriter):
+        return
     if lost:
-        start = place.span.start
-        yield Fix("Insert '<'", (Edit(context.location(place.file, Span(start, start)), "<"),), True)
-    elif _REMARK.match(text) and "--" not in text:
-        # A comment in XML cannot have two dashes in it.
-        yield Fix("Convert the text to a comment", (Edit(place, f"<!-- {text.lstrip('#/ ')} -->"),), True)
+        yield from fix("Insert '<'", writer.insert_open_bracket(place.span.start), preferred=True)
+    elif _REMARK.match(text):
+        edits = writer.comment_out(place.span, text.lstrip("#/ "))
+        yield from fix("Convert the text to a comment", edits, preferred=True)
 
 
 RULE = Rule(

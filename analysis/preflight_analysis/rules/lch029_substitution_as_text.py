@@ -10,12 +10,11 @@ from itertools import chain
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.findings.insertion import insert_attribute
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.problems import SubstitutionAsText
@@ -23,7 +22,7 @@ from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of
+from preflight_analysis.rules.problems import fix, include_chain, problem_finding, problems_of, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -47,7 +46,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         text, meant = problem.kind.text, problem.kind.meant
         place = problem.location
         exact = context.text(place) == text
-        fixes = (Fix(f"Replace with '{meant}'", (Edit(place, meant),), True),) if exact else ()
+        fixes = replacement(context, place, meant, f"Replace with '{meant}'") if exact else ()
         message = f"'{text}' is not a substitution; roslaunch treats it as literal text; did you mean '{meant}'?"
         yield problem_finding(rule, problem, message, fixes=fixes)
     of_tree = context.kept.each(_left_in, context.tree.all_params)
@@ -95,9 +94,9 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     unknown = (
         not ament and (arg := _ARG.fullmatch(text)) and arg[1] not in declarations(context.launch_files[where.file])
     )
-    if tag is not None and not python and not unknown and document is not None:
-        edit = insert_attribute(tag.action, document, attribute, "true")
-        fixes = (Fix(f'Add {attribute}="true" to the tag', (edit,), True),)
+    if tag is not None and not unknown and document is not None:
+        edits = document.once(writer_of).set_attribute(tag.action, attribute, "true")
+        fixes = fix(f'Add {attribute}="true" to the tag', edits, preferred=True)
     needed = f"ParameterFile(..., {attribute}=True)" if python else f'<{tag_name} {attribute}="true">'
     place = _place(context, param, text)
     idle = _is_of_idle_controller(context, param)

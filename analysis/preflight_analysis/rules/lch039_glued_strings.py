@@ -9,13 +9,13 @@ import tokenize
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.edits.edit import Edit
-from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.edits.python import PythonWriter
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import include_chain, quoted, shortened
+from preflight_analysis.rules.problems import fix, include_chain, quoted, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _BOOLEAN = re.compile(r"true|false", re.IGNORECASE)
@@ -29,12 +29,12 @@ _BREAKS = "/_-.:,=@[](){}"
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for first, span, parts in _glued(launch_file) if launch_file.is_python else ():
-            comma = context.location(path, Span(first, first))
+            edits = PythonWriter(launch_file.document).insert_comma(first)
             yield rule.finding(
                 f"missing comma: {quoted(parts)} are one string '{shortened(''.join(parts))}'",
                 context.location(path, span),
                 confidence="likely",
-                fixes=(Fix("Insert ','", (Edit(comma, ","),), True),),
+                fixes=fix("Insert ','", edits, preferred=True),
             )
     if not context.tree.ros.own_parameters:
         yield from _in_parameters(rule, context)

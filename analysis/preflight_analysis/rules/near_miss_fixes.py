@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.finding import Fix
-from preflight_analysis.findings.insertion import insert_child
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.near_miss import NearMiss
 from preflight_analysis.rules.places import connection_location
@@ -72,18 +72,21 @@ def _correct_remap(document: Document | None, connection: Connection, remap: Rem
     written = document.text[span.start : span.end]
     if "$(" in written or "&" in written or not written:
         return None
-    text = _in_style_of(written, connection.name, new)
-    return Fix(f"Replace '{written}' with '{text}'", (Edit(remap.target_location, text),), True)
+    return _replacement(document, span, written, _in_style_of(written, connection.name, new))
 
 
 def _correct_parameter(document: Document | None, connection: Connection, new: str) -> Fix | None:
     """The value of the parameter that names the end corrected."""
     end = connection.endpoint
     place = value_place(end.named_by.place, end.name, document) if end.named_by is not None else None
-    if place is None:
+    if place is None or document is None:
         return None
-    text = _in_style_of(end.name, connection.name, new)
-    return Fix(f"Replace '{end.name}' with '{text}'", (Edit(place, text),), True)
+    return _replacement(document, place.span, end.name, _in_style_of(end.name, connection.name, new))
+
+
+def _replacement(document: Document, span: Span, old: str, new: str) -> Fix | None:
+    edits = document.once(writer_of).replace(span, new)
+    return Fix(f"Replace '{old}' with '{new}'", edits, True) if edits else None
 
 
 def _in_style_of(written: str, full: str, new: str) -> str:
@@ -105,5 +108,5 @@ def _insert_remap(document: Document | None, connection: Connection, target: str
     namespace = names.parent(connection.node.name)
     relative = not source.startswith("/") and target.startswith(namespace)
     written = target[len(namespace) :] if relative else target
-    edit = insert_child(connection.node.action, document, f'<remap from="{source}" to="{written}"/>')
-    return Fix(f"Remap '{source}' to '{written}' in {connection.node.name}", (edit,), preferred)
+    edits = document.once(writer_of).add_remap(connection.node.action, source, written)
+    return Fix(f"Remap '{source}' to '{written}' in {connection.node.name}", edits, preferred) if edits else None

@@ -7,12 +7,11 @@ from dataclasses import replace
 from itertools import compress
 from operator import is_not
 
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.places import related_node
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import include_chain, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse
 
@@ -87,4 +86,4 @@ def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
     else:
         prefix = param.name.removesuffix(stem)
         new = name[len(prefix) :] if param.name.endswith("/" + stem) and name.startswith(prefix) else None
-    return (Fix(f"Rename '{written}' to '{mark}{new}'", (Edit(location, mark + new),), True),) if new else ()
+    return replacement(context, location, mark + new, f"Rename '{written}' to '{mark}{new}'") if new else ()

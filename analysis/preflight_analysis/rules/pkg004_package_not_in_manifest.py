@@ -10,7 +10,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
@@ -19,10 +19,9 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context, Rule
 
-_DEPENDENCY = re.compile(r"^([ \t]*)<(?:depend|exec_depend|run_depend|test_depend)\b[^<>]*>[^<]*</\w+>", re.MULTILINE)
-_END = re.compile(r"^([ \t]*)</package\s*>", re.MULTILINE)
 _FORMAT = re.compile(r"<package\b[^<>]*\bformat\s*=\s*[\"']([23])[\"']")
 _FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
@@ -113,17 +112,8 @@ def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str
     tag = "exec_depend" if _FORMAT.search(text) else "run_depend"
     if file.endswith(".test") or any(folder in _TEST_FOLDERS for folder in folders):
         tag = "test_depend"
-    line = f"<{tag}>{name}</{tag}>"
-    newline = "\r\n" if "\r\n" in text else "\n"
-    last = next(reversed([*_DEPENDENCY.finditer(text)]), None)
-    end = _END.search(text)
-    if last is not None:
-        edit = Edit(manifest.location(Span(last.end(), last.end())), f"{newline}{last[1]}{line}")
-    elif end is not None:
-        edit = Edit(manifest.location(Span(end.start(), end.start())), f"{end[1]}  {line}{newline}")
-    else:
-        return ()
-    return (Fix(f"Add {line} to package.xml of '{owner.name}'", (edit,), True),)
+    edits = XmlWriter(manifest).add_dependency(tag, name)
+    return fix(f"Add <{tag}>{name}</{tag}> to package.xml of '{owner.name}'", edits, preferred=True)
 
 
 RULE = Rule(

@@ -1,14 +1,13 @@
 """PKG005: a file of the source that the package does not install (ROS 2)."""
 
-import ast
 import os
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.python_text import is_python
-from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.documents.span import Location
+from preflight_analysis.edits import cmake
+from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.environment.installed_paths import installed_at, installed_from, installs_more, package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
@@ -16,11 +15,11 @@ from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context, Rule
 
 _IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPackageShare")
 """A program may name the folder anywhere."""
-_END = re.compile(r"^[ \t]*ament_package\s*\(", re.MULTILINE)
 
 
 _LAUNCH = "launch"
@@ -111,38 +110,12 @@ def _fixes(context: Context, package: Package, below: str) -> tuple[Fix, ...]:
     if not isinstance(found, Document):
         return ()
     folder = os.path.dirname(below)
-    edit = _in_setup(found, package, below, folder) if python else _in_cmake(found, below, folder)
-    return (Fix(f"Install '{below}' in {os.path.basename(path)}", (edit,), True),) if edit is not None else ()
-
-
-def _in_setup(found: Document, package: Package, below: str, folder: str) -> Edit | None:
-    """One more entry of `data_files`, after the last one."""
-    try:
-        tree = ast.parse(found.text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return None
-    for node in ast.walk(tree):
-        if isinstance(node, ast.keyword) and node.arg == "data_files" and isinstance(node.value, ast.List):
-            if not node.value.elts:
-                return None
-            last = node.value.elts[-1]
-            line = found.text.splitlines()[(last.end_lineno or 1) - 1]
-            column = len(line.encode()[: last.end_col_offset or 0].decode())
-            at = found.lines.line_start((last.end_lineno or 1) - 1) + column
-            indent = " " * last.col_offset if last.lineno > node.value.lineno else ""
-            entry = f"('share/{os.path.join(package.name, folder)}', ['{below}'])"
-            text = f",\n{indent}{entry}" if indent else f", {entry}"
-            return Edit(found.location(Span(at, at)), text)
-    return None
-
-
-def _in_cmake(found: Document, below: str, folder: str) -> Edit | None:
-    end = _END.search(found.text)
-    if end is None:
-        return None
-    what = f"DIRECTORY {folder}" if folder else f"FILES {below}"
-    text = f"install({what} DESTINATION share/${{PROJECT_NAME}})\n\n"
-    return Edit(found.location(Span(end.start(), end.start())), text)
+    if python:
+        edits = PythonWriter(found).add_data_files(f"share/{os.path.join(package.name, folder)}", below)
+    else:
+        what = f"DIRECTORY {folder}" if folder else f"FILES {below}"
+        edits = cmake.install(found, what, "share/${PROJECT_NAME}")
+    return fix(f"Install '{below}' in {os.path.basename(path)}", edits, preferred=True)
 
 
 RULE = Rule(

@@ -9,14 +9,14 @@ from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_w
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import without_comments
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
-from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.installed import is_of_family, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words, nearest
+from preflight_analysis.rules.problems import replacement
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"unknown package '{name}': not in the workspace nor any distribution{did_you_mean(near)}",
                 location,
                 confidence="likely",
-                fixes=(Fix(f"Replace '{name}' with '{near}'", (Edit(location, near),), True),),
+                fixes=replacement(context, location, near, f"Replace '{name}' with '{near}'"),
             )
 
 

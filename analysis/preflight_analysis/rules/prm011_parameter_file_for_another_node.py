@@ -7,7 +7,6 @@ from itertools import chain
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import known_of_nodes
 from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
@@ -16,7 +15,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.problems import include_chain, quoted, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.written_elsewhere import around
 
@@ -200,8 +199,7 @@ def _rewrite(context: Context, path: str, section: Section, name: str | None) ->
     if name is None or len(section.spans) != 1:
         return ()
     key = name.removeprefix("/") if name.count("/") == 1 else name
-    edit = Edit(context.location(path, section.spans[0]), key)
-    return (Fix(f"Replace the key with '{key}'", (edit,), True),)
+    return replacement(context, context.location(path, section.spans[0]), key, f"Replace the key with '{key}'")
 
 
 RULE = Rule(

@@ -4,7 +4,6 @@ import re
 from collections.abc import Collection, Iterable, Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
@@ -14,7 +13,7 @@ from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESI
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parameters import OF_ALL_NODES
 from preflight_analysis.rules.places import related_node
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import include_chain, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import reports_params
 from preflight_analysis.tracing.interface import Interface, ParamUse
@@ -167,7 +166,7 @@ def _rename(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
     if location is None or not written or not param.name.endswith(written) or not name.startswith(prefix):
         return ()
     new = name[len(prefix) :]
-    return (Fix(f"Rename '{written}' to '{new}'", (Edit(location, new),), True),)
+    return replacement(context, location, new, f"Rename '{written}' to '{new}'")
 
 
 RULE = Rule(

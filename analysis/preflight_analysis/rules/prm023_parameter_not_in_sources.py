@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterator, Mapping
 
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -15,7 +14,7 @@ from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETER
 from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
 from preflight_analysis.rules.params_in_sources import Asked, meant_in_one_file, meant_in_sources
 from preflight_analysis.rules.places import related_node
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import include_chain, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unread_params import reports_params
 from preflight_analysis.rules.well_known import is_for_tools, is_of_planning
@@ -142,7 +141,7 @@ def _fixes(context: Context, param: Param, asked: Asked) -> tuple[Fix, ...]:
     location = param.name_location
     if location is None or context.text(location) != _last(param.name):
         return ()
-    return (Fix(f"Rename '{_last(param.name)}' to '{asked.name}'", (Edit(location, asked.name),), True),)
+    return replacement(context, location, asked.name, f"Rename '{_last(param.name)}' to '{asked.name}'")
 
 
 RULE = Rule(

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TypeVar, cast
 
 from preflight_analysis.catalogue.launches import catalogued_file
-from preflight_analysis.documents.span import Location, Origin, Span
+from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.writer import replaced
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
@@ -86,13 +87,23 @@ def include_chain(origin: Origin) -> tuple[Related, ...]:
 
 
 def rename(context: Context, location: Location, old: str, new: str, *, preferred: bool = True) -> tuple[Fix, ...]:
-    """A fix that writes `new` for `old` at `location`; none if the text there does not hold `old` exactly once."""
-    hits = [m.start() for m in re.finditer(rf"(?<![\w]){re.escape(old)}(?![\w])", context.text(location))]
-    if not old or len(hits) != 1:
-        return ()
-    start = location.span.start + hits[0]
-    edit = Edit(context.location(location.file, Span(start, start + len(old))), new)
-    return (Fix(f"Replace '{old}' with '{new}'", (edit,), preferred),)
+    """A fix that writes `new` for `old` in the value at `location`; none if that does not hold `old` exactly once."""
+    document = context.document(location.file)
+    edits = replaced(document, location.span, old, new) if document is not None else ()
+    return fix(f"Replace '{old}' with '{new}'", edits, preferred=preferred)
+
+
+def replacement(
+    context: Context, location: Location, new: str, title: str, *, preferred: bool = True
+) -> tuple[Fix, ...]:
+    """A fix that writes `new` for all that stands at `location`, which is a part of a value."""
+    writer = context.writer(location.file)
+    return fix(title, writer.replace(location.span, new) if writer is not None else (), preferred=preferred)
+
+
+def fix(title: str, edits: tuple[Edit, ...], *, preferred: bool = False) -> tuple[Fix, ...]:
+    """A fix with these edits, if there are any."""
+    return (Fix(title, edits, preferred),) if edits else ()
 
 
 def quoted(names: Iterable[str]) -> str:

@@ -11,6 +11,7 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.writer import Writer, writer_of
 from preflight_analysis.environment.build import Made
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Executables
@@ -118,17 +119,25 @@ class Context(Once):
 
     def location(self, path: str, span: Span) -> Location:
         """The location of a span of a document."""
-        document: Document | Unreadable | None = self.documents.get(path)
-        if document is None:
-            document = self.disk.text(path)
-        return document.location(span) if isinstance(document, Document) else Location.of_file(path)
+        document = self.document(path)
+        return document.location(span) if document is not None else Location.of_file(path)
 
     def text(self, location: Location) -> str:
         """What stands at a place; nothing where its file is not known."""
-        document: Document | Unreadable | None = self.documents.get(location.file)
+        document = self.document(location.file)
+        return document.text[location.span.start : location.span.end] if document is not None else ""
+
+    def document(self, path: str) -> Document | None:
+        """A text; None where it is not known."""
+        document: Document | Unreadable | None = self.documents.get(path)
         if document is None:
-            document = self.disk.text(location.file)
-        return document.text[location.span.start : location.span.end] if isinstance(document, Document) else ""
+            document = self.disk.text(path)
+        return document if isinstance(document, Document) else None
+
+    def writer(self, path: str) -> Writer | None:
+        """The writer of a file; None where its text is not known."""
+        document = self.document(path)
+        return document.once(writer_of) if document is not None else None
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]

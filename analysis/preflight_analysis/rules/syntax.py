@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Fix
-from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context
 
 CONDITIONS = ("if", "unless")
@@ -70,10 +70,8 @@ def _by_start(launch_file: LaunchFile) -> Mapping[int, Tag]:
 
 def removal(context: Context, tags: Tags, location: Location, title: str) -> tuple[Fix, ...]:
     """A fix that removes the tag whose start tag begins at the place."""
-    document, tag = context.documents.get(location.file), tags.at(location)
-    if document is None or tag is None:
-        return ()
-    return (Fix(title, (remove_tag(document, tag.action.span),)),)
+    writer, tag = context.writer(location.file), tags.at(location)
+    return fix(title, writer.remove(tag.action)) if writer is not None and tag is not None else ()
 
 
 def has_condition(action: Action) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.graph.model import Connection
@@ -14,7 +14,7 @@ from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps
 from preflight_analysis.rules.names_in_sources import writes_name
 from preflight_analysis.rules.places import endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import fix, include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS
 
@@ -102,9 +102,10 @@ def _given(connection: Connection) -> str:
 
 def _fix(document: Document | None, location: Location, meant: Connection) -> tuple[Fix, ...]:
     written = document.text[location.span.start : location.span.end] if document is not None else ""
-    if not written or "$(" in written or "&" in written:
+    if document is None or not written or "$(" in written or "&" in written:
         return ()
-    return (Fix(f"Replace '{written}' with '{_given(meant)}'", (Edit(location, _given(meant)),), True),)
+    edits = document.once(writer_of).replace(location.span, _given(meant))
+    return fix(f"Replace '{written}' with '{_given(meant)}'", edits, preferred=True)
 
 
 RULE = Rule(

@@ -3,15 +3,13 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.edits.edit import Edit
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.findings.insertion import remove_tag
 from preflight_analysis.graph.annotations import read_annotation
-from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare
+from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare, remove_item
 from preflight_analysis.rules.further_reading import ANNOTATIONS, RUNS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import fix, include_chain, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import DOES, Endpoint, Interface, ParamUse
 
@@ -52,9 +50,9 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
     for item in outdated.unmade:
         name, place = item.what.name, context.location(file, item.values["name"])
         meant = nearest(name, [what.name for what in outdated.missing if _does(what) == _does(item.what)])
-        mends = [Fix(f"Remove '{name}' from the annotation", (remove_tag(document, item.span),))]
+        mends = fix(f"Remove '{name}' from the annotation", (remove_item(item, document),))
         if meant is not None:
-            mends.insert(0, Fix(f"Replace '{name}' with '{meant}'", (Edit(place, meant),), preferred=True))
+            mends = (*replacement(context, place, meant, f"Replace '{name}' with '{meant}'"), *mends)
         yield rule.finding(
             f"annotation of '{name}' is not confirmed: the run of {node.name} does not show that it "
             f"{_does(item.what)} it{did_you_mean(meant)}",

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.robot.model import Malformed
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of, semantics_of
 from preflight_analysis.robot.sources import files_of
 from preflight_analysis.rules.further_reading import URDF, XACRO
-from preflight_analysis.rules.problems import include_chain, shown
+from preflight_analysis.rules.problems import fix, include_chain, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -62,9 +62,10 @@ def _raw(rule: Rule, context: Context, robot: Robot) -> Finding:
     tag = Tags(context.launch_files).around(place)
     file = tag.action.attribute("textfile") if tag is not None else None
     fixes: tuple[Fix, ...] = ()
-    if file is not None and "'" not in file.value.text:
-        edit = Edit(context.location(place.file, file.span), f"command=\"xacro '{file.value.text}'\"")
-        fixes = (Fix("Process it with xacro", (edit,), True),)
+    writer = context.writer(place.file)
+    if file is not None and "'" not in file.value.text and isinstance(writer, XmlWriter):
+        edits = writer.replace_attribute(file, "command", f"xacro '{file.value.text}'")
+        fixes = fix("Process it with xacro", edits, preferred=True)
     return rule.finding(
         f"parameter '{robot.param.name}' is raw xacro: no command processes it",
         place,

@@ -8,12 +8,13 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.edit import Edit, applied
+from preflight_analysis.edits.gate import passes
 from preflight_analysis.environment.writing import write_file
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import place
-from preflight_analysis.graph.annotations import annotation_edit, annotation_text
+from preflight_analysis.graph.annotations import annotation_edits, annotation_text
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.live.capture import Captured, capture, settings_text
 from preflight_analysis.live.model import CannotObserveError, Observation
@@ -128,27 +129,27 @@ def _lines(analysis: Analysis, captured: Iterable[Captured]) -> Iterable[str]:
 
 def _write(analysis: Analysis, captured: Iterable[Captured]) -> None:
     """Write the annotations; what stands on one tag several times is that of the first node."""
-    edits: dict[str, dict[tuple[int, int], Edit]] = {}
+    found: dict[str, dict[tuple[Edit, ...], None]] = {}
     for each in captured:
         if each.interface is None:
             continue
         document = analysis.documents.get(each.node.location.file)
-        edit = annotation_edit(each.node, annotation_text(each.interface), document) if document is not None else None
-        if edit is None:
+        text = annotation_text(each.interface)
+        edits = annotation_edits(each.node, text, document) if document is not None else ()
+        places = {edit.location for known in found.get(each.node.location.file, {}) for edit in known}
+        if not edits:
             say(printable(f"{each.node.name} is annotated already, or has nothing to write"))
-            continue
-        span = edit.location.span
-        edits.setdefault(edit.location.file, {}).setdefault((span.start, span.end), edit)
-    for file, found in edits.items():
-        _apply(file, list(found.values()), analysis.documents[file])
-        say(f"{file}: {len(found)} annotation{'' if len(found) == 1 else 's'} written")
+        elif places.isdisjoint(edit.location for edit in edits):
+            found.setdefault(each.node.location.file, {})[edits] = None
+    for file, groups in found.items():
+        _apply(file, [edit for edits in groups for edit in edits], analysis.documents[file])
+        say(f"{file}: {len(groups)} annotation{'' if len(groups) == 1 else 's'} written")
 
 
 def _apply(file: str, edits: Sequence[Edit], document: Document) -> None:
-    text = document.text
-    for edit in sorted(edits, key=lambda each: each.location.span, reverse=True):
-        span = edit.location.span
-        text = text[: span.start] + edit.text + text[span.end :]
+    if not passes("capture --write", edits, {file: document.text}.get):
+        raise CannotDoError(f"{file} would not be well-formed with the annotations; print them instead")
+    text = applied(document.text, edits)
     try:
         if Path(file).read_bytes() != document.text.encode():
             raise CannotDoError(f"{file} is not UTF-8, or changed in the meantime; print the annotations instead")

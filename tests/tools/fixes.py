@@ -1,0 +1,151 @@
+"""Every fix of every finding in real projects, tried: `make fixes`.
+
+  python tests/tools/fixes.py FOLDER... [--run] [--sample N] [--only REGEX]
+
+A FOLDER is a workspace (its launch files are those that nothing includes), or one with a `jobs*.jsonl` of launch files
+with arguments and package paths, or one with cases (`<id>/buggy`). Each is copied, and after each fix looked at again:
+every file parses, the finding is gone, and no error is new. Nothing is run but, with --run, Python launch files and
+commands. Prints what failed, and a table by rule and format.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import re
+import shutil
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
+
+from preflight_analysis.documents.document import Document
+from preflight_analysis.environment.detect import detect
+from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.findings.finding import Finding
+from preflight_server.cli.project import OpenWorkspace, open_workspace, run_nodes_together
+from support.fix_property import Try, tries
+
+_LAUNCH = re.compile(r".*(\.launch|\.launch\.(py|xml|yaml|yml)|_launch\.(py|xml|yaml))\Z")
+
+
+@dataclass(frozen=True)
+class Job:
+    """A launch file to look at, with the folders in which its packages are."""
+
+    file: Path
+    args: tuple[tuple[str, str], ...] = ()
+    package_path: tuple[str, ...] = ()
+
+
+def main() -> int:
+    """Try all fixes of the findings of the jobs."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", type=Path, nargs="+")
+    parser.add_argument("--run", action="store_true", help="run Python launch files and commands, in the sandbox")
+    parser.add_argument("--sample", type=int, help="only so many launch files, always the same")
+    parser.add_argument("--only", default="", help="launch files whose path has this in it")
+    options = parser.parse_args()
+    tried: list[Try] = []
+    for folder in options.folders:
+        with tempfile.TemporaryDirectory() as temporary:
+            copy = Path(temporary, folder.resolve().name)
+            shutil.copytree(folder, copy, symlinks=True, ignore_dangling_symlinks=True)
+            tried += tried_in(copy, run=options.run, sample=options.sample, only=options.only)
+    print(table(tried))
+    wrong = [each for each in tried if each.wrong is not None]
+    return int(bool(wrong))
+
+
+def tried_in(folder: Path, *, run: bool = False, sample: int | None = None, only: str = "") -> list[Try]:
+    """What comes of all fixes in a folder, which they may write to."""
+    chosen = [job for job in jobs(folder) if re.search(only, str(job.file))]
+    if sample is not None and sample < len(chosen):
+        chosen = random.Random(0).sample(chosen, sample)
+    known: set[object] = set()
+    found: list[Try] = []
+    workspaces: dict[object, OpenWorkspace] = {}
+    for job in chosen:
+        key = job.package_path or next(iter(job.file.relative_to(folder).parts))
+        if key not in workspaces:
+            workspaces[key] = opened(job, run=run)
+        found += tried_of(workspaces[key], job, known, str(folder), run=run)
+    return found
+
+
+def opened(job: Job, *, run: bool) -> OpenWorkspace:
+    """The workspace of a launch file."""
+    environment = detect(str(job.file), package_path=job.package_path or None)
+    return open_workspace(environment, argparse.Namespace(no_run=not run), similar=False)
+
+
+def tried_of(launches: OpenWorkspace, job: Job, known: set[object], base: str, *, run: bool) -> list[Try]:
+    """What comes of the fixes of one launch file that were not tried in another one."""
+    sources = launches.workspace.sources
+    findings = look(launches, job)
+    new = [each for each in findings if not {(each.rule, fix.edits) for fix in each.fixes} <= known]
+    known.update((each.rule, fix.edits) for each in new for fix in each.fixes)
+
+    def text_of(path: str) -> str | None:
+        found = sources.text(path)
+        return found.text if isinstance(found, Document) else None
+
+    def again(texts: Mapping[str, str]) -> Sequence[Finding]:
+        before = {path: Path(path).read_bytes() for path in texts}
+        try:
+            for path, text in texts.items():
+                Path(path).write_bytes(text.encode())
+            launches.workspace.refresh()
+            return look(opened(job, run=run) if any(Path(path).name == MANIFEST for path in texts) else launches, job)
+        finally:
+            for path, content in before.items():
+                Path(path).write_bytes(content)
+            launches.workspace.refresh()
+
+    tried = tries(new, text_of, again, findings)
+    for each in tried:
+        if each.wrong is not None:
+            print(f"{os.path.relpath(job.file, base)}: {each.rule} {each.title}: {each.wrong}", flush=True)
+    return tried
+
+
+def look(launches: OpenWorkspace, job: Job) -> tuple[Finding, ...]:
+    """The findings of a launch file, with those of what it leaves out, and what is known of nodes without a run."""
+    project = launches.analysed(str(job.file), dict(job.args))
+    branches = launches.branches(project.analysis)
+    launches.workspace.set_branches(project.analysis.launch, branches)
+    run_nodes_together([project], argparse.Namespace(no_run=True, jobs=1))
+    return project.with_results().findings
+
+
+def jobs(folder: Path) -> Iterator[Job]:
+    """The launch files of a folder."""
+    for listed in sorted(folder.glob("jobs*.jsonl")):
+        for line in listed.read_text().splitlines():
+            job = json.loads(line)
+            if (folder / job["file"]).exists():
+                args = tuple(tuple(arg.split(":=", 1)) for arg in job["args"])
+                yield Job(folder / job["file"], args, tuple(str(folder / each) for each in job["package_path"]))
+    for case in sorted(folder.glob("*/case.json")):
+        told = json.loads(case.read_text())
+        yield Job(case.parent / "buggy" / told["launch"], tuple(told["args"].items()))
+    if not any(folder.glob("jobs*.jsonl")) and not any(folder.glob("*/case.json")):
+        yield from (Job(path) for path in sorted(folder.rglob("*")) if _LAUNCH.match(path.name) and path.is_file())
+
+
+def table(tried: Sequence[Try]) -> str:
+    """How many fixes were tried and how many are wrong, by rule and format."""
+    total = Counter((each.rule, each.format) for each in tried)
+    wrong = Counter((each.rule, each.format) for each in tried if each.wrong is not None)
+    rows = [f"{rule}  {form:<24} {count:>5} {wrong[rule, form]:>5}" for (rule, form), count in sorted(total.items())]
+    return "\n".join([*rows, f"{len(tried)} fixes tried, {sum(wrong.values())} wrong"])
+
+
+if __name__ == "__main__":
+    sys.exit(main())
