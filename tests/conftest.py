@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+from preflight_analysis.edits.gate import RAISES
 from support.build_once import VARIABLE, begin_run
 from support.logged_errors import LoggedErrors
 
@@ -38,6 +39,7 @@ def pytest_configure(config: pytest.Config) -> None:
         folder = begin_run()
         config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
     assert VARIABLE in os.environ
+    os.environ[RAISES] = "1"  # here and in the servers that tests start
 
 
 def pytest_xdist_auto_num_workers() -> int:

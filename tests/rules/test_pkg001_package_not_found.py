@@ -38,6 +38,7 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
 
 def test_a_name_from_before_a_rename(tmp_path: Path) -> None:
     (tmp_path / "ca_tools" / "config").mkdir(parents=True)
+    (tmp_path / "ca_tools" / "config" / "joy_.yaml").write_text("axis: 1\n")
     (finding,) = check(f"""
         <launch>
           <arg name="pad" default=""/>

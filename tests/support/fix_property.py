@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
@@ -34,13 +34,22 @@ class Try:
 
 
 def tries(
-    findings: Sequence[Finding], text_of: TextOf, again: Again, before: Sequence[Finding] | None = None
+    findings: Sequence[Finding],
+    text_of: TextOf,
+    again: Again,
+    before: Sequence[Finding] | None = None,
+    unlooked: Collection[str] = (),
 ) -> list[Try]:
-    """All fixes of the findings, each tried by itself. `before` are all findings, where that are not all."""
+    """All fixes of the findings, each tried by itself. `before` are all findings, where that are not all; edits of the
+    files `unlooked` are only parsed."""
+
+    def wrong(finding: Finding, fix: Fix) -> str | None:
+        if any(edit.location.file in unlooked for edit in fix.edits):
+            return refusal(fix.edits, text_of)
+        return _wrong(finding, fix, before or findings, text_of, again)
+
     found = [
-        Try(finding.rule, _format(fix), fix.title, _wrong(finding, fix, before or findings, text_of, again))
-        for finding in findings
-        for fix in finding.fixes
+        Try(finding.rule, _format(fix), fix.title, wrong(finding, fix)) for finding in findings for fix in finding.fixes
     ]
     if (tally := os.environ.get(TALLY)) is not None:
         with open(tally, "a", encoding="utf-8") as file:

@@ -6,12 +6,15 @@ import builtins
 import keyword
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from functools import partial
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.gate import passes
+from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.generation import ros
@@ -69,7 +72,24 @@ def rename(context: QueryContext, offset: int, new: str) -> tuple[RenameEdit, ..
     for place in edits:
         if catalogued_file(place.file) is not None or not _is_text(context, place):
             raise RenameRefusedError(f"The name at {shown(context, place)} cannot be changed")
-    return tuple(edits[place] for place in sorted(edits, key=lambda place: (place.file, place.span)))
+    written = [_written(context, edits[place]) for place in sorted(edits, key=lambda place: (place.file, place.span))]
+
+    def text_of(path: str) -> str | None:
+        document = context.document(path)
+        return document.text if document is not None else None
+
+    if not passes(f"rename '{renamed.name}' to '{new}'", written, text_of):
+        raise RenameRefusedError(f"'{new}' cannot be written everywhere that '{renamed.name}' is")
+    return tuple(written)
+
+
+def _written(context: QueryContext, edit: RenameEdit) -> RenameEdit:
+    """The edit as the format of its file has it."""
+    document = context.document(edit.location.file)
+    edits = document.once(writer_of).replace(edit.location.span, edit.text) if document is not None else ()
+    if len(edits) != 1:
+        raise RenameRefusedError(f"The name at {shown(context, edit.location)} cannot be changed")
+    return replace(edit, location=edits[0].location, text=edits[0].text)
 
 
 def _plan(context: QueryContext, offset: int) -> tuple[Renamed, Callable[[str], Iterable[RenameEdit]]] | None:

@@ -250,7 +250,7 @@ def _of_node(analysis: Analysis, graph: Graph, node: LaunchNode) -> Iterator[Lin
         reason = f": {outcome.reason}" if outcome.reason else ""
         yield Link("interface", "unknown", f"the interface of {node.name} is not known{reason}", node.location)
     place = attribute_location(analysis.context, node, "exec")
-    for finding in analysis.findings:
+    for finding in analysis.offered:
         if finding.rule == _LIFECYCLE and finding.location == place:
             yield Link("lifecycle", "broken", finding.message, finding.location, finding.fixes)
 
@@ -299,7 +299,7 @@ def _name(analysis: Analysis, kind: ChannelKind, provider: Connection, consumer:
 def _fixes_of(analysis: Analysis, rule: str, *connections: Connection) -> tuple[Fix, ...]:
     """Those of the findings of a rule that speak of all these ends."""
     wanted = {(each.name, each.node.name) for each in connections}
-    found = (each for each in analysis.findings if each.rule == rule)
+    found = (each for each in analysis.offered if each.rule == rule)
     return next((f.fixes for f in found if wanted <= {(ref.channel, ref.node) for ref in f.endpoints}), ())
 
 
@@ -311,7 +311,7 @@ def _fixes(analysis: Analysis, *connections: Connection) -> tuple[Fix, ...]:
         return -len(wanted & {(ref.channel, ref.node) for ref in finding.endpoints})
 
     found: dict[tuple[object, ...], Fix] = {}
-    for finding in sorted(analysis.findings, key=both):
+    for finding in sorted(analysis.offered, key=both):
         if both(finding):
             for fix in finding.fixes:
                 found.setdefault(fix.edits, fix)

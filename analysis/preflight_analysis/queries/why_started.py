@@ -97,7 +97,7 @@ def _problems(analysis: Analysis, node: LaunchNode) -> Iterator[Link]:
     """The findings at its tag that are errors."""
     place = node.location
     span = node.action.span
-    for finding in analysis.findings:
+    for finding in analysis.offered:
         inside = finding.location.file == place.file and span.start <= finding.location.span.start < span.end
         if inside and finding.severity == "error":
             yield Link("finding", "broken", f"{finding.rule}: {finding.message}", finding.location, finding.fixes)

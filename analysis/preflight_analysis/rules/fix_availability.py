@@ -11,9 +11,8 @@ from typing import Literal
 
 from preflight_analysis.rules.rule import Rule
 
-Availability = Literal["always", "sometimes", "never"]
+Availability = Literal["sometimes", "never"]
 AVAILABILITY: Mapping[Availability, str] = {
-    "always": "A fix is always available.",
     "sometimes": "A fix is available for some findings.",
     "never": "No fix is available.",
 }
@@ -23,16 +22,14 @@ _MAKERS = ("finding", "problem_finding")
 
 
 def fix_availability(rule: Rule) -> Availability:
-    """`always`: each finding is made with at least one fix. `sometimes`: a fix may be missing. `never`: no finding of
-    the rule is made with fixes."""
+    """`sometimes`: where the writer of the file's format can make it. `never`: no finding of the rule is made with
+    fixes."""
     entries = (each for each in (rule.check, rule.unused_suppression, rule.left_out) if each is not None)
     reached: dict[tuple[str, str], ast.stmt] = {}
     for entry in entries:
         _reach(entry.__module__, entry.__qualname__.partition(".")[0], reached)
-    given = [_given(call) for each in reached.values() for call in _calls(each) if _makes_finding(call)]
-    if not any(given):
-        return "never"
-    return "always" if all(each == "literal" for each in given) else "sometimes"
+    calls = (call for each in reached.values() for call in _calls(each) if _makes_finding(call))
+    return "sometimes" if any(each.arg == "fixes" for call in calls for each in call.keywords) else "never"
 
 
 def _reach(module: str, name: str, reached: dict[tuple[str, str], ast.stmt]) -> None:
@@ -73,15 +70,6 @@ def _calls(definition: ast.stmt) -> Iterator[ast.Call]:
 def _makes_finding(call: ast.Call) -> bool:
     name = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
     return name in _MAKERS
-
-
-def _given(call: ast.Call) -> str:
-    """How a call gives fixes: empty for none, `literal` for a tuple with an item in it, else `computed`."""
-    fixes = next((each.value for each in call.keywords if each.arg == "fixes"), None)
-    if fixes is None:
-        return ""
-    has_item = isinstance(fixes, ast.Tuple) and any(not isinstance(each, ast.Starred) for each in fixes.elts)
-    return "literal" if has_item else "computed"
 
 
 @cache

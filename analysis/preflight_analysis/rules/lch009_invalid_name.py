@@ -60,6 +60,8 @@ def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Itera
     if writer is None or names.canonicalize(written) != problem.kind.name:
         return
     legal = _legal(written)
+    if problem.kind.what == "node" and legal in {names.leaf(node.name) for node in context.tree.nodes}:
+        return  # the other node has it
     if problem.kind.what == "node" and "/" in legal:
         ns, _, name = legal.rstrip("/").rpartition("/")
         tag = tags.around(location)

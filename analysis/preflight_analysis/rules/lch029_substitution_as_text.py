@@ -30,7 +30,7 @@ _COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
 _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 """In a robot description, where xacro leaves it as it is."""
-_ARG = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
+_ARG = re.compile(r"\$\((?:arg|var)\s+([^\s()]+)\s*\)")
 _ARGUMENT = re.compile(r"[\s\"',]+")
 _LONGEST = 4096
 _SOURCES = (".py", ".cpp", ".cc", ".h", ".hpp")
@@ -91,9 +91,9 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     document = context.documents.get(where.file)
     fixes: tuple[Fix, ...] = ()
     # Without the argument the launcher would refuse what it is told to replace.
-    unknown = (
-        not ament and (arg := _ARG.fullmatch(text)) and arg[1] not in declarations(context.launch_files[where.file])
-    )
+    arg = _ARG.fullmatch(text)
+    declared = {*declarations(context.launch_files[where.file]), *(context.tree.args if ament else ())}
+    unknown = arg is not None and arg[1] not in declared
     if tag is not None and not unknown and document is not None:
         edits = document.once(writer_of).set_attribute(tag.action, attribute, "true")
         fixes = fix(f'Add {attribute}="true" to the tag', edits, preferred=True)

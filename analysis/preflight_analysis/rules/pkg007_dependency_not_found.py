@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Iterator
 from functools import lru_cache
+from itertools import chain
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with, system_keys
 from preflight_analysis.documents.document import Document
@@ -16,7 +17,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.installed import is_of_family, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words, nearest
-from preflight_analysis.rules.problems import replacement
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
@@ -27,18 +28,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         manifest = context.documents.get(package.manifest)
         if manifest is None or not package.manifest.endswith(f"/{MANIFEST}"):
             continue
-        for span, name in context.kept.get(_unknown, package.manifest, manifest, context.environment):
+        for spans, name in context.kept.get(_unknown, package.manifest, manifest, context.environment):
             near = near_package(context, name)
             if near is None and (key := _near_key(name)) is not None and not is_of_family(context, name, key):
                 near = key
             if near is None:
                 continue  # a private package, as most that nobody has released
-            location = manifest.location(span)
+            writer = context.writer(manifest.path)
+            edits = [writer.replace(span, near) for span in spans] if writer is not None else []
             yield rule.finding(
                 f"unknown package '{name}': not in the workspace nor any distribution{did_you_mean(near)}",
-                location,
+                manifest.location(spans[0]),
                 confidence="likely",
-                fixes=replacement(context, location, near, f"Replace '{name}' with '{near}'"),
+                fixes=fix(f"Replace '{name}' with '{near}'", tuple(chain(*edits)), preferred=True),
             )
 
 
@@ -52,17 +54,17 @@ def _packages(context: Context) -> Iterator[Package]:
             yield package
 
 
-def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[Span, str], ...]:
-    """The names, each where it first stands, that neither ROS nor rosdep knows."""
-    unknown: dict[str, Span] = {}
+def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[tuple[Span, ...], str], ...]:
+    """The names, each with its places, that neither ROS nor rosdep knows."""
+    unknown: dict[str, list[Span]] = {}
     for found in _DEPENDENCY.finditer(without_comments(manifest.text)):
         name = found[2]
         # rosdep has forgotten Python 2; manifests for both still name it.
         key = f"python3-{name[7:]}" if name.startswith("python-") else name
-        known = name in environment.packages or not system_keys().isdisjoint((name, key)) or name in unknown
+        known = name in environment.packages or not system_keys().isdisjoint((name, key))
         if not known and not any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
-            unknown[name] = Span(*found.span(2))
-    return tuple((span, name) for name, span in unknown.items())
+            unknown.setdefault(name, []).append(Span(*found.span(2)))
+    return tuple((tuple(spans), name) for name, spans in unknown.items())
 
 
 @lru_cache(maxsize=1024)

@@ -31,6 +31,7 @@ from preflight_analysis.evaluation.taken_over import taken_over
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.offered import with_offered_fixes
 from preflight_analysis.findings.severities import Severities, adjusted
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
@@ -127,6 +128,16 @@ class Analysis:
         if self.tree.edited:
             found = [each for each in found if not self._of_replaced_text(each)]
         return adjusted(found, self.severities), tuple(failures)
+
+    @cached_property
+    def offered(self) -> tuple[Finding, ...]:
+        """The findings with those of their fixes that may be offered."""
+        return with_offered_fixes(self.findings, self.text)
+
+    def text(self, path: str) -> str | None:
+        """The text of any file; None where it is not known."""
+        document = self.document(path) or self.context.document(path)
+        return document.text if document is not None else None
 
     def _of_replaced_text(self, finding: Finding) -> bool:
         """Whether it speaks of what a Python file was, where it was edited since."""

@@ -81,7 +81,7 @@ class _Launched:
             root,
             tuple(file for file in analysis.tree.files if catalogued_file(file) is None),
             tuple(analysis.tree.inputs),
-            analysis.findings,
+            analysis.offered,
             analysis.documents_of_findings,
             analysis.environment.problems,
             nodes=tuple(

@@ -65,6 +65,10 @@ class View:
     findings: tuple[Finding, ...]
     converter: Converter
 
+    def text(self, path: str) -> str | None:
+        """The text of any file, as one of the analyses has it; None where it is not known."""
+        return next((text for each in self.analyses if (text := each.text(path)) is not None), None)
+
     def nodes_at(self, position: Any) -> tuple[str, ...]:
         """The full names of the nodes that start at a position of LSP, as JSON has it."""
         where = as_mapping(position)

@@ -21,8 +21,10 @@ from lsprotocol import types
 from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.gate import passes
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.offered import with_offered_fixes
 from preflight_analysis.queries.actions import FixOf, annotating, fix_all, fixes, touching
 from preflight_analysis.queries.suppressing import suppress_on_line
 from preflight_analysis.workspace.settings_edit import turn_off
@@ -72,7 +74,7 @@ class _Actions:
         self._view = view
         self._only = [k.value if isinstance(k, types.CodeActionKind) else str(k) for k in params.context.only or ()]
         self._span = view.converter.span(view.path, params.range)
-        self._findings = touching(view.findings, view.path, self._span)
+        self._findings = with_offered_fixes(touching(view.findings, view.path, self._span), view.text)
         self._first: dict[str, Finding] = {}
         """The first finding in the range of each rule."""
         for finding in self._findings:
@@ -87,11 +89,12 @@ class _Actions:
                 yield action
         if self._wanted(FIX_ALL) and self._only:  # an editor asks for it by name, as when it saves
             edits, _ = fix_all(self._view.findings)
-            if edits:
+            if edits and self._passes("Fix all that is certain", edits):
                 yield types.CodeAction("Fix all that is certain", kind=FIX_ALL, edit=self._edit(edits))
         if self._wanted(types.CodeActionKind.RefactorRewrite):
             for rewrite in annotating(self._view.analysis, self._view.path, self._span.start):
-                if rewrite.title not in offered:  # as the quick fix of a finding
+                # The quick fix of a finding may be the same.
+                if rewrite.title not in offered and self._passes(rewrite.title, rewrite.edits):
                     kind = types.CodeActionKind.RefactorRewrite
                     yield types.CodeAction(rewrite.title, kind=kind, edit=self._edit(rewrite.edits))
 
@@ -99,6 +102,9 @@ class _Actions:
         """Whether the client asked for that kind, or for one above it."""
         kind = kind.value if isinstance(kind, types.CodeActionKind) else kind
         return not self._only or any(kind == asked or kind.startswith(f"{asked}.") for asked in self._only)
+
+    def _passes(self, title: str, edits: Iterable[Edit]) -> bool:
+        return passes(title, edits, self._view.text)
 
     def _edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
         return self._view.converter.workspace_edit(edits)
@@ -130,9 +136,11 @@ class _Actions:
             title = each.fix.title if titles[each.fix.title] == 1 else f"{each.fix.title} ({self._place(each)})"
             yield self._quick_fix(title, each.finding, edit=self._edit(each.fix.edits), preferred=each.fix.preferred)
         for rule, finding in self._first.items():
-            edits, count = fix_all(self._view.findings, rule)
-            if count > 1 and any(fix.preferred for fix in finding.fixes):
-                yield self._quick_fix(f"Fix all {count} {rule} in this file", finding, edit=self._edit(edits))
+            if any(fix.preferred for fix in finding.fixes):
+                edits, count = fix_all(self._view.findings, rule)
+                title = f"Fix all {count} {rule} in this file"
+                if count > 1 and self._passes(title, edits):
+                    yield self._quick_fix(title, finding, edit=self._edit(edits))
         yield from self._remedies()
         for rule, finding in self._first.items():
             yield from self._suppressions(rule, finding)
@@ -159,8 +167,9 @@ class _Actions:
     def _suppressions(self, rule: str, finding: Finding) -> Iterator[types.CodeAction]:
         document = self._view.analysis.document(self._view.path)
         edit = suppress_on_line(document, finding) if document is not None else None
-        if edit is not None:
-            yield self._quick_fix(f"Suppress {rule} on this line", finding, edit=self._edit([edit]))
+        title = f"Suppress {rule} on this line"
+        if edit is not None and self._passes(title, [edit]):
+            yield self._quick_fix(title, finding, edit=self._edit([edit]))
         for where, file in (("this file", self._view.path), ("the workspace", None)):
             changed = self._settings_edit(rule, file)
             if changed is not None:
@@ -182,6 +191,8 @@ class _Actions:
             return None
         span, written = found
         edit = Edit(LineIndex(text).location(path, span), written)
+        if not passes(f"{SETTINGS_FILE}: {rule}", [edit], {path: text}.get):
+            return None
         converter = self._view.converter
         if exists:
             return converter.workspace_edit([edit])
