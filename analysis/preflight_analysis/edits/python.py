@@ -143,26 +143,25 @@ class PythonWriter(HashComments):
                         waiting += ast.iter_child_nodes(each)
         return tuple(each.span for each in self._literals if id(each.node) in nodes and each.node.value == text)
 
-    def set_value(self, span: Span, plain: object) -> tuple[Edit, ...]:
-        """Write a value in the place of the literal at `span`."""
-        for node in self._nodes:
-            if isinstance(node, ast.expr) and span in (self._source.span(node), self._source.whole_span(node)):
-                try:
-                    ast.literal_eval(node)
-                except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-                    continue
-                written = self._quoted(plain) if isinstance(plain, str) else repr(plain)
-                return (Edit(self._document.location(self._source.whole_span(node)), written),)
-        return ()
+    def set_parameter(self, name: Span, old: object, new: object) -> tuple[Edit, ...]:
+        """Give the parameter whose name is at a span another value, if the one that it has is written beside it."""
+        literal = next((each for each in self._literals if each.span == name), None)
+        holder = self._parents.get(id(literal.node)) if literal is not None else None
+        if literal is None or not isinstance(holder, ast.Dict) or isinstance(new, str):
+            return ()
+        value = next(
+            (value for key, value in zip(holder.keys, holder.values, strict=True) if key is literal.node), None
+        )
+        if value is None or _plain(value) != old or type(_plain(value)) is not type(old):
+            return ()
+        return (Edit(self._document.location(self._source.whole_span(value)), repr(new)),)
 
-    def rename_name(self, span: Span, new: str) -> tuple[Edit, ...]:
-        """Write another name in the place of one, or of a keyword."""
-        for node in self._nodes:
-            name = isinstance(node, ast.Name) and self._source.whole_span(node) == span
-            keyword = isinstance(node, ast.keyword) and node.arg and self._source.keyword_span(node) == span
-            if (name or keyword) and new.isidentifier():
-                return (Edit(self._document.location(span), new),)
-        return ()
+    def rename_names(self, name: str, new: str) -> tuple[Edit, ...]:
+        """Write another name in the place of one that nothing defines, wherever it is used."""
+        nodes = [node for node in self._nodes if isinstance(node, ast.Name) and node.id == name]
+        if not new.isidentifier() or not all(isinstance(node.ctx, ast.Load) for node in nodes):
+            return ()
+        return tuple(Edit(self._document.location(self._source.whole_span(node)), new) for node in nodes)
 
     def insert_comma(self, offset: int) -> tuple[Edit, ...]:
         """Write a comma between two strings."""
@@ -436,6 +435,15 @@ class PythonWriter(HashComments):
     def _quoted(self, text: str) -> str:
         """A text in the quotes that the file prefers."""
         return repr(text) if self._text.count("'") >= self._text.count('"') else _in_double_quotes(text)
+
+
+def _plain(node: ast.expr) -> object:
+    """The value of a literal; None of what is none."""
+    try:
+        found: object = ast.literal_eval(node)
+    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+        return None
+    return found
 
 
 def _in_double_quotes(text: str) -> str:

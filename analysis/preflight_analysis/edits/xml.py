@@ -68,12 +68,7 @@ class XmlWriter:
 
     def rename_element(self, action: Action, name: str) -> tuple[Edit, ...]:
         """Give an element another name, in its start tag and in its end tag."""
-        places = [action.kind_span]
-        text, end = self._document.text, action.span.end
-        at = text.rfind("</", action.head_span.end, end)
-        if at >= 0 and text[at + 2 : end].rstrip(" \t\r\n>") == action.kind:
-            places.append(Span(at + 2, at + 2 + len(action.kind)))
-        return tuple(Edit(self._document.location(place), name) for place in places)
+        return self.replace(action.kind_span, name)
 
     def annotate(self, action: Action, lines: Sequence[str]) -> tuple[Edit, ...]:
         """Write an annotation: a comment as the first thing in the element."""
@@ -92,7 +87,8 @@ class XmlWriter:
         )
 
     def replace(self, span: Span, new: str) -> tuple[Edit, ...]:
-        """Write `new` in the place of a part of a value, a text or a comment, or of the name of an attribute."""
+        """Write `new` in the place of a part of a value, a text or a comment, or of the name of an attribute or of an
+        element, in its end tag too."""
         where, text = self._around(span), self._document.text
         match where:
             case Attribute():
@@ -104,8 +100,23 @@ class XmlWriter:
             case Comment():
                 written = new if "--" not in new else ""
             case _:
-                written = new if self._is_name(span) and _NAME.fullmatch(new) else ""
+                places = self._names_at(span) if _NAME.fullmatch(new) else ()
+                return tuple(Edit(self._document.location(place), new) for place in places)
         return (Edit(self._document.location(span), written),) if written or not new else ()
+
+    def replace_beside(self, value: Span, name: str, old: str, new: str) -> tuple[Edit, ...]:
+        """Replace the value of another attribute of the element that has a value at a span."""
+        element = self._element_with_value(value)
+        found = element.get(name) if element is not None else None
+        return self.replace(found.value.span, new) if found is not None and found.value.text == old else ()
+
+    def set_parameter(self, name: Span, old: object, new: object) -> tuple[Edit, ...]:
+        """Give the parameter whose name is at a span another value, if the one that it has is written in its tag."""
+        element = self._element_with_value(name)
+        value = element.get("value") if element is not None else None
+        if value is None or _unquoted(value.value.text) != _word(old) or isinstance(new, (list, str)):
+            return ()
+        return (Edit(self._document.location(value.value.span), _word(new)),)
 
     def insert_child(self, action: Action, child: str) -> tuple[Edit, ...]:
         """Make `child` the first thing in an element, on lines of its own.
@@ -179,16 +190,40 @@ class XmlWriter:
                 return found
             nodes = node.children
 
-    def _is_name(self, span: Span) -> bool:
-        """Whether the name of an attribute stands at a span."""
+    def _element_with_value(self, span: Span) -> Element | None:
+        """The element of which an attribute has its value at a span."""
+        waiting = list(self._tree.children)
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, Element):
+                if any(each.value.span == span for each in node.attributes):
+                    return node
+                waiting += node.children
+        return None
+
+    def _names_at(self, span: Span) -> tuple[Span, ...]:
+        """Where the name of an attribute or an element stands that begins at a span."""
         waiting = list(self._tree.children)
         while waiting:
             node = waiting.pop()
             if isinstance(node, Element):
                 if any(each.name_span == span for each in node.attributes):
-                    return True
+                    return (span,)
+                if node.tag_span == span:
+                    at = self._document.text.rfind("</", node.open_span.end, node.span.end)
+                    end = self._document.text[at + 2 : node.span.end].rstrip(" \t\r\n>") if at >= 0 else ""
+                    return (span, Span(at + 2, at + 2 + len(node.tag))) if end == node.tag else (span,)
                 waiting += node.children
-        return False
+        return ()
+
+
+def _word(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _unquoted(text: str) -> str:
+    """A text that launch takes for a text because it is in quotes, without them."""
+    return text[1:-1] if len(text) > 1 and text[0] == text[-1] and text[0] in "'\"" else text
 
 
 def _span_of(node: Node) -> Span:

@@ -10,7 +10,7 @@ import yaml
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, constructed, span_of
 from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.hash_comments import HashComments
@@ -44,6 +44,10 @@ def _is_plain(text: str) -> bool:
         return False
     items: list[yaml.Node] = node.value if isinstance(node, yaml.SequenceNode) else []
     return len(items) == 1 and isinstance(items[0], yaml.ScalarNode) and (items[0].tag, items[0].value) == (_TEXT, text)
+
+
+def _has_key(node: yaml.MappingNode, name: str) -> bool:
+    return any(key.value == name for key, _ in node.value)
 
 
 @lru_cache(maxsize=8)
@@ -143,13 +147,62 @@ class YamlWriter(HashComments):
                 span, written = whole, scalar(after)
         return (Edit(self._document.location(span), written),) if written is not None else ()
 
-    def set_value(self, span: Span, plain: object) -> tuple[Edit, ...]:
-        """Write a value in the place of the one at `span`, which may be quoted."""
+    def set_parameter(self, name: Span, old: object, new: object) -> tuple[Edit, ...]:
+        """Give the parameter whose name is at a span another value: what the key has, or what is beside it under
+        `value` in a launch file."""
         for node in self._nodes:
-            if span in (whole := span_of(node), Span(whole.start + 1, whole.end - 1)):
-                flow = isinstance(node, yaml.ScalarNode) and node.style not in ("|", ">")
-                flow = flow or (isinstance(node, yaml.SequenceNode) and bool(node.flow_style))
-                return (Edit(self._document.location(whole), value(plain)),) if flow else ()
+            for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+                if span_of(key) == name:
+                    return self._set(value, old, new)
+                if key.value == "name" and name in (whole := span_of(value), Span(whole.start + 1, whole.end - 1)):
+                    found = next((each for other, each in node.value if other.value == "value"), None)
+                    return self._set(found, old, new) if found is not None else ()
+        return ()
+
+    def _set(self, node: yaml.Node, old: object, new: object) -> tuple[Edit, ...]:
+        try:
+            if constructed(node) != old or (isinstance(node, yaml.ScalarNode) and node.style in ("|", ">")):
+                return ()
+        except CONSTRUCTION_ERRORS:
+            return ()
+        if isinstance(node, yaml.CollectionNode) and not node.flow_style:
+            return ()
+        # As a text it is what is written: `1.50` and `yes` are not what they come to.
+        as_text = isinstance(new, str) and isinstance(node, yaml.ScalarNode) and not isinstance(old, str)
+        written = f"'{node.value}'" if as_text else value(new)
+        return (Edit(self._document.location(span_of(node)), written),)
+
+    def nest(self, key: Span, name: str) -> tuple[Edit, ...]:
+        """Put what stands beside the key at a span, and the key, below another key of that name."""
+        for node in self._nodes:
+            if not isinstance(node, yaml.MappingNode) or node is self.root or node.flow_style:
+                continue
+            if any(span_of(each) == key for each, _ in node.value):
+                if any(isinstance(value, yaml.MappingNode) and _has_key(value, name) for _, value in node.value):
+                    return ()
+                return self._nested(node, name)
+        return ()
+
+    def _nested(self, node: yaml.MappingNode, name: str) -> tuple[Edit, ...]:
+        start, indent = self._line_start(node.start_mark.index), " " * node.start_mark.column
+        if self._text[start : node.start_mark.index].strip() or any("\n" in str(v.value) for v in self._scalars(node)):
+            return ()  # the text of a scalar of several lines has blanks of its own
+        first, _ = self._document.lines.position(start)
+        last, _ = self._document.lines.position(self._end_of_lines(node) - 1)
+        lines = (self._document.lines.line_span(line) for line in range(first, last + 1))
+        starts = [line.start for line in lines if self._text[line.start : line.end].strip()]
+        head = self._insertion(start, f"{indent}{name}:\n  ")
+        return (head, *(self._insertion(at, "  ") for at in starts if at != start))
+
+    def ancestors(self, key: Span) -> tuple[Span, ...]:
+        """The keys above the one at a span, the outermost first."""
+        waiting: list[tuple[yaml.Node | None, tuple[Span, ...]]] = [(self.root, ())]
+        while waiting:
+            node, above = waiting.pop()
+            for each, value in node.value if isinstance(node, yaml.MappingNode) else ():
+                if span_of(each) == key:
+                    return above
+                waiting.append((value, (*above, span_of(each))))
         return ()
 
     def append(self, node: yaml.Node | None, block: str, flow: str) -> tuple[Edit, ...]:
@@ -282,6 +335,13 @@ class YamlWriter(HashComments):
             for each in node.value if isinstance(node, yaml.CollectionNode) else ():
                 waiting += each if isinstance(each, tuple) else (each,)
         return list(found.values())
+
+    def _scalars(self, node: yaml.Node) -> list[yaml.ScalarNode]:
+        inside = [node]
+        for each in inside:
+            for part in each.value if isinstance(each, yaml.CollectionNode) else ():
+                inside += part if isinstance(part, tuple) else (part,)
+        return [each for each in inside if isinstance(each, yaml.ScalarNode)]
 
     def _line_start(self, offset: int) -> int:
         line, _ = self._document.lines.position(offset)

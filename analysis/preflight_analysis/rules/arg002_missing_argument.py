@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import MissingArgument
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.arguments import pass_on, passes_all
+from preflight_analysis.rules.arguments import pass_on, passes_all, rename_passed
 from preflight_analysis.rules.catalogued import as_sure, by_catalogue
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import nearest
@@ -22,7 +22,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         severity, confidence = as_sure(context, problem.kind.file, rule.severity)
         if passes_all(context, problem.origin):
             severity, message = "info", f"{message}; launch with {name}:=..."
-        fixes = pass_on(context, problem.location, name)
+        fixes = (
+            *(rename_passed(context, problem.location, near, name) if near else ()),
+            *pass_on(context, problem.location, name),
+        )
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import UnknownIncludeArgument
 from preflight_analysis.findings.finding import Finding, Severity
-from preflight_analysis.rules.arguments import remove_at
+from preflight_analysis.rules.arguments import declarations, remove_at
 from preflight_analysis.rules.catalogued import as_sure, by_catalogue
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -21,10 +21,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if name != name.strip() and not problem.fatal:
             continue  # LCH009 names the blanks
         near = nearest(name, problem.kind.declared)
-        fixes = (
-            *(rename(context, problem.location, name, near) if near else ()),
-            *remove_at(context, problem.location, f"Do not pass argument '{name}'"),
-        )
+        fixes = rename(context, problem.location, name, near) if near else ()
+        if near is None or not _is_needed(context, problem.kind.file, near):
+            fixes = (*fixes, *remove_at(context, problem.location, f"Do not pass argument '{name}'"))
         message = f"argument '{name}' is not declared by '{file}'"
         if not problem.fatal:
             message = f"argument '{name}' has no effect: neither '{file}' nor its includes use it"
@@ -35,6 +34,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             # Nobody makes several slips in one include: it is written for another version of the package.
             severity, confidence = "info", "possible"
         yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
+
+
+def _is_needed(context: Context, file: str, name: str) -> bool:
+    """Whether a file declares the argument without a value: without it, the launch would stop."""
+    launch_file = context.launch_files.get(file)
+    tags = declarations(launch_file).get(name, ()) if launch_file is not None else ()
+    return any(tag.value("default") is None and tag.value("value") is None for tag in tags)
 
 
 RULE = Rule(

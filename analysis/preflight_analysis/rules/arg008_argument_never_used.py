@@ -5,11 +5,10 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.evaluation.problems import ArgumentNeeded
+from preflight_analysis.evaluation.problems import ArgumentNeeded, UndeclaredArgument
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.configurations import IMPLICIT
@@ -17,7 +16,8 @@ from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.rules.arguments import declarations, pass_on
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG
-from preflight_analysis.rules.problems import fix, problems_of, shown
+from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.rules.problems import all_of, fix, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.written_elsewhere import in_package
 
@@ -229,10 +229,13 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _removal(context: Context, path: str, name: str, tags: tuple[Action, ...]) -> tuple[Fix, ...]:
-    """A fix that removes all declarations of an argument, if each can be."""
+    """A fix that removes all declarations of an argument, if each can be; none where an argument is asked for that is a
+    slip of it."""
     writer = context.writer(path)
-    edits = [writer.remove(tag) for tag in tags] if writer is not None else []
-    return fix(f"Remove the declaration of '{name}'", tuple(chain(*edits)) if all(edits) else ())
+    asked = [problem.kind.name for problem in problems_of(context, UndeclaredArgument)]
+    if writer is None or nearest(name, asked) is not None:
+        return ()
+    return fix(f"Remove the declaration of '{name}'", all_of(*(writer.remove(tag) for tag in tags)))
 
 
 def _passed_in_vain_ros2(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -11,7 +11,7 @@ from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
-from preflight_analysis.rules.problems import fix
+from preflight_analysis.rules.problems import fix, rename
 from preflight_analysis.rules.rule import Context
 
 _FAR = 40
@@ -78,6 +78,14 @@ def _is_given(context: Context, origin: Origin, name: str) -> bool:
     include = _include_at(context, origin[-2])
     given = (child.value("name") for child in include.children if child.kind == "arg") if include is not None else ()
     return passes_all(context, origin[:-1]) or any(value is not None and value.text == name for value in given)
+
+
+def rename_passed(context: Context, include: Location, old: str, new: str) -> tuple[Fix, ...]:
+    """A fix that passes an argument of the include at `include` under another name."""
+    action = _include_at(context, include)
+    names = (child.value("name") for child in action.children if child.kind == "arg") if action is not None else ()
+    place = next((value.span for value in names if value is not None and value.text == old), None)
+    return rename(context, context.location(include.file, place), old, new) if place is not None else ()
 
 
 def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:

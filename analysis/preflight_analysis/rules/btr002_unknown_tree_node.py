@@ -8,10 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.finding import Finding, Severity
 from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
 from preflight_analysis.rules.nearest import did_you_mean, is_slip
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
 from preflight_analysis.trees.known_nodes import (
@@ -47,12 +49,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if found is None:
                 continue
             seen.add((part.path, span.start))
+            edits = XmlWriter(part.document).replace(span, found.near) if found.near is not None else ()
             yield rule.finding(
                 found.message + did_you_mean(found.near),
                 context.location(part.path, span),
                 severity=found.severity,
                 confidence="likely",
                 related=loaded.related,
+                fixes=fix(f"Replace '{name}' with '{found.near}'", edits, preferred=True),
             )
 
 

@@ -11,7 +11,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.controllers import controllers_of, place_of, robot_of
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import quoted
+from preflight_analysis.rules.problems import quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -29,12 +29,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if not slash or not claim.commands or controller in others or claim.joint in parts or controller in parts:
                 continue
             near = nearest(controller, others)
+            place = place_of(context, claim.param, claim.joint)
             yield rule.finding(
                 f"chained controller '{controller}' does not exist: '{each.name}' claims '{claim.joint}'"
                 + (did_you_mean(near) if near is not None else f"; {each.manager} has {quoted(sorted(others))}"),
-                place_of(context, claim.param, claim.joint),
+                place,
                 severity=each.severity if near is not None or context.tree.complete else "info",
                 confidence=each.confidence,
+                fixes=rename(context, place, controller, near) if near is not None else (),
             )
 
 

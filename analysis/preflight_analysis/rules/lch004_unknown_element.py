@@ -31,7 +31,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         fixes: tuple[Fix, ...] = ()
         if near is not None:
             tag, writer = tags.named_at(problem.location), context.writer(problem.location.file)
-            edits = writer.rename_element(tag.action, near) if tag is not None and writer is not None else ()
+            if tag is not None and writer is not None:
+                edits = writer.rename_element(tag.action, near)
+            else:
+                edits = writer.replace(problem.location.span, near) if writer is not None else ()
             fixes = fix(f"Replace '{name}' with '{near}'", edits, preferred=True)
         launcher = _OF_OTHERS.get(name)
         if launcher is not None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain
 
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.rules.further_reading import ROSLAUNCH, ROSLAUNCH_PARAM
-from preflight_analysis.rules.problems import fix, problem_finding, problems_of, quoted
+from preflight_analysis.rules.problems import all_of, fix, problem_finding, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -29,8 +28,8 @@ def _fixes(context: Context, tags: Tags, problem: Problem[ConflictingAttributes]
     attributes = {name: tag.action.attribute(name) for name in problem.kind.names}
     for name in attributes:
         others = [attribute for other, attribute in attributes.items() if other != name and attribute is not None]
-        edits = [writer.remove_attribute(attribute) for attribute in others]
-        yield from fix(f"Keep only '{name}'", tuple(chain(*edits)) if all(edits) else ())
+        edits = all_of(*(writer.remove_attribute(attribute) for attribute in others))
+        yield from fix(f"Keep only '{name}'", edits)
 
 
 RULE = Rule(

@@ -12,7 +12,7 @@ from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.problems import as_written, fix, problem_finding, problems_of, quoted, replacement
+from preflight_analysis.rules.problems import all_of, as_written, fix, problem_finding, problems_of, quoted, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -65,12 +65,17 @@ def _fixes(context: Context, tags: Tags, problem: Problem[InvalidName]) -> Itera
     if problem.kind.what == "node" and "/" in legal:
         ns, _, name = legal.rstrip("/").rpartition("/")
         tag = tags.around(location)
-        if tag is None or tag.action.attribute("ns") is not None or not ns or not names.is_legal(name):
+        if tag is None or _has_namespace(tag.action) or not ns or not names.is_legal(name):
             return
-        edits = (*writer.replace(location.span, name), *writer.set_attribute(tag.action, "ns", ns))
-        yield from fix(f'Use ns="{ns}" and name="{name}"', edits, preferred=True)
+        attribute = "namespace" if context.tree.ros.shared_configurations else "ns"
+        edits = all_of(writer.replace(location.span, name), writer.set_attribute(tag.action, attribute, ns))
+        yield from fix(f'Use {attribute}="{ns}" and name="{name}"', edits, preferred=True)
     elif legal and legal != written and names.is_legal(legal):
         yield from replacement(context, location, legal, f"Replace '{written}' with '{legal}'")
+
+
+def _has_namespace(action: Action) -> bool:
+    return any(action.attribute(name) is not None for name in ("ns", "namespace"))
 
 
 def _legal(written: str) -> str:

@@ -8,7 +8,7 @@ from preflight_analysis.launch.problems import BadSubstitution
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.parts_of_launches import is_part
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import problem_finding, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _RENAMED: Mapping[int, Mapping[str, str]] = {
@@ -33,7 +33,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case EvalFailed(expression, message):
                 yield problem_finding(rule, problem, f"$(eval {expression}) fails: {message}")
             case BadSubstitution() as bad:
-                yield problem_finding(rule, problem, bad.message + did_you_mean(_meant(context, bad)))
+                meant = _meant(context, bad)
+                fixes = rename(context, problem.location, bad.command, meant) if meant is not None else ()
+                yield problem_finding(rule, problem, bad.message + did_you_mean(meant), fixes=fixes)
     for unset in problems_of(context, UnsetParameter):
         yield _unset(rule, context, unset)
 

@@ -14,7 +14,7 @@ from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import fix, include_chain, rename, replacement, shown
+from preflight_analysis.rules.problems import all_of, fix, include_chain, rename, replacement, shown
 from preflight_analysis.rules.retired import OLDER_THAN_NOETIC, RETIRED_IN, Retired, retired
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -85,7 +85,7 @@ def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]
     if period is None or len(node.args.split()) not in (9, 10) or context.text(package) != "tf":
         return ()
     shorter = writer.replace(Span(period.start(), args.span.end), "")
-    return fix("Use static_transform_publisher of tf2_ros", (*writer.replace(package.span, "tf2_ros"), *shorter))
+    return fix("Use static_transform_publisher of tf2_ros", all_of(writer.replace(package.span, "tf2_ros"), shorter))
 
 
 def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:

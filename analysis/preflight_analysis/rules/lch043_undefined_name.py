@@ -8,6 +8,7 @@ import symtable
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.evaluation.problems import PythonException
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
@@ -15,7 +16,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.rules.further_reading import FORMATS
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problems_of
+from preflight_analysis.rules.problems import fix, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 _KNOWN = {*dir(builtins), "__file__", "__path__", "__annotations__", "WindowsError"}
@@ -33,11 +34,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     raised = {problem.location.file for problem in problems_of(context, PythonException)}
     for path, launch_file in context.launch_files.items():
         for name, near, span, called in _undefined(launch_file) if launch_file.is_python and path not in raised else ():
+            edits = PythonWriter(launch_file.document).rename_names(name, near) if near is not None else ()
             yield rule.finding(
                 f"undefined name '{name}'; this line raises a NameError{did_you_mean(near)}",
                 context.location(path, span),
                 severity="error" if called else "info",
                 confidence="likely",
+                fixes=fix(f"Replace '{name}' with '{near}'", edits, preferred=True),
             )
 
 

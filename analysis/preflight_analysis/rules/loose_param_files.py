@@ -76,7 +76,8 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         # Only what has a section of a node is one for certain.
         for name, span in file.unmarked[:1] if file.sections else ():
             message = prm012.MESSAGE.format(name, MARK)
-            yield prm012.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
+            place, fixes = document.location(span), prm012.marked(document, span)
+            yield prm012.RULE.finding(message, place, severity="warning", confidence="likely", fixes=fixes)
         for what, span in file.refused[:1]:
             message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
             yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")

@@ -4,7 +4,6 @@ import os
 import re
 from collections.abc import Iterator
 from functools import lru_cache
-from itertools import chain
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with, system_keys
 from preflight_analysis.documents.document import Document
@@ -17,7 +16,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.installed import is_of_family, near_package
 from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words, nearest
-from preflight_analysis.rules.problems import fix
+from preflight_analysis.rules.problems import all_of, fix
 from preflight_analysis.rules.rule import Context, Rule
 
 _DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
@@ -40,7 +39,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 f"unknown package '{name}': not in the workspace nor any distribution{did_you_mean(near)}",
                 manifest.location(spans[0]),
                 confidence="likely",
-                fixes=fix(f"Replace '{name}' with '{near}'", tuple(chain(*edits)), preferred=True),
+                fixes=fix(f"Replace '{name}' with '{near}'", all_of(*edits), preferred=True),
             )
 
 

@@ -3,9 +3,13 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Span
+from preflight_analysis.edits.writer import writer_of
+from preflight_analysis.edits.yaml import YamlWriter
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.rule import Context, Rule
 
 MESSAGE = "parameter '{}' is not below '{}'; rcl refuses the whole file"
@@ -24,7 +28,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             seen.add(path)
             for name, span in read_param_file(document).unmarked[:1]:
                 related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
-                yield rule.finding(MESSAGE.format(name, MARK), context.location(path, span), related=related)
+                yield rule.finding(
+                    MESSAGE.format(name, MARK),
+                    context.location(path, span),
+                    related=related,
+                    fixes=marked(document, span),
+                )
+
+
+def marked(document: Document, key: Span) -> tuple[Fix, ...]:
+    """A fix that writes `ros__parameters` above a key: in the place of a slip of it, or between it and the node."""
+    writer = document.once(writer_of)
+    if not isinstance(writer, YamlWriter):
+        return ()
+    above = [(document.text[span.start : span.end], span) for span in writer.ancestors(key)]
+    slip = next(((name, span) for name, span in above if name.replace("_", "") == MARK.replace("_", "")), None)
+    if slip is not None:
+        return fix(f"Replace '{slip[0]}' with '{MARK}'", writer.replace(slip[1], MARK), preferred=True)
+    return fix(f"Put the values below '{MARK}'", writer.nest(key, MARK), preferred=True)
 
 
 RULE = Rule(

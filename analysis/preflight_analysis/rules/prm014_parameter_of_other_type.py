@@ -6,11 +6,11 @@ from typing import Any
 
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.files import is_template
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.parameters import OF_ALL_NODES, refusal_finding
-from preflight_analysis.rules.problems import shortened
+from preflight_analysis.rules.problems import fix, shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
@@ -47,7 +47,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if message is None or (place, wanted) in reported:
                 continue  # what is written once for several nodes is wrong for each
             reported.add((place, wanted))
-            found = refusal_finding(rule, node, param, use, message)
+            found = replace(
+                refusal_finding(rule, node, param, use, message),
+                fixes=_fixes(context, param, passed, wanted, in_file=place.file in files),
+            )
             # A program writes the value into the file before it is used.
             yield replace(found, severity="info") if is_template(str(param.value)) else found
 
@@ -102,6 +105,28 @@ def _hint(passed: Any, given: str, wanted: str) -> str:
     if given == wanted.removesuffix(" array"):
         return f"; write [{passed}]" if given != "string" else ""
     return ""
+
+
+def _fixes(context: Context, param: Param, passed: Any, wanted: str, *, in_file: bool) -> tuple[Fix, ...]:
+    """The value as the message has it, where it is written as such."""
+    writer, given = context.writer(param.place.file), _type(passed)
+    new: object = None
+    match given, wanted:
+        case "integer", "double":
+            new = float(passed)
+        case "integer array", "double array":
+            new = [float(each) for each in passed]
+        case (("integer" | "double" | "bool"), "string"):
+            new = str(passed) if in_file else None
+        case "string", ("integer" | "double" | "bool"):
+            plain = plain_scalar(str(passed))
+            new = plain if _type(plain) == wanted else None
+        case _ if given is not None and given != "string" and given == wanted.removesuffix(" array"):
+            new = [passed]
+    if writer is None or new is None or _type(param.value) == wanted:
+        return ()
+    title = f"Write '{param.name.rpartition('.')[2]}' as {_named(wanted)}"
+    return fix(title, writer.set_parameter(param.place.span, param.value, new), preferred=True)
 
 
 def _type(value: Any) -> str | None:

@@ -106,6 +106,11 @@ def fix(title: str, edits: tuple[Edit, ...], *, preferred: bool = False) -> tupl
     return (Fix(title, edits, preferred),) if edits else ()
 
 
+def all_of(*parts: tuple[Edit, ...]) -> tuple[Edit, ...]:
+    """Edits that are right together only: none if one part of them cannot be made."""
+    return tuple(chain(*parts)) if all(parts) else ()
+
+
 def quoted(names: Iterable[str]) -> str:
     """`'a', 'b' and 'c'`."""
     return enumerated(f"'{name}'" for name in names)

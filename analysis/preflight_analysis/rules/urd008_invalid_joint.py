@@ -7,9 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import URDF_JOINT
 from preflight_analysis.rules.nearest import did_you_mean, nearest
+from preflight_analysis.rules.problems import fix
 from preflight_analysis.rules.robots import robots, written
 from preflight_analysis.rules.rule import Context, Rule
 
@@ -22,15 +25,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for joint in robot.description.joints:
             if joint.catalogued:
                 continue  # what its type and limits depend on is not known
+            near = None
             if joint.type not in _TYPES:
+                near = nearest(joint.type, _TYPES)
                 has = f"has the unknown type '{joint.type}'" if joint.type else "has no type"
-                message = f"joint '{joint.name}' {has}{did_you_mean(nearest(joint.type, _TYPES))}"
+                message = f"joint '{joint.name}' {has}{did_you_mean(near)}"
             elif joint.type in _LIMITED and not joint.limited:
                 message = f"joint '{joint.name}' has no <limit>, which the type '{joint.type}' requires"
             else:
                 continue
             place, related = written(context, robot, "joint", "name", joint.name)
-            yield rule.finding(message, place, related=related)
+            writer = context.writer(place.file) if near is not None else None
+            edits: tuple[Edit, ...] = ()
+            if near is not None and isinstance(writer, XmlWriter):
+                edits = writer.replace_beside(place.span, "type", joint.type, near)
+            fixes = fix(f"Replace '{joint.type}' with '{near}'", edits, preferred=True)
+            yield rule.finding(message, place, related=related, fixes=fixes)
 
 
 RULE = Rule(
