@@ -7,6 +7,8 @@ from support.check import check
 def test_a_substitution_that_cannot_be_made() -> None:
     check("""
         <launch>
+          <arg name="rate" default="1"/>
+          <param name="c" value="$(arg rate)"/>
           <param name="a" value="$(args rate)"/>
                                  ^^^^^^^^^^^^ error[LCH011]
           <param name="b" value="$(eval 1 / 0)"/>
@@ -33,6 +35,8 @@ def test_substitutions_of_ros1() -> None:
         launch:
           - include: {file: $(find p)/base.launch.xml}
                             ^^^^^^^^^ error[LCH011] 'find' is not a substitution; did you mean 'find-pkg-share'?
+        //- /p/base.launch.xml
+        <launch/>
     """)
 
 

@@ -271,7 +271,7 @@ def _check_fixes(fixture: Fixture, findings: Sequence[Finding], context: Context
 
     # What a command makes of an edited file the fixture does not say.
     told = frozenset(fixture.files) - context.launch_files.keys() if fixture.commands else frozenset()
-    tried = tries(findings, lambda path: _text_of(context, path), again, unlooked=told)
+    tried = tries(findings, lambda path: _text_of(context, path), again, unlooked=told, read=context.documents)
     wrong = [f"{each.rule}, {each.title}: {each.wrong}" for each in tried if each.wrong is not None]
     assert not wrong or os.environ.get("FIX_TALLY"), "\n" + "\n".join(wrong)
 

@@ -39,14 +39,16 @@ def tries(
     again: Again,
     before: Sequence[Finding] | None = None,
     unlooked: Collection[str] = (),
+    read: Collection[str] = (),
 ) -> list[Try]:
     """All fixes of the findings, each tried by itself. `before` are all findings, where that are not all; edits of the
-    files `unlooked` are only parsed."""
+    files `unlooked` are only parsed. `read` are the files that the launch reads: what is wrong in others, to which only
+    the fix leads, was so before."""
 
     def wrong(finding: Finding, fix: Fix) -> str | None:
         if any(edit.location.file in unlooked for edit in fix.edits):
             return refusal(fix.edits, text_of)
-        return _wrong(finding, fix, before or findings, text_of, again)
+        return _wrong(finding, fix, before or findings, text_of, again, read)
 
     found = [
         Try(finding.rule, _format(fix), fix.title, wrong(finding, fix)) for finding in findings for fix in finding.fixes
@@ -67,7 +69,9 @@ def _format(fix: Fix) -> str:
     return "+".join(dict.fromkeys(kinds.get(name) or PurePosixPath(name).suffix or name for name in names))
 
 
-def _wrong(finding: Finding, fix: Fix, before: Sequence[Finding], text_of: TextOf, again: Again) -> str | None:
+def _wrong(
+    finding: Finding, fix: Fix, before: Sequence[Finding], text_of: TextOf, again: Again, read: Collection[str]
+) -> str | None:
     why = refusal(fix.edits, text_of)
     if why is not None:
         return why
@@ -75,8 +79,14 @@ def _wrong(finding: Finding, fix: Fix, before: Sequence[Finding], text_of: TextO
     after = list(again(texts))
     if _count(after)[_key(finding)] >= _count(before)[_key(finding)]:
         return "the finding is still there"
-    errors = _count(f for f in after if f.severity == "error") - _count(f for f in before if f.severity == "error")
+    errors = _errors(after, read) - _errors(before, read)
     return f"new errors: {sorted(errors)}" if errors else None
+
+
+def _errors(findings: Iterable[Finding], read: Collection[str]) -> Counter[tuple[str, str, str]]:
+    """Those of the files that were read, but for what this machine lacks: only of a package that is known can it be."""
+    wrong = (each for each in findings if each.severity == "error" and each.lack is None)
+    return _count(each for each in wrong if each.location.file in read)
 
 
 def _key(finding: Finding) -> tuple[str, str, str]:

@@ -29,6 +29,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.workspace import Analysis
 from preflight_server.cli.project import OpenWorkspace, open_workspace, run_nodes_together
 from support.fix_property import Try, tries
 
@@ -88,7 +89,8 @@ def opened(job: Job, *, run: bool) -> OpenWorkspace:
 def tried_of(launches: OpenWorkspace, job: Job, known: set[object], base: str, *, run: bool) -> list[Try]:
     """What comes of the fixes of one launch file that were not tried in another one."""
     sources = launches.workspace.sources
-    findings = look(launches, job)
+    analysis = look(launches, job)
+    findings = analysis.findings
     new = [each for each in findings if not {(each.rule, fix.edits) for fix in each.fixes} <= known]
     known.update((each.rule, fix.edits) for each in new for fix in each.fixes)
 
@@ -102,26 +104,27 @@ def tried_of(launches: OpenWorkspace, job: Job, known: set[object], base: str, *
             for path, text in texts.items():
                 Path(path).write_bytes(text.encode())
             launches.workspace.refresh()
-            return look(opened(job, run=run) if any(Path(path).name == MANIFEST for path in texts) else launches, job)
+            anew = any(Path(path).name == MANIFEST for path in texts)
+            return look(opened(job, run=run) if anew else launches, job).findings
         finally:
             for path, content in before.items():
                 Path(path).write_bytes(content)
             launches.workspace.refresh()
 
-    tried = tries(new, text_of, again, findings)
+    tried = tries(new, text_of, again, findings, read=analysis.documents)
     for each in tried:
         if each.wrong is not None:
             print(f"{os.path.relpath(job.file, base)}: {each.rule} {each.title}: {each.wrong}", flush=True)
     return tried
 
 
-def look(launches: OpenWorkspace, job: Job) -> tuple[Finding, ...]:
-    """The findings of a launch file, with those of what it leaves out, and what is known of nodes without a run."""
+def look(launches: OpenWorkspace, job: Job) -> Analysis:
+    """The analysis of a launch file and of what it leaves out, with what is known of nodes without a run."""
     project = launches.analysed(str(job.file), dict(job.args))
     branches = launches.branches(project.analysis)
     launches.workspace.set_branches(project.analysis.launch, branches)
     run_nodes_together([project], argparse.Namespace(no_run=True, jobs=1))
-    return project.with_results().findings
+    return project.with_results()
 
 
 def jobs(folder: Path) -> Iterator[Job]:

@@ -1,0 +1,29 @@
+"""Every fix that is offered is tried: files parse, the finding is gone, no error is new. `tests/tools/fixes.py` tries
+those of a corpus; `support.check.check` those of all rules' own cases."""
+
+import shutil
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from support.mistakes import write_mistakes
+from tools.fixes import table, tried_in
+
+_FIXTURES = Path(__file__).parents[2] / "fixtures"
+
+
+@pytest.mark.ros
+def test_fixes_of_simple_mistakes_in_each_language(tmp_path: Path) -> None:
+    write_mistakes(tmp_path)
+    tried = tried_in(tmp_path, run=True)
+    assert [each for each in tried if each.wrong is not None] == []
+    formats = Counter(each.format for each in tried)
+    assert min(formats[".py"], formats[".xml"], formats[".yaml"]) > 15, table(tried)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["ros1/demo", "ros1/robot", "ros1/tutorials", "ros2/chapter", "ros1/meaning"])
+def test_fixes_of_the_fixtures(name: str, tmp_path: Path) -> None:
+    shutil.copytree(_FIXTURES / name, tmp_path / "copy", symlinks=True)
+    tried = tried_in(tmp_path / "copy", sample=40)
+    assert [each for each in tried if each.wrong is not None] == []
