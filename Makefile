@@ -14,7 +14,7 @@ LUA = $(shell git ls-files '*.lua')
 PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus fixes nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -89,6 +89,9 @@ corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch a
 	$(PYTHON) ../shared/tools/compare_ros2.py --root $(CORPUS2) $(CORPUS2)/expected-xml-yaml.jsonl out/ros2.jsonl > out/ros2.txt; \
 	tail -n 3 out/ros2.txt; grep -qE '^(19[5-9]|2[0-9][0-9]) of 223 equal' out/ros2.txt  # the others need what the corpus lacks
 	$(BIN)/python tests/tools/ros2_python_corpus.py --corpus $(CORPUS2) --sources "$(SOURCES2)" --compare ../shared/tools/compare_ros2.py --show 0
+
+fixes: $(READY) ## every fix of every finding in the fixtures, ../shared/corpus and ../shared/cases, tried one by one: what each leaves
+	$(BIN)/python tests/tools/fixes.py fixtures/ros1/* fixtures/ros2/* $(wildcard ../shared/corpus/ros? ../shared/cases/dev)
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import pytest
+from preflight_analysis.edits.edit import applied
 from preflight_analysis.workspace.settings_edit import turn_off
 
 FILE = "/ws/launch/robot.launch"
+SETTINGS = "/ws/.ros-preflight.yaml"
 
 
 def edited(text: str, rule: str = "TOP001", file: str | None = None) -> str:
-    found = turn_off("/ws", text, rule, file)
+    found = turn_off("/ws", SETTINGS, text, rule, file)
     assert found is not None
-    span, written = found
-    return text[: span.start] + written + text[span.end :]
+    return applied(text, [found])
 
 
 @pytest.mark.parametrize(
@@ -69,4 +70,4 @@ def test_a_later_entry_that_says_otherwise_gets_another_behind_it() -> None:
 @pytest.mark.silent
 @pytest.mark.parametrize("text", ["[1, 2]", "a: [", "text", "severities: 5\n", "severities: [a]\n"])
 def test_what_is_no_settings_file_is_left_alone(text: str) -> None:
-    assert turn_off("/ws", text, "TOP001", None) is None
+    assert turn_off("/ws", SETTINGS, text, "TOP001", None) is None

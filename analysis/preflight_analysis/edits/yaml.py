@@ -221,6 +221,10 @@ class YamlWriter(HashComments):
             return self.write_below(node, "\n" + "\n".join(indent + line for line in block.split("\n")))
         return ()
 
+    def write_over(self, node: yaml.Node, written: str) -> tuple[Edit, ...]:
+        """Written, as it stands, in the place of a node."""
+        return (Edit(self._document.location(span_of(node)), written),)
+
     def write_below(self, node: yaml.Node, written: str) -> tuple[Edit, ...]:
         """Written behind the line on which a node ends."""
         end = self._end_of_lines(node)

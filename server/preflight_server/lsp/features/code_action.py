@@ -14,17 +14,15 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
 from preflight_analysis.documents.reading import Text, read_text
-from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.gate import passes
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.findings.offered import with_offered_fixes
 from preflight_analysis.queries.actions import FixOf, annotating, fix_all, fixes, touching
 from preflight_analysis.queries.suppressing import suppress_on_line
 from preflight_analysis.workspace.settings_edit import turn_off
@@ -74,7 +72,7 @@ class _Actions:
         self._view = view
         self._only = [k.value if isinstance(k, types.CodeActionKind) else str(k) for k in params.context.only or ()]
         self._span = view.converter.span(view.path, params.range)
-        self._findings = with_offered_fixes(touching(view.findings, view.path, self._span), view.text)
+        self._findings = touching(view.findings, view.path, self._span)
         self._first: dict[str, Finding] = {}
         """The first finding in the range of each rule."""
         for finding in self._findings:
@@ -103,7 +101,9 @@ class _Actions:
         kind = kind.value if isinstance(kind, types.CodeActionKind) else kind
         return not self._only or any(kind == asked or kind.startswith(f"{asked}.") for asked in self._only)
 
-    def _passes(self, title: str, edits: Iterable[Edit]) -> bool:
+    def _passes(self, title: str, edits: Sequence[Edit]) -> bool:
+        """Whether edits may be offered. It raises where a text is another one by now, whose offsets they would have."""
+        self._edit(edits)
         return passes(title, edits, self._view.text)
 
     def _edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
@@ -130,7 +130,7 @@ class _Actions:
         )
 
     def _quick_fixes(self) -> Iterator[types.CodeAction]:
-        found = tuple(fixes(self._findings))
+        found = [e for e in fixes(self._findings) if self._passes(f"{e.finding.rule} {e.fix.title}", e.fix.edits)]
         titles = Counter(each.fix.title for each in found)
         for each in found:
             title = each.fix.title if titles[each.fix.title] == 1 else f"{each.fix.title} ({self._place(each)})"
@@ -186,12 +186,8 @@ class _Actions:
         if not exists and (os.path.lexists(path) or not _can_create(self._ls.client_capabilities)):
             return None
         text = opened.text if opened is not None else read.text if isinstance(read, Text) else ""
-        found = turn_off(folder, text, rule, file)
-        if found is None:
-            return None
-        span, written = found
-        edit = Edit(LineIndex(text).location(path, span), written)
-        if not passes(f"{SETTINGS_FILE}: {rule}", [edit], {path: text}.get):
+        edit = turn_off(folder, path, text, rule, file)
+        if edit is None or not passes(f"{SETTINGS_FILE}: {rule}", [edit], {path: text}.get):
             return None
         converter = self._view.converter
         if exists:
