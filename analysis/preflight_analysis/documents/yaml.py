@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import yaml
@@ -115,7 +116,7 @@ def parse_yaml(path: str, text: str, lines: LineIndex | None = None) -> YamlDocu
     attempt = text
     for _ in range(MAX_REPAIRS):
         try:
-            node = compose_fast(attempt)
+            node = composed(attempt)
         except yaml.YAMLError as error:
             problem, at = _problem(error, attempt)
             if not problems:
@@ -152,6 +153,13 @@ def compose_fast(
         if node is not None and (depth < _DEPTH_OF_PYYAML or _depth(node) < _DEPTH_OF_PYYAML):
             return node
     return compose(text, loader)
+
+
+@lru_cache(maxsize=8)
+def composed(text: str) -> yaml.Node | None:
+    """What `compose_fast` gives. A text that is being edited is asked for by its reader and by the writer of its fixes;
+    nobody changes the nodes."""
+    return compose_fast(text)
 
 
 def _depth(root: yaml.Node) -> int:

@@ -96,8 +96,9 @@ class PythonWriter(HashComments):
         call = self._call(action)
         if call is not None:
             return self._without(call)
-        literal = next((each for each in self._literals if each.span == action.kind_span), None)
-        return self._without_pair(literal.node) if literal is not None else ()
+        literal = self._literal_at(action.kind_span)
+        whole = literal is not None and literal.span == action.kind_span
+        return self._without_pair(literal.node) if literal is not None and whole else ()
 
     def set_attribute(self, action: Action, name: str, value: str) -> tuple[Edit, ...]:
         """What an attribute is called in Python, and how it is written, is not known here."""
@@ -117,7 +118,7 @@ class PythonWriter(HashComments):
 
     def replace(self, span: Span, new: str) -> tuple[Edit, ...]:
         """Write `new` in the place of a part of a text that is written as one string, with its quotes."""
-        literal = next((each for each in self._literals if _covers(each.span, span)), None)
+        literal = self._literal_at(span)
         if literal is None:
             return self._in_comment(span, new)
         if "\\" in self._text[literal.span.start : literal.span.end]:
@@ -141,13 +142,16 @@ class PythonWriter(HashComments):
                     if id(each) not in nodes:
                         nodes[id(each)] = each
                         waiting += ast.iter_child_nodes(each)
-        return tuple(each.span for each in self._literals if id(each.node) in nodes and each.node.value == text)
+        texts = (
+            each for on_line in self._texts.values() for each in on_line if each.value == text and id(each) in nodes
+        )
+        return tuple(each.span for each in filter(None, map(self._literal, texts)))
 
     def set_parameter(self, name: Span, old: object, new: object) -> tuple[Edit, ...]:
         """Give the parameter whose name is at a span another value, if the one that it has is written beside it."""
-        literal = next((each for each in self._literals if each.span == name), None)
+        literal = self._literal_at(name)
         holder = self._parents.get(id(literal.node)) if literal is not None else None
-        if literal is None or not isinstance(holder, ast.Dict) or isinstance(new, str):
+        if literal is None or literal.span != name or not isinstance(holder, ast.Dict) or isinstance(new, str):
             return ()
         value = next(
             (value for key, value in zip(holder.keys, holder.values, strict=True) if key is literal.node), None
@@ -404,25 +408,36 @@ class PythonWriter(HashComments):
     def _parents(self) -> dict[int, ast.AST]:
         return {id(child): node for node in self._nodes for child in ast.iter_child_nodes(node)}
 
+    def _literal_at(self, span: Span) -> _Literal | None:
+        """The text that has all of a span."""
+        line, _ = self._document.lines.position(span.start)
+        found = filter(None, map(self._literal, self._texts.get(line + 1, ())))
+        return next((each for each in found if _covers(each.span, span)), None)
+
     @cached_property
-    def _literals(self) -> list[_Literal]:
-        """All texts that are written as one string on one line, and are no part of a text with values in it."""
-        found: list[_Literal] = []
+    def _texts(self) -> dict[int, list[ast.Constant]]:
+        """The texts on each line, counted from 1, but for parts of texts with values in them."""
+        parts = {id(part) for node in self._nodes if isinstance(node, ast.JoinedStr) for part in node.values}
+        found: dict[int, list[ast.Constant]] = {}
         for node in self._nodes:
-            if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
-                continue
-            if node.lineno != node.end_lineno or isinstance(self._parents.get(id(node)), ast.JoinedStr):
-                continue
-            whole = self._source.whole_span(node)
-            written = self._text[whole.start : whole.end]
-            begun = _STRING.match(written)
-            if begun is None or not written.endswith(begun[2]) or len(written) < begun.end() + len(begun[2]):
-                continue
-            span = Span(whole.start + begun.end(), whole.end - len(begun[2]))
-            # Several strings side by side are one text, too.
-            if re.search(rf"(?<!\\){begun[2][0]}", self._text[span.start : span.end]) is None:
-                found.append(_Literal(node, span, begun[2][0], "r" in begun[1].lower()))
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in parts:
+                found.setdefault(node.lineno, []).append(node)
         return found
+
+    def _literal(self, node: ast.Constant) -> _Literal | None:
+        """A text that is written as one string on one line."""
+        if node.lineno != node.end_lineno:
+            return None
+        whole = self._source.whole_span(node)
+        written = self._text[whole.start : whole.end]
+        begun = _STRING.match(written)
+        if begun is None or not written.endswith(begun[2]) or len(written) < begun.end() + len(begun[2]):
+            return None
+        span = Span(whole.start + begun.end(), whole.end - len(begun[2]))
+        # Several strings side by side are one text, too.
+        if re.search(rf"(?<!\\){begun[2][0]}", self._text[span.start : span.end]) is not None:
+            return None
+        return _Literal(node, span, begun[2][0], "r" in begun[1].lower())
 
     def _start_of(self, node: ast.keyword | ast.alias | ast.stmt) -> int:
         return self._offset(node.lineno, node.col_offset)

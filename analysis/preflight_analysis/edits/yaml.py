@@ -10,7 +10,7 @@ import yaml
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, constructed, span_of
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast, composed, constructed, span_of
 from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.hash_comments import HashComments
@@ -50,14 +50,6 @@ def _has_key(node: yaml.MappingNode, name: str) -> bool:
     return any(key.value == name for key, _ in node.value)
 
 
-@lru_cache(maxsize=8)
-def _composed(text: str) -> yaml.Node | None:
-    try:
-        return compose_fast(text)
-    except CONSTRUCTION_ERRORS:
-        return None
-
-
 class YamlWriter(HashComments):
     """Edits of one file. An edit that cannot be made is no edit: the tuple is empty."""
 
@@ -68,7 +60,10 @@ class YamlWriter(HashComments):
     @cached_property
     def root(self) -> yaml.Node | None:
         """What the text is; None where it is empty or malformed."""
-        return _composed(self._text)
+        try:
+            return composed(self._text)
+        except CONSTRUCTION_ERRORS:
+            return None
 
     def declare_argument(self, root: Action, name: str) -> tuple[Edit, ...]:
         """Declare an argument without a default before all else."""
@@ -320,10 +315,16 @@ class YamlWriter(HashComments):
         return None
 
     def _scalar_at(self, span: Span) -> yaml.ScalarNode | None:
-        for node in self._nodes:
-            whole = span_of(node)
-            if isinstance(node, yaml.ScalarNode) and whole.start <= span.start and span.end <= whole.end:
-                return node
+        waiting = [self.root] if self.root is not None else []
+        while waiting:
+            node = waiting.pop()
+            start, end = span_of(node)
+            # An alias stands for a node elsewhere.
+            if start <= span.start and span.end <= end:
+                if isinstance(node, yaml.ScalarNode):
+                    return node
+                parts = [part for each in node.value for part in (each if isinstance(each, tuple) else (each,))]
+                waiting += [part for part in parts if part.start_mark.index <= span.start]
         return None
 
     @cached_property
