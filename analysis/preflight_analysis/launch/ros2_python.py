@@ -160,7 +160,8 @@ class _Reader:
             # Taken for unknown: whether it is executed is not for us to say.
             condition, of = self._source.resolved(given["condition"]), "if"
             if isinstance(condition, ast.Call) and condition.args and last_name(condition.func) in _CONDITIONS:
-                condition, of = condition.args[0], _CONDITIONS[last_name(condition.func)]
+                of = _CONDITIONS[last_name(condition.func)]
+                condition = condition.args[0]
             attributes[of] = [_unknown(condition)]
         children: list[dict[str, Any]] = []
         if kind == "arg" and "choices" in given and id(call) in self._sure:

@@ -4,11 +4,11 @@ from collections.abc import Iterator, Sequence
 from itertools import compress
 
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Edit, Finding, Fix
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import annotated_groups, read_annotation
 from preflight_analysis.graph.bare_types import KINDS, full_types, is_bare
 from preflight_analysis.rules.further_reading import ANNOTATIONS
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Endpoint
 
@@ -39,7 +39,9 @@ def _bare_types(rule: Rule, node: LaunchNode, context: Context) -> Iterator[Find
                 place,
                 severity="info",
                 related=include_chain(node.origin),
-                fixes=[Fix(f"Replace '{what.type}' with '{each}'", (Edit(place, each),)) for each in full[:_MOST]],
+                fixes=[
+                    fix for each in full[:_MOST] for fix in rename(context, place, what.type, each, preferred=False)
+                ],
             )
 
 

@@ -66,8 +66,8 @@ def _around(
 
 @query
 def _in_folder(db: Database, folder: str, patterns: Patterns, suffixes: tuple[str, ...] | None) -> Mapping[str, int]:
-    paths = files_in(Disk(db), folder, deep=True)
-    paths = launch_files_of(db, paths) if suffixes is None else [path for path in paths if path.endswith(suffixes)]
+    there = files_in(Disk(db), folder, deep=True)
+    paths = launch_files_of(db, there) if suffixes is None else [path for path in there if path.endswith(suffixes)]
     return dict(Counter(chain.from_iterable(_in_file(db, path, patterns) for path in paths[:_MOST])))
 
 
