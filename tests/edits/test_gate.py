@@ -88,6 +88,7 @@ def _finding() -> Finding:
     return Finding("LCH000", "a", "error", "certain", "a", location("/a.launch", 0, 0), fixes=fixes)
 
 
+@pytest.mark.breaks
 def test_what_is_refused_is_not_offered_and_logged(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:

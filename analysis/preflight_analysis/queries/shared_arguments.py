@@ -8,13 +8,14 @@ launch configurations are not scoped by includes.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchTree, Use
+from preflight_analysis.launch.model import Value
 from preflight_analysis.launch.references import arg_references
 from preflight_analysis.launch.substitutions import parse_value
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
@@ -235,7 +236,7 @@ def substituted_files(context: QueryContext, trees: Iterable[LaunchTree], name: 
                 continue
             path = use.target.file
             if path not in found:
-                spans = _uses_in(context, path, 2 if shared else 1)
+                spans = _uses_in(context, path, parse_value_ros2 if shared else parse_value)
                 places = tuple(context.location(path, span) for used, span in spans if used == name)
                 found[path] = SubstitutedFile({}, places)
             found[path].launch_files[file] = None
@@ -255,10 +256,9 @@ def _substituting(context: QueryContext, path: str) -> Iterator[int]:
             yield file.span.start
 
 
-def _uses_in(context: QueryContext, path: str, generation: int) -> Iterator[tuple[str, Span]]:
+def _uses_in(context: QueryContext, path: str, parse: Callable[[SpannedText], Value]) -> Iterator[tuple[str, Span]]:
     document = context.document(path)
     if document is not None:
-        text = SpannedText(document.text, Span(0, len(document.text)))
-        value = parse_value(text) if generation == 1 else parse_value_ros2(text)
+        value = parse(SpannedText(document.text, Span(0, len(document.text))))
         if value.problem is None:
             yield from arg_references(value)
