@@ -28,7 +28,7 @@ def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
     if source.module is None:
         return ()
     found = _Finder(source)
-    found.visit(source.module)
+    found.look_at(source.module)
     return tuple(found.found)
 
 
@@ -40,8 +40,19 @@ class _Finder(ast.NodeVisitor):
         self._names = BoundNames(source)
         self.found: list[tuple[Span, str]] = []
 
+    def look_at(self, module: ast.Module) -> None:
+        """Visit all nodes, without a recursion: an expression may be as deep as the file is long."""
+        waiting: list[ast.AST] = [module]
+        while waiting:
+            node = waiting.pop()
+            self.visit(node)
+            if not isinstance(node, ast.JoinedStr):
+                waiting.extend(ast.iter_child_nodes(node))
+
+    def generic_visit(self, node: ast.AST) -> None:
+        """Children have a turn of their own."""
+
     def visit_BoolOp(self, node: ast.BoolOp) -> None:
-        self.generic_visit(node)
         for at, each in enumerate(node.values[:-1]):
             kind = self._kind(each)
             if kind is not None:
@@ -56,7 +67,6 @@ class _Finder(ast.NodeVisitor):
                 return
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> None:
-        self.generic_visit(node)
         kind = self._kind(node.operand) if isinstance(node.op, ast.Not) else None
         if kind is not None:
             self._say(
@@ -66,15 +76,12 @@ class _Finder(ast.NodeVisitor):
             )
 
     def visit_IfExp(self, node: ast.IfExp) -> None:
-        self.generic_visit(node)
         self._test(node.test)
 
     def visit_If(self, node: ast.If) -> None:
-        self.generic_visit(node)
         self._test(node.test)
 
     def visit_Compare(self, node: ast.Compare) -> None:
-        self.generic_visit(node)
         if len(node.ops) != 1 or not isinstance(node.ops[0], (ast.Eq, ast.NotEq)):
             return
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
@@ -92,7 +99,6 @@ class _Finder(ast.NodeVisitor):
         self._in_text(node, (each.value for each in node.values if isinstance(each, ast.FormattedValue)))
 
     def visit_Call(self, node: ast.Call) -> None:
-        self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id == "str" and len(node.args) == 1 and not node.keywords:
             self._in_text(node, node.args)
 
