@@ -11,7 +11,7 @@ import pytest
 from preflight_analysis.catalogue import packages, renamed
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.nodl import catalogued
-from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse, Range
+from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Range
 from support import package_elsewhere
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
@@ -46,10 +46,18 @@ def catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 analysed = partial(package_elsewhere.analysed, distro="noetic")
 
 
-def graph_of(tmp_path: Path, text: str, name: str = "a.launch", run: Interface = NOT_RUN, **files: str) -> Graph:
-    graph = analysed(tmp_path, text, name, run=run, **files).graph
+def graph_of(tmp_path: Path, text: str, name: str = "a.launch", **files: str) -> Graph:
+    graph = analysed(tmp_path, text, name, **files).graph
     assert graph is not None
     return graph
+
+
+def after(run: Interface, tmp_path: Path) -> Interface:
+    """What is known of a node of which a run told this."""
+    text = '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>'
+    graph = package_elsewhere.analysed_after(run, tmp_path, text, "noetic").graph
+    assert graph is not None
+    return graph.interfaces[0]
 
 
 def known(graph: Graph) -> list[tuple[Any, ...]]:
@@ -91,8 +99,7 @@ _SEEN = (Endpoint("publisher", "/scan", "sensor_msgs/LaserScan"), Endpoint("publ
 )
 def test_a_run_that_ended_early_is_completed(tmp_path: Path, outcome: Outcome) -> None:
     run = Interface("trace", outcome, _SEEN, (ParamUse("~rate", "get"),))
-    graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>', run=run)
-    (interface,) = graph.interfaces
+    interface = after(run, tmp_path)
     assert (interface.source, interface.outcome) == ("catalogue", outcome)
     assert [(e.name, e.inferred, e.catalogued[:13]) for e in interface.endpoints] == [
         ("/scan", False, ""),
@@ -110,8 +117,7 @@ def test_a_run_that_ended_early_is_completed(tmp_path: Path, outcome: Outcome) -
 @pytest.mark.parametrize("outcome", [Outcome("spinning"), Outcome("exited", 0), Outcome("spinning", answers=("it",))])
 def test_a_run_to_the_event_loop_stands(tmp_path: Path, outcome: Outcome) -> None:
     run = Interface("trace", outcome, _SEEN)
-    graph = graph_of(tmp_path, '<launch><node pkg="scanner" type="scan_node" name="s"/></launch>', run=run)
-    assert graph.interfaces[0].endpoints == _SEEN
+    assert after(run, tmp_path).endpoints == _SEEN
 
 
 def test_controllers_of_spawners_whose_type_is_not_known(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from preflight_analysis.environment.detect import detect_environment
@@ -17,12 +18,21 @@ def analysed(
     text: str,
     name: str = "a.launch",
     distro: str | None = None,
-    run: Interface = NOT_RUN,
     **files: str,
 ) -> Analysis:
     """Write the package with a launch file, and `files` beside it, into a workspace below `folder`, and analyse that
-    without running anything. `distro`: what the environment names, None where it names none. `run`: what a run of each
-    node told."""
+    without running anything. `distro`: what the environment names, None where it names none."""
+    return _analysed(folder, text, name, distro, NOT_RUN, files)
+
+
+def analysed_after(run: Interface, folder: Path, text: str, distro: str) -> Analysis:
+    """The same where a run of each node told this."""
+    return _analysed(folder, text, "a.launch", distro, run, {})
+
+
+def _analysed(
+    folder: Path, text: str, name: str, distro: str | None, run: Interface, files: Mapping[str, str]
+) -> Analysis:
     package = folder / "ws" / "src" / "robot"
     for path, content in {"package.xml": _MANIFEST, name: text, **files}.items():
         (package / path).parent.mkdir(parents=True, exist_ok=True)
