@@ -113,10 +113,10 @@ _SERVES = '"services": {"~/change_state": "lifecycle_msgs/srv/ChangeState"}'
         ("", '"source": "catalogue", "status": "not-run", "publishers": {"out": "std_msgs/msg/Empty"}', "warning"),
         (
             "",
-            '"source": "source", "status": "not-run", "computed": [["client", "lifecycle_msgs/srv/ChangeState"]]',
+            '"source": "source", "status": "not-run", "unnamed_calls": ["lifecycle_msgs/srv/ChangeState"]',
             None,
         ),
-        ("", '"source": "source", "status": "not-run", "computed": [["client", "std_srvs/srv/Empty"]]', "info"),
+        ("", '"source": "source", "status": "not-run", "unnamed_calls": ["std_srvs/srv/Empty"]', "info"),
     ],
 )
 def test_a_node_whose_run_or_source_shows_that_it_is_one(driver: str, other: str, said: str | None) -> None:

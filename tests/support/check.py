@@ -355,7 +355,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         frame_uses=tuple(FrameUse(*each) for each in data.get("frame_uses", ())),
         nodes=nodes,
         transitions=tuple(data.get("transitions", ())),
-        computed=tuple((role, type_) for role, type_ in data.get("computed", ())),
+        unnamed_calls=tuple(data.get("unnamed_calls", ())),
         stand_ins=tuple(data.get("stand_ins", ())),
     )
 

@@ -196,7 +196,7 @@ def _with_more(node: LaunchNode, interface: Interface, found: Interface | Source
     whole = replace(
         whole,
         whole=KINDS if found.whole else (),
-        computed=found.unnamed,
+        unnamed_calls=tuple(type_ or "*" for role, type_ in found.unnamed if role == "client"),
         transitions=whole.transitions or found.transitions,
     )
     if node.resolved.path is not None or node.resolved.not_executable or node.unknowns:

@@ -24,7 +24,7 @@ DOES: Mapping[str, str] = {
 }
 """What a node does at an end of each role, in words for the user; the name follows."""
 KindOfEnds = Literal["topics", "services", "actions"]
-Kind = KindOfEnds | Literal["parameters"]
+Kind = Literal["topics", "services", "actions", "parameters"]
 """What a node may do, as it may be known of one kind and not of another."""
 CHANGE_STATE = "lifecycle_msgs/srv/ChangeState"
 """The type of the service `~/change_state` of a lifecycle node, by which others configure and activate it."""
@@ -330,8 +330,8 @@ class Interface:
     unnamed: tuple[Endpoint, ...] = ()
     """What it was seen to make under names that it makes up in each run, at random: the name of each is that of one
     run, and none of the others. They are not among the endpoints."""
-    computed: tuple[tuple[Role, str | None], ...] = ()
-    """Role and type of what its source makes beside these, under names that are not known."""
+    unnamed_calls: tuple[str, ...] = ()
+    """The types of the services that its source calls under names that are not known, `*` for one that is not known."""
     whole: tuple[Kind, ...] = ()
     """The kinds of which its source, which it is known from, told all: each name is computed, each branch gone through;
     or the files and arguments that name the ends of a bridge or a relay."""
@@ -357,8 +357,8 @@ class Interface:
 
     def may_call(self, type_: str) -> bool:
         """Whether it makes a client of that type of service under a name that is not known."""
-        ends = (*self.computed, *((end.role, end.type) for end in self.unnamed))
-        return any(role == "client" and each in (None, type_) for role, each in ends)
+        at_random = (end.type or "*" for end in self.unnamed if end.role == "client")
+        return not {type_, "*"}.isdisjoint((*self.unnamed_calls, *at_random))
 
     def tells_all(self, *kinds: Kind) -> bool:
         """Whether it was seen to do all that it does, or its source tells all of these kinds: what is not there is
