@@ -40,6 +40,8 @@ _SYSTEM = (
     "/etc/NetworkManager/system-connections",
     "/etc/wpa_supplicant",
 )
+_OF_INSTALLATION = ("/etc/ros", "/etc/lsb-release", "/etc/mime.types", "/etc/fonts", "/etc/ssl/openssl.cnf")
+"""What ROS, Python and libraries read of the system for themselves, whatever a node does."""
 _OPEN_DOT_FOLDERS = frozenset((".ros",))
 _KEY_FOLDERS = frozenset((".ssh", ".gnupg", ".aws", ".azure", ".kube", ".docker"))
 _KEY_FILES = re.compile(
@@ -118,7 +120,8 @@ class Access:
         """Whether it is a file out there that a program may have made its output of: code is none."""
         name = os.path.basename(path)
         is_code = name.endswith((".py", ".pyc", ".so")) or ".so." in name
-        return not is_code and os.path.isfile(path) and self.is_outside(path)
+        of_system = any(within(path, each) for each in _OF_INSTALLATION)
+        return not is_code and not of_system and os.path.isfile(path) and self.is_outside(path)
 
     def _is_allowed(self, real: str) -> bool:
         allowed = [os.path.expanduser(each) for each in self.allowed if "/" in each]
