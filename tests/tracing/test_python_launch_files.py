@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from preflight_analysis.evaluation.problems import PythonException
+from preflight_analysis.evaluation.problems import PythonException, WithheldVariable
 from preflight_analysis.tracing import launch_files, run
 from preflight_analysis.workspace.sources import Sources
 from support.python_launch_harness import PythonHarness, line_of
@@ -447,8 +447,9 @@ def test_secrets_are_not_handed_on_and_not_said_to_be_unset(harness: PythonHarne
         harness, "Node(package='p', executable='x', name='n')", before=f"import os\nos.environ['{name}']\n"
     )
     tree = harness.launch(path, variables={name: value}).tree
-    assert not tree.problems
-    assert f"the sandbox is not told what {name} is" in [unknown.reason for unknown in tree.unknowns]
+    assert [problem.kind for problem in tree.problems] == [WithheldVariable(name)]
+    assert f"environment variable '{name}' is a secret" in [unknown.reason for unknown in tree.unknowns]
+    assert "hidden" not in repr(tree)
 
 
 def test_a_file_that_an_earlier_run_wrote_is_there_in_the_next(harness: PythonHarness) -> None:
