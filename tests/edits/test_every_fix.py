@@ -19,6 +19,13 @@ def test_fixes_of_simple_mistakes_in_each_language(tmp_path: Path) -> None:
     assert [each for each in tried if each.wrong is not None] == []
     formats = Counter(each.format for each in tried)
     assert min(formats[".py"], formats[".xml"], formats[".yaml"]) > 15, table(tried)
+    titles = {(each.format, each.title) for each in tried}
+    for form in (".py", ".xml", ".yaml"):
+        for title in ("Replace 'sped' with 'speed'", "Declare argument 'sped'", "Do not pass argument 'foo'"):
+            assert (form, title) in titles
+        assert (form, "Write 'max_speed' as a double") in titles
+    for title in ("Put the values below 'ros__parameters'", "Replace 'ros_parameters' with 'ros__parameters'"):
+        assert (".yaml", title) in titles
 
 
 @pytest.mark.slow
