@@ -42,6 +42,7 @@ def test_every_module_is_compiled_once(tmp_path: Path, monkeypatch: pytest.Monke
 def test_a_run_uses_the_copy(tmp_path: Path) -> None:
     """What was compiled counts, not the source beside it: that is what saves the time."""
     agents = Copies(tmp_path / "cache").of(SYSTEM_PYTHON, VISIBLE)
+    assert agents is not sandbox.AGENTS  # what is written over is no source of ours
     for source in (*agents.library.glob("*.py"), *agents.aspectlib.glob("*.py")):
         source.write_text("raise SystemExit('the source was read')")
     script = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nrospy.spin()")
