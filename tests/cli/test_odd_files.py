@@ -17,7 +17,8 @@ from pathlib import Path
 from urllib.parse import unquote_to_bytes
 
 import pytest
-from tools import attacks
+from support.ordinary_user import become
+from tools.attacks import readable_python
 
 pytestmark = pytest.mark.ros
 
@@ -64,7 +65,7 @@ class User:
         prefix: list[str] = ["env"]
         python: list[str] = [sys.executable]
         if self.root:
-            prefix, python = [*attacks.become("nobody"), "env"], attacks.readable_python("nobody")
+            prefix, python = [*become("nobody"), "env"], readable_python("nobody")
             for place in (self.home, self.workspace, *self.workspace.rglob("*")):
                 os.chown(place, *NOBODY, follow_symlinks=False)
         variables = ["-i", f"HOME={self.home}", "PATH=/usr/bin:/bin", f"ROS_PACKAGE_PATH={self.workspace}/src"]
@@ -206,7 +207,8 @@ def test_a_path_with_odd_characters(user: User, name: str) -> None:
     package = create(user.workspace, name, f"{name}.launch")
     launch = package / "launch" / f"{name}.launch"
     below = str(launch.relative_to(user.workspace))
-    seen = re.sub("[\x00-\x1f\u202e\udc80-\udcff]", "\N{REPLACEMENT CHARACTER}", below)
+    pictures = re.sub("[\x00-\x1f]", lambda control: chr(0x2400 + ord(control[0])), below)
+    seen = re.sub("[\u202e\udc80-\udcff]", "\N{REPLACEMENT CHARACTER}", pictures)
     _, text, _ = user.check(launch)
     assert f"{seen}:5:" in text
     assert not re.search("[\x00-\x09\x0b-\x1f\u202e]|^::", text, re.MULTILINE), "what a terminal or a CI obeys"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import pwd
 import subprocess
 from collections.abc import Iterator
 
@@ -22,4 +23,4 @@ def ordinary_user() -> Iterator[str]:
 
 def become(name: str) -> list[str]:
     """What to put before a command that is to run as that user."""
-    return ["setpriv", f"--reuid={name}", f"--regid={name}", "--clear-groups"]
+    return ["setpriv", f"--reuid={name}", f"--regid={pwd.getpwnam(name).pw_gid}", "--clear-groups"]
