@@ -187,7 +187,8 @@ async def test_trust_is_managed_where_the_client_can(harness: Harness) -> None:
 
 
 async def test_the_command_that_installs_is_shown(harness: Harness) -> None:
-    path = harness.write("robot.launch", '<launch>\n  <node pkg="amcl" type="amcl" name="amcl"/>\n</launch>\n')
+    node = '<node pkg="image_rotate" type="image_rotate" name="rotate"/>'
+    path = harness.write("robot.launch", f"<launch>\n  {node}\n</launch>\n")
     async with editing(harness) as editor:
         editor.open(path)
         found = await offered(editor, path, "PKG001")

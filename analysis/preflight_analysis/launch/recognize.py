@@ -112,6 +112,8 @@ def _is_yaml_launch_file(text: str, *, is_named: bool) -> bool:
 
 
 def _is_xml_launch_file(path: str, text: str, *, is_named: bool) -> bool:
+    if not is_named and not path.endswith(".xml"):
+        return False
     tag = document_element(text)
     if tag == "launch" or not is_named:
         return tag == "launch"

@@ -21,8 +21,10 @@ def is_launch_file(document: OpenDocument) -> bool:
     """By what is in it and by its name, or by the language that the editor gave it."""
     if document.path is None:
         return False
-    is_roslaunch = document.language_id == "roslaunch" and not is_python(document.path, document.text)
-    return is_roslaunch or launch_format(document.path, document.text) is not None
+    path, text, language = document.path, document.text, document.language_id
+    if launch_format(path, text) is not None or (language == "roslaunch" and not is_python(path, text)):
+        return True
+    return language == "xml" and document_element(text) == "launch"
 
 
 def is_python_launch_file(document: OpenDocument) -> bool:
