@@ -40,8 +40,14 @@ _SYSTEM = (
     "/etc/NetworkManager/system-connections",
     "/etc/wpa_supplicant",
 )
-_OF_INSTALLATION = ("/etc/ros", "/etc/lsb-release", "/etc/mime.types", "/etc/fonts", "/etc/ssl/openssl.cnf")
-"""What ROS, Python and libraries read of the system for themselves, whatever a node does."""
+_OF_INSTALLATION = (
+    *("/etc/ros", "/etc/lsb-release", "/etc/os-release", "/etc/mime.types", "/etc/fonts", "/etc/ssl/openssl.cnf"),
+    "/etc/machine-id",  # Fast DDS, from version 3 on
+    *("/etc/ld.so.cache", "/etc/ld.so.preload", "/etc/localtime", "/etc/timezone", "/etc/locale.alias"),
+    *("/etc/passwd", "/etc/group", "/etc/nsswitch.conf", "/etc/services", "/etc/protocols"),
+    *("/etc/hosts", "/etc/host.conf", "/etc/resolv.conf", "/etc/gai.conf"),
+)
+"""What ROS, its middleware, Python and libc read of the system for themselves, whatever a node does."""
 _OPEN_DOT_FOLDERS = frozenset((".ros",))
 _KEY_FOLDERS = frozenset((".ssh", ".gnupg", ".aws", ".azure", ".kube", ".docker"))
 _KEY_FILES = re.compile(

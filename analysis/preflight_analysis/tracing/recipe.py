@@ -14,7 +14,7 @@ from dataclasses import field
 from pathlib import Path
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.secrets import ALLOWED
+from preflight_analysis.documents.secrets import ALLOWED, withheld
 from preflight_analysis.environment import reach
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.packages import MANIFEST
@@ -177,6 +177,7 @@ def variables(environment: Environment, extra: Iterable[tuple[str, str]], genera
     whatever is sourced here, and what the launch file sets."""
     overridden = {"ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_IPV6", "ROS_HOME", "ROS_LOG_DIR", "ROS_NAMESPACE"}
     overridden |= {VARIABLE, ALLOWED}  # where the cache lies is nothing that a run may depend on, nor what we may read
+    overridden |= withheld(environment.variables, environment.access.allowed)  # whoever made the environment
     kept = {
         name: value
         for name, value in environment.variables.items()
