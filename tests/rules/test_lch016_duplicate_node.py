@@ -133,3 +133,88 @@ def test_branches_of_a_python_launch_file_of_which_one_is_taken() -> None:
                 nodes.append(Node(package="p", executable="c", name="three"))
             return LaunchDescription([one, two, *nodes])
     """)
+
+
+_HEAD = """
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+        from launch.conditions import IfCondition
+        from launch_ros.actions import Node, PushRosNamespace
+        from mine import more, x
+"""
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        """
+        def generate_launch_description():
+            return LaunchDescription([
+                Node(package="p", executable="a", name="one"),
+                DeclareLaunchArgument("speed"),
+                Node(package="p", executable="b", name="one"),
+                                                        ^^^ warning[LCH016] duplicate node name '/one'
+            ])
+        """,
+        """
+        NAME = "one"
+
+        def generate_launch_description():
+            ld = LaunchDescription()
+            first = Node(package="p", executable="a", name=NAME, namespace="left")
+            nodes = [first]
+            nodes.append(Node(package="p", executable="c", name="two"))
+            ld.add_action(DeclareLaunchArgument("speed"))
+            ld.add_action(first)
+            ld.add_action(Node(package="p", executable="b", name="one", namespace="left"))
+                                                                  ^^^ warning[LCH016] duplicate node name '/left/one'
+            return ld
+        """,
+        """
+        def generate_launch_description():
+            drivers = [Node(package="p", executable="a", name="one")]
+            others = [Node(package="p", executable="b", name="one")]
+                                                              ^^^ warning[LCH016] duplicate node name '/one'
+            return LaunchDescription(drivers + [*others])
+        """,
+    ],
+)
+def test_a_python_launch_file_that_was_not_run(body: str) -> None:
+    check(_HEAD + body)
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "statements",
+    [
+        'return LaunchDescription([a("one"), a("one", condition=IfCondition(x)), a("one", namespace="left")])',
+        'return LaunchDescription([a("one"), PushRosNamespace("left"), a("one")])',
+        'return LaunchDescription([a("one"), GroupAction([a("one")])])',
+        'return LaunchDescription([a("one"), IncludeLaunchDescription("x.launch.py"), a("one")])',
+        'return LaunchDescription([a("one"), a("one", **more)])',
+        'return LaunchDescription([a("one") if x else a("one")])',
+        'return LaunchDescription([a("one"), *(a("one") for side in x)])',
+        'b = a("one"); return LaunchDescription([b, b])',
+        'b = a("one"); c = a("one"); return LaunchDescription([c])',
+        "b = a(x); return LaunchDescription([b, a(x)])",
+        'ld = LaunchDescription([a("one")]); ld.add_action(more(x)); ld.add_action(a("one")); return ld',
+        'ld = LaunchDescription([a("one")]); more(ld); ld.add_action(a("one")); return ld',
+        'ld = LaunchDescription([a("one")]); ld.entities.pop(); ld.add_action(a("one")); return ld',
+        'ld = LaunchDescription([a("one")]); ld = LaunchDescription([a("one")]); return ld',
+    ],
+)
+def test_nodes_of_one_name_in_a_python_launch_file_that_need_not_meet(statements: str) -> None:
+    made = statements.replace("a(", 'Node(package="p", executable="a", name=')
+    body = "".join(f"            {each}\n" for each in made.split("; "))
+    check(f"{_HEAD}\n        def generate_launch_description():\n{body}")
+
+
+@pytest.mark.silent
+def test_nodes_of_one_name_of_which_a_branch_returns_one() -> None:
+    check(f"""{_HEAD}
+        def generate_launch_description():
+            if x:
+                return LaunchDescription([Node(package="p", executable="a", name="one")])
+            return LaunchDescription([Node(package="p", executable="b", name="one")])
+    """)

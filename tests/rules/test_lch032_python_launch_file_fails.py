@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
+from support.check import check
 
 TEXT = """\
 from helper import made
@@ -357,3 +358,92 @@ def test_a_run_cannot_speak_for_the_files_of_the_host(tmp_path: Path) -> None:
     }
     (found,) = _launched(tmp_path, answer).tree.nodes
     assert [param.value for param in found.params] == [5]
+
+
+_NODES = """
+        //- /robot.launch.py
+        import launch
+        from launch import LaunchDescription
+        from launch.actions import LogInfo as Said, OpaqueFunction
+        from launch.substitutions import LaunchConfiguration
+        from launch_ros import actions
+        from launch_ros.actions import ComposableNodeContainer, Node
+        from launch_ros.descriptions import ComposableNode
+        from mine import Node as Mine, more, other, unknown, x
+"""
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        ('Node(package="p", executable="a", nmae="one")', "'nmae'; did you mean 'name'?"),
+        ('Node(package="p", node_executable="a", name="one")', "'node_executable'; did you mean 'executable'?"),
+        ('actions.Node(package="p", executable="a", node_name="one")', "'node_name'; did you mean 'name'?"),
+        ('actions.LifecycleNode(package="p", executable="a", name="n", namespace="", param=[])', "'param'"),
+        ('launch.actions.ExecuteProcess(cmd=["ls"], enviroment={})', "'enviroment'"),
+        ('Said(mgs="hello")', "'mgs'; did you mean 'msg'?"),
+        ('LaunchConfiguration("x", defualt="1")', "'defualt'; did you mean 'default'?"),
+        ('ComposableNode(package="p", node_plugin="a::B", name="b")', "'node_plugin'; did you mean 'plugin'?"),
+        ('Node(package="p", executable="a", name="one", zzz=1)', "'zzz'"),
+    ],
+)
+def test_a_keyword_that_a_class_of_launch_does_not_take(call: str, message: str) -> None:
+    name = message.split("'")[1]
+    before, _, _ = call.partition(f"{name}=")
+    carets = " " * len(before) + "^" * len(name)
+    check(f"""{_NODES}
+        def setup(context):
+            made = [
+                {call},
+                {carets} error[LCH032] got an unexpected keyword argument {message}
+            ]
+            return made
+
+        def generate_launch_description():
+            return LaunchDescription([OpaqueFunction(function=setup)])
+    """)
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "statement",
+    [
+        'Node(package="p", executable="a", name="one", output="screen", respawn=True, prefix="gdb", shell=True)',
+        'Node(package="p", executable="a", nmae="one", **more)',
+        'Mine(package="p", executable="a", nmae="one")',
+        'x and Node(package="p", executable="a", nmae="one")',
+        'Node(package="p", executable="a") if x else Node(package="p", node_executable="a")',
+        '[Node(package="p", executable="a", nmae="one") for each in x]',
+        'other(lambda: Node(package="p", executable="a", nmae="one"))',
+        'launch.actions.ExecuteProcess(cmd=["ls"], env={}, additional_env={}, cwd="/", name="ls", prefix="nice")',
+        'OpaqueFunction(function=other, args=[1], kwargs={"nmae": 1})',
+        'unknown.Node(nmae="one")',
+    ],
+)
+def test_keywords_that_may_be_right(statement: str) -> None:
+    check(f"""{_NODES}
+        def generate_launch_description():
+            made = {statement}
+            try:
+                node = Node(package="p", executable="a", name="two")
+            except TypeError:
+                node = Node(package="p", node_executable="a", node_name="two")
+            return LaunchDescription([])
+
+        def never():
+            return Node(nmae="one")
+    """)
+
+
+def test_a_run_says_of_a_keyword_what_is_known_without_it(tmp_path: Path) -> None:
+    head = "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n"
+    text = f"{head}    return Node(\n        nmae=1)\n"
+    frames = [[str(tmp_path / "a.launch.py"), 5, "generate_launch_description"]]
+    said = "Action.__init__() got an unexpected keyword argument 'nmae'"
+    answers = ({"error": {"type": "TypeError", "message": said, "frames": frames}}, None)
+    found = [_launched(tmp_path, answer, text=text).findings for answer in answers]
+    assert [[f.message for f in each if f.rule == "LCH032"] for each in found] == [
+        ["Node() got an unexpected keyword argument 'nmae'; did you mean 'name'?"]
+    ] * 2
+    (fix,) = next(f for f in found[0] if f.rule == "LCH032").fixes
+    assert [edit.text for edit in fix.edits] == ["name"]

@@ -154,6 +154,52 @@ class PythonSource:
             node = known
         return node
 
+    @cached_property
+    def sure(self) -> frozenset[int]:
+        """By `id`: what is evaluated whatever happens, as it stands in `generate_launch_description`, or in a function
+        that is called there or given to an `OpaqueFunction`, and not below `if` and the like."""
+        found: set[int] = set()
+        body = self.module.body if self.module is not None else []
+        functions = {each.name: each for each in body if isinstance(each, ast.FunctionDef)}
+        called = ["generate_launch_description"]
+        while called:
+            function = functions.pop(called.pop(), None)
+            for node in _in_any_case(function.body) if function is not None else ():
+                found.add(id(node))
+                if isinstance(node, ast.Call):
+                    called += [last_name(node.func)] if isinstance(node.func, ast.Name) else []
+                    called += [last_name(k.value) for k in node.keywords if k.arg == "function"]
+        return frozenset(found)
+
+    @cached_property
+    def imported(self) -> dict[str, str]:
+        """What names stand for that an import binds, and nothing else in the file does: `Node` for
+        `launch_ros.actions.Node`, `launch` for itself."""
+        bound: dict[str, list[str | None]] = {}
+        for node in ast.walk(self.module) if self.module is not None else ():
+            if isinstance(node, ast.ImportFrom):
+                for alias in node.names:
+                    full = f"{node.module}.{alias.name}" if node.module and not node.level else None
+                    bound.setdefault(alias.asname or alias.name, []).append(full)
+            elif isinstance(node, ast.Import):
+                for alias in node.names:
+                    top = alias.name.partition(".")[0]
+                    bound.setdefault(alias.asname or top, []).append(alias.name if alias.asname else top)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, (ast.Store, ast.Del)):
+                bound.setdefault(node.id, []).append(None)
+            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                bound.setdefault(node.name, []).append(None)
+            elif isinstance(node, ast.arg):
+                bound.setdefault(node.arg, []).append(None)
+        return {name: full[0] for name, full in bound.items() if len(set(full)) == 1 and full[0] is not None}
+
+    def full_name(self, node: ast.expr) -> str | None:
+        """`launch_ros.actions.Node` of what an import binds; None of anything else."""
+        if isinstance(node, ast.Attribute):
+            holder = self.full_name(node.value)
+            return f"{holder}.{node.attr}" if holder is not None else None
+        return self.imported.get(node.id) if isinstance(node, ast.Name) else None
+
     def call(self, line: int, column: int, name: str) -> ast.Call | None:
         """The call of a class at a place (column in bytes, -1 if it is not known)."""
         at = [c for c in self._calls.get(line, ()) if column in (-1, c.col_offset)]
@@ -205,6 +251,29 @@ class PythonSource:
     def _offset(self, line: int, column: int) -> int:
         start, end = self.lines.line_span(line - 1)
         return min(self._bytes.offset(self._bytes.bytes_before(start) + column), end)
+
+
+def _in_any_case(body: list[ast.stmt]) -> Iterator[ast.AST]:
+    """The nodes that are evaluated whenever the body of a function is."""
+    for statement in body:
+        if isinstance(statement, (ast.Expr, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)):
+            yield from _evaluated(statement)
+        elif any(isinstance(node, (ast.Return, ast.Raise)) for node in ast.walk(statement)):
+            return  # what follows is another branch
+
+
+def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
+    """The nodes of a statement or expression that are evaluated with it, once."""
+    yield node
+    inside: list[ast.AST] = list(ast.iter_child_nodes(node))
+    if isinstance(node, ast.BoolOp):
+        inside = [node.values[0]]
+    elif isinstance(node, ast.IfExp):
+        inside = [node.test]
+    elif isinstance(node, (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)):
+        inside = []
+    for each in inside:
+        yield from _evaluated(each)
 
 
 def last_name(node: ast.expr) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from functools import cached_property
 from typing import Any
 
 from preflight_analysis.documents.document import Document, SyntaxProblem
@@ -114,18 +113,6 @@ class _Reader:
     def __init__(self, source: PythonSource, classes: PythonClasses) -> None:
         self._source, self._classes = source, classes
 
-    @cached_property
-    def _sure(self) -> set[int]:
-        """The calls that are made whatever happens: in `generate_launch_description`, outside of `if` and the like."""
-        found: set[int] = set()
-        for function in self._source.module.body if self._source.module is not None else ():
-            if not isinstance(function, ast.FunctionDef) or function.name != "generate_launch_description":
-                continue
-            for statement in function.body:
-                if isinstance(statement, (ast.Expr, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)):
-                    found.update(id(node) for node in ast.walk(statement))
-        return found
-
     def actions(self) -> list[dict[str, Any]]:
         """All actions that are written, each once, those within others inside of them."""
         calls = [c for piece in self._source.pieces for c in ast.walk(piece) if isinstance(c, ast.Call)]
@@ -164,7 +151,7 @@ class _Reader:
                 condition = condition.args[0]
             attributes[of] = [_unknown(condition)]
         children: list[dict[str, Any]] = []
-        if kind == "arg" and "choices" in given and id(call) in self._sure:
+        if kind == "arg" and "choices" in given and id(call) in self._source.sure:
             children = [{"k": "choice", "a": {"value": [c]}, "c": []} for c in self._texts(given["choices"])]
         if kind in self._classes.holders and depth < _MAX_DEPTH:
             children = [self._action(inner, depth + 1) for inner in self._inside(call)]

@@ -35,6 +35,7 @@ def definition(context: QueryContext, offset: int, findings: Iterable[Finding]) 
     (from the declaration: to the place that gave it its value), the script of a node or what builds it, the source
     that reads a parameter; from a remap to the other ends, in the nodes' sources where they are known, and from the
     name that it replaces to the node's own; from a finding to its related places."""
+    context, _ = context.taking(offset)
     analysis, file = context.analyses[0], context.path
     if is_handed_over(context.analyses, file):
         found = targets_in(context.analyses, file, offset)

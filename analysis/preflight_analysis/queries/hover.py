@@ -7,7 +7,16 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import Command, CommandValue, Include, LaunchNode, ParamValue, Remap, Use
+from preflight_analysis.evaluation.tree import (
+    Command,
+    CommandValue,
+    Include,
+    LaunchNode,
+    NotTaken,
+    ParamValue,
+    Remap,
+    Use,
+)
 from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
@@ -91,6 +100,10 @@ def hover(
     None where there is nothing to say. `unseen` is how many more roots there are that reach the file. With a `context`
     what other files say of a parameter, a package or an argument is there too.
     """
+    left_out: NotTaken | None = None
+    if context is not None:
+        context, left_out = context.taking(offset)
+        analyses = context.analyses
     if is_handed_over(analyses, file):
         return hover_in(analyses, file, offset)
     if (frame := frame_hover(analyses, file, offset)) is not None:
@@ -102,6 +115,8 @@ def hover(
     symbol = symbol_hover(context, offset) if context is not None else None
     found = symbol or next((h for a in analyses if (h := _known(a, file, offset)) is not None), None)
     notes = argument_notes(context, offset) if context is not None and found is not None else ""
+    if found is not None and context is not None and left_out is not None and symbol is None:
+        found = Hover(f"{found.markdown}\n\n{_left_out(context, left_out)}", found.span)
     if found is not None and notes:
         found = Hover(f"{found.markdown}\n\n{notes}", found.span)
     contexts = _contexts(analyses, file, offset, unseen) if found else ""
@@ -114,6 +129,13 @@ def hover(
     if found is None:
         return Hover(*language)
     return Hover(f"{found.markdown}\n\n---\n\n{language[0]}", found.span)
+
+
+def _left_out(context: QueryContext, tag: NotTaken) -> str:
+    condition = f"condition {code(' '.join(context.text(tag.place).split()))} (`{tag.condition}`)"
+    if tag.value is None:
+        return f"It is not known whether this launch takes it: {condition} is not known"
+    return f"Left out of this launch: {condition} is {escaped(tag.value.strip())}"
 
 
 def _known(analysis: Analysis, file: str, offset: int) -> Hover | None:

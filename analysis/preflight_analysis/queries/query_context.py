@@ -10,7 +10,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.places import shown_path
 from preflight_analysis.workspace.facts import FileFacts, facts_of
@@ -53,6 +53,15 @@ class QueryContext:
             roots.update(dict.fromkeys(self.current.roots_touching(path)))
         others = (root for root in roots if root not in known)
         return (*self.trees, *(self.workspace.tree(root.path, dict(root.args)) for root in others))
+
+    def taking(self, offset: int) -> tuple[QueryContext, NotTaken | None]:
+        """The context in which the launches take what is at an offset of the file (`Workspace.taking`), and the tag
+        that the first of them leaves out."""
+        found = [self.workspace.taking(analysis, self.path, offset) for analysis in self.analyses]
+        left_out = found[0][1] if found else None
+        if left_out is None:
+            return self, None
+        return replace(self, analyses=tuple(analysis for analysis, _ in found)), left_out
 
     def facts(self, path: str) -> FileFacts | None:
         """What a launch file mentions."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.problems import DuplicateNode, Problem
+from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.ros2.spawners import is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import Finding, Fix, Related
@@ -13,6 +14,7 @@ from preflight_analysis.rules.catalogued import as_sure
 from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, NAMES, NODES
 from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shortened
 from preflight_analysis.rules.python_branches import made_twice
+from preflight_analysis.rules.python_description import always_twice
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -32,10 +34,31 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"duplicate node name '{name}'{how}",
             severity=None if problem.fatal else as_sure(context, first.file, "warning")[0],
             related=(Related("the first node", first),),
-            fixes=() if twice else _fixes(context, problem, taken),
+            fixes=() if twice else _fixes(context, name, location, taken),
         )
+    yield from _unrun(rule, context, taken)
     yield from _of_own_names(rule, context)
     yield from _in_branches(rule, context)
+
+
+def _unrun(rule: Rule, context: Context, taken: set[str]) -> Iterator[Finding]:
+    """Nodes that a Python launch file starts whatever happens, where it was not run."""
+    made = {node.location: node for node in context.tree.nodes}
+    for path, launch_file in context.launch_files.items():
+        for twice in always_twice(launch_file) if launch_file.is_python and launch_file.partial else ():
+            first, second = (made.get(context.location(path, span)) for span in (twice.first, twice.second))
+            if first is None or second is None:
+                continue
+            places = [
+                context.location(path, node.tag.span_of("name") or node.action.kind_span) for node in (first, second)
+            ]
+            yield rule.finding(
+                f"duplicate node name '{second.name}'",
+                places[1],
+                severity="warning",
+                related=(Related("the first node", places[0]), *include_chain(second.origin)),
+                fixes=_fixes(context, second.name, places[1], taken),
+            )
 
 
 def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -94,15 +117,14 @@ def _why(node: LaunchNode) -> str:
     return "it comes from the node's code, because the tag has no 'name'"
 
 
-def _fixes(context: Context, problem: Problem[DuplicateNode], taken: set[str]) -> tuple[Fix, ...]:
+def _fixes(context: Context, full: str, location: Location, taken: set[str]) -> tuple[Fix, ...]:
     """The name with a number that makes it the only one."""
-    full = problem.kind.name
     namespace, leaf = names.parent(full), names.leaf(full)
     number = 2
     while f"{namespace}{leaf}_{number}" in taken:
         number += 1
     taken.add(f"{namespace}{leaf}_{number}")
-    return rename(context, problem.location, leaf, f"{leaf}_{number}")
+    return rename(context, location, leaf, f"{leaf}_{number}")
 
 
 RULE = Rule(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.secrets import within
 from preflight_analysis.documents.span import Location
+from preflight_analysis.edits.edit import Edit
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.loaded_modules import is_loaded_module
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
@@ -23,8 +24,9 @@ from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
 from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import problem_finding, problems_of, shown
+from preflight_analysis.rules.problems import fix, problem_finding, problems_of, shown
 from preflight_analysis.rules.python_imports import absent_module, slip_of
+from preflight_analysis.rules.python_keywords import UnknownKeyword, unknown_keywords
 from preflight_analysis.rules.rule import Context, Rule
 
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
@@ -40,11 +42,19 @@ _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
 _WORD = re.compile(r"\w+")
 _RELEASES = "Humble, Jazzy, Kilted or Rolling"
 _NO_NAME = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
+_ARGUMENTS = re.compile(r"\(\) (?:missing|got an unexpected keyword argument)")
 _LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
 """The modules of which all names are known."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    wrong_calls = {
+        path: unknown_keywords(launch_file)
+        for path, launch_file in context.launch_files.items()
+        if launch_file.is_python and launch_file.partial
+    }
+    for path, wrong_keywords in wrong_calls.items():
+        yield from (_keyword(rule, context, path, each) for each in wrong_keywords)
     for problem in problems_of(context, PythonException, PythonImportFailed):
         severity: Severity | None = None
         lack: Lack | None = None
@@ -65,6 +75,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 context.disk, problem.location.file
             ):
                 continue
+            case PythonException("TypeError", said) if _ARGUMENTS.search(said) and any(
+                each.call.start <= problem.location.span.start < each.call.end
+                or problem.location.span.contains(each.call.start)
+                for each in wrong_calls.get(problem.location.file, ())
+            ):
+                continue  # said of the keyword itself
             case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near, missing = _near_file(context, error, said), _missing_file(error, said)
@@ -105,6 +121,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_finding(
             rule, problem, message, severity=severity, confidence=confidence, related=related, lack=lack
         )
+
+
+def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> Finding:
+    place = context.location(path, wrong.span)
+    edits = (Edit(place, wrong.near),) if wrong.near is not None else ()
+    fixes = fix(f"Replace '{wrong.name}' with '{wrong.near}'", edits, preferred=True)
+    message = f"{wrong.made}() got an unexpected keyword argument '{wrong.name}'{did_you_mean(wrong.near)}"
+    return rule.finding(message, place, fixes=fixes, stops_launch=True)
 
 
 def _ends_itself(context: Context, frames: tuple[Location, ...], said: str) -> str:

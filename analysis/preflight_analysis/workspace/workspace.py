@@ -28,7 +28,7 @@ from preflight_analysis.evaluation.ros2.params import sections_for_any_name
 from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, NotTaken
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.offered import with_offered_fixes
@@ -81,6 +81,8 @@ MAX_WHAT_IFS_KEPT = 96
 """How many launches with other arguments, for the tags that these take."""
 _MAX_AHEAD = 2
 """The same of those that were completed without runs, for who types just now."""
+_MAX_AROUND = 10
+"""Tags within each other that conditions leave out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -365,7 +367,7 @@ class Workspace:
         def ask(args: Assignment, assumed: frozenset[Location]) -> WhatIf:
             if stops():
                 raise Cancelled
-            what_if, _, failed = _what_if(db, self, path, tuple(sorted(args.items())), assumed)
+            what_if, failed = _what_if(db, self, path, tuple(sorted(args.items())), assumed)
             failures.update(dict.fromkeys(failed))
             return what_if
 
@@ -426,6 +428,20 @@ class Workspace:
         """The analysis with what is known without a run of the nodes whose run has not ended: while a node is being
         written, what its source declares can be proposed before it has run once."""
         return _ahead_of_runs(self.sources.db, self, analysis)
+
+    def taking(self, analysis: Analysis, file: str, offset: int) -> tuple[Analysis, NotTaken | None]:
+        """What the launch would be if it took the tags around an offset which their conditions leave out, as far as
+        that is known without runs of its nodes, and the outermost of these tags; the analysis itself where there are
+        none, or where the file is included another time and takes them."""
+        left_out: dict[Location, NotTaken] = {}
+        while len(left_out) < _MAX_AROUND:
+            found = _left_out_around(analysis.tree, file, offset)
+            if found is None or found.origin[-1] in left_out:
+                break
+            left_out[found.origin[-1]] = found
+            assumed = frozenset(left_out)
+            analysis = _known_if(self.sources.db, self, analysis.root, analysis.args, assumed)
+        return analysis, next(iter(left_out.values()), None)
 
     def _filled_in(
         self,
@@ -524,13 +540,14 @@ def _surroundings(db: Database, workspace: Workspace, environment: Environment) 
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)
-def _what_if(
+def _if(
     db: Database,
     workspace: Workspace,
     path: str,
     args: tuple[tuple[str, str], ...],
     assumed: frozenset[Location],
-) -> tuple[WhatIf, Context, tuple[Failure, ...]]:
+) -> Analysis:
+    """A launch with other arguments, as if it took some tags whatever their conditions are."""
     within = _surroundings(db, workspace, workspace.environment_of(path))
     files, environment, executables = within.files, within.environment, within.executables
     given, variables = arguments_and_variables(dict(args))
@@ -543,11 +560,37 @@ def _what_if(
     index = _executables(db, workspace, environment)
     plugins = _plugins(db, workspace, environment)
     context = Context(path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
+    return Analysis(path, args, tree, documents, launch_files, environment, context, ())
+
+
+@query(limit=MAX_WHAT_IFS_KEPT)
+def _what_if(
+    db: Database,
+    workspace: Workspace,
+    path: str,
+    args: tuple[tuple[str, str], ...],
+    assumed: frozenset[Location],
+) -> tuple[WhatIf, tuple[Failure, ...]]:
+    known = _if(db, workspace, path, args, assumed)
     # Whoever waits to write does not wait for all rules: reading anything raises then.
-    pause = partial(_executables, db, workspace, environment)
+    pause = partial(_executables, db, workspace, known.environment)
     failures: list[Failure] = []
-    found = tuple(each for each in found_in_branch(context, pause, failures) if each.lack is None)
-    return WhatIf(tree, documents, launch_files, found), context, tuple(failures)
+    found = tuple(each for each in found_in_branch(known.context, pause, failures) if each.lack is None)
+    return WhatIf(known.tree, known.documents, known.launch_files, found), tuple(failures)
+
+
+@query(limit=MAX_WHAT_IFS_KEPT)
+def _known_if(
+    db: Database,
+    workspace: Workspace,
+    path: str,
+    args: tuple[tuple[str, str], ...],
+    assumed: frozenset[Location],
+) -> Analysis:
+    """Likewise with what is known of the nodes, of which none was run for that."""
+    known = _if(db, workspace, path, args, assumed)
+    interfaces = [not_run(node, known.context.executables) for node in known.tree.nodes]
+    return workspace.with_interfaces(known, interfaces, None)
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)
@@ -559,14 +602,22 @@ def _params_if(
     assumed: frozenset[Location],
 ) -> tuple[tuple[Finding, ...], tuple[Failure, ...]]:
     """What the rules of parameters say of a launch with other arguments, of whose nodes none was run for that."""
-    _, context, _ = _what_if(db, workspace, path, args, assumed)
-    documents, launch_files, environment = context.documents, context.launch_files, context.environment
-    analysis = Analysis(path, args, context.tree, documents, launch_files, environment, context, ())
-    interfaces = [not_run(node, context.executables) for node in context.tree.nodes]
-    known = workspace.with_interfaces(analysis, interfaces, None).context
-    pause = partial(_executables, db, workspace, environment)
+    known = _known_if(db, workspace, path, args, assumed)
+    pause = partial(_executables, db, workspace, known.environment)
     failures: list[Failure] = []
-    return tuple(each for each in found_in_branch(known, pause, failures) if each.lack is None), tuple(failures)
+    return tuple(each for each in found_in_branch(known.context, pause, failures) if each.lack is None), tuple(failures)
+
+
+def _left_out_around(tree: LaunchTree, file: str, offset: int) -> NotTaken | None:
+    """The outermost tag around an offset that no inclusion of the file takes."""
+    found = [n for n in tree.not_taken if n.origin[-1].file == file and n.action.span.contains(offset)]
+    around = min(found, key=lambda each: each.action.span.start, default=None)
+    origins = (each.origin for each in (*tree.nodes, *tree.includes))
+    if around is None or any(
+        step.file == file and around.action.span.contains(step.span.start) for origin in origins for step in origin
+    ):
+        return None
+    return around
 
 
 @query(limit=MAX_ANALYSES)

@@ -13,6 +13,7 @@ from preflight_analysis.queries.completion import TRIGGERS
 from preflight_analysis.queries.completion import complete as query
 from preflight_analysis.queries.completion_docs import documentation
 from preflight_analysis.queries.completion_items import Item, ItemKind
+from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.lsp.markup import markup
 from preflight_server.lsp.positions import Positions
@@ -88,15 +89,13 @@ def register(server: PreflightServer) -> None:
         positions = Positions(launch_file.document.text, launch_file.document.lines, ls.texts.encoding)
         offset = positions.offset(params.position)
         trigger = params.context.trigger_character if params.context else None
+
+        def ahead_of_runs(known: Analysis) -> Analysis:
+            return workspace.ahead_of_runs(workspace.taking(known, launch_file.path, offset)[0])
+
         found = await session.in_pool(
             lambda: query(
-                analysis,
-                launch_file,
-                offset,
-                workspace.sources,
-                workspace.executables,
-                workspace.ahead_of_runs,
-                trigger,
+                analysis, launch_file, offset, workspace.sources, workspace.executables, ahead_of_runs, trigger
             )
         )
         if found is None:

@@ -7,9 +7,6 @@ from typing import Any, Optional
 
 from .base import Action, LaunchDescriptionEntity, Made, normalize_to_list_of_substitutions
 
-_OF_EXECUTABLE = ("prefix", "name", "cwd", "env", "additional_env")
-"""What an `ExecuteProcess` takes for its `Executable`; the rest is that of `ExecuteLocal`."""
-
 
 class Executable(Made):
     """`launch.descriptions.Executable`."""
@@ -93,9 +90,19 @@ class ExecuteLocal(Action):
 
 
 class ExecuteProcess(ExecuteLocal):
-    def __init__(self, *, cmd: Any, **kwargs: Any) -> None:
-        described = {name: kwargs.pop(name) for name in _OF_EXECUTABLE if name in kwargs}
-        super().__init__(process_description=Executable(cmd=cmd, **described), **kwargs)
+    def __init__(
+        self,
+        *,
+        cmd: Any,
+        prefix: Any = None,
+        name: Any = None,
+        cwd: Any = None,
+        env: Any = None,
+        additional_env: Any = None,
+        **kwargs: Any,
+    ) -> None:
+        described = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
+        super().__init__(process_description=described, **kwargs)
 
     @property
     def cwd(self) -> Any:
