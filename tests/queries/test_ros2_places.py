@@ -271,3 +271,101 @@ def test_the_value_of_an_argument_that_is_passed(tmp_path: Path) -> None:
     assert lines[:3] == ["argument `rate` = `5`", "Default: `''`", "How often"]
     lines = hovered(tmp_path / "b", text.replace('inc.launch.xml"', 'none.launch.xml"') + PACKAGE)
     assert lines[0] == "argument `rate` = unresolved"
+
+
+_PYTHON = """
+//- main.launch.py
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    sim = LaunchConfiguration("sim")
+    return LaunchDescription([
+        DeclareLaunchArgument("sim", default_value="SIM"),
+        GroupAction([
+            Node(package="p", executable="talker", name="node", parameters=[{"rate": 3}], remappings=[("a", "b")]),
+        ], condition=IfCondition(sim)),
+    ])
+"""
+_XML = """
+//- main.launch.xml
+<launch>
+  <arg name="sim" default="SIM"/>
+  <group if="$(var sim)">
+    <node pkg="p" exec="talker" name="node" if="$(var sim)">
+      <param name="rate" value="3"/>
+      <remap from="a" to="b"/>
+    </node>
+  </group>
+</launch>
+"""
+_YAML = """
+//- main.launch.yaml
+launch:
+- arg: {name: "sim", default: "SIM"}
+- group:
+  - node: {pkg: "p", exec: "talker", name: "node", if: $(var sim),
+           param: [{name: "rate", value: 3}], remap: [{from: "a", to: "b"}]}
+"""
+_ROS1 = """
+<launch>
+  <arg name="sim" default="SIM"/>
+  <node pkg="p" type="talker.py" name="node" if="$(arg sim)">
+    <param name="rate" value="3"/>
+    <remap from="a" to="b"/>
+  </node>
+</launch>
+//- p/scripts/talker.py
+#!/usr/bin/env python
+"""
+
+
+def _said(folder: Path, text: str, cursor: str, *, runs: bool = False) -> tuple[list[str], list[str]]:
+    """What hover and definition say at the first place that is written so."""
+    text = text.replace(cursor.replace("$0", ""), cursor, 1)
+    kind = "catkin" if text.startswith(_ROS1[:9]) else "ament_python"
+    hovers = hovered(folder, text, kind, runs=runs)
+    return [line.replace(str(folder), "") for line in hovers], gone_to(folder, text, kind, runs=runs)
+
+
+@pytest.mark.parametrize("cursor", ['"tal$0ker', '"no$0de"', '"ra$0te"', '"a$0"', '"b$0"'])
+@pytest.mark.parametrize(
+    "text",
+    [pytest.param(_PYTHON, marks=pytest.mark.ros, id="python"), _XML, _YAML, _ROS1],
+    ids=["python", "xml", "yaml", "ros1"],
+)
+def test_a_node_that_a_condition_leaves_out_is_like_any_other(tmp_path: Path, text: str, cursor: str) -> None:
+    more, runs = ("" if text == _ROS1 else PACKAGE), text == _PYTHON
+    taken = _said(tmp_path / "a", text.replace("SIM", "true") + more, cursor, runs=runs)
+    left_out = _said(tmp_path / "b", text.replace("SIM", "false") + more, cursor, runs=runs)
+    assert taken[0]
+    said = [line for line in left_out[0] if not line.startswith("Left out of this launch: condition `")]
+    assert (said, left_out[1]) == taken
+    assert (said == left_out[0]) == (cursor == '"ra$0te"')
+
+
+def test_a_python_launch_file_that_was_not_run_tells_of_its_nodes(tmp_path: Path) -> None:
+    text = _PYTHON.replace("SIM", "false") + PACKAGE
+    said, led_to = _said(tmp_path, text, '"tal$0ker')
+    assert said[0] == "**/node** `p/talker` — [talker.py](file:///p/p/talker.py)"
+    assert said[-1] == "It is not known whether this launch takes it: condition `IfCondition(sim)` (`if`) is not known"
+    assert led_to == ["p/p/talker.py:9 def start():"]
+
+
+def test_a_file_that_is_included_twice_is_shown_where_it_is_taken(tmp_path: Path) -> None:
+    text = """
+//- main.launch.xml
+<launch>
+  <include file="{folder}/inc.launch.xml"><arg name="sim" value="false"/></include>
+  <include file="{folder}/inc.launch.xml"><arg name="sim" value="true"/></include>
+</launch>
+//- inc.launch.xml
+<launch><arg name="sim"/><node pkg="p" exec="tal$0ker" name="a" if="$(var sim)"/></launch>
+"""
+    lines = hovered(tmp_path, text + PACKAGE)
+    assert lines[0].startswith("**/a** `p/talker`")
+    assert not [line for line in lines if line.startswith("Left out")]

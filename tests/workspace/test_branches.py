@@ -502,3 +502,25 @@ def test_an_argument_that_has_to_be_given_is_tried_with_each_choice(tmp_path: Pa
     analysis = workspace.static(str(path))
     found = [finding for finding, _ in workspace.branches(analysis).findings]
     assert [(f.rule, f.condition) for f in found] == [("LCH013", "model:=b2")]
+
+
+def test_a_condition_of_a_python_launch_file_that_was_not_run_is_shown_as_written() -> None:
+    check(
+        """
+        //- /a.launch.py
+        from launch import LaunchDescription
+        from launch.actions import DeclareLaunchArgument
+        from launch.conditions import IfCondition
+        from launch.substitutions import LaunchConfiguration
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            use_sim = LaunchConfiguration("use_sim")
+            return LaunchDescription([
+                DeclareLaunchArgument("use_sim", default_value="false"),
+                Node(package="pp", executable="n", condition=IfCondition(use_sim)),
+                              ^^ hint[PKG001] (if use_sim is true)
+            ])
+        """,
+        branches=True,
+    )

@@ -434,13 +434,14 @@ class Workspace:
         that is known without runs of its nodes, and the outermost of these tags; the analysis itself where there are
         none, or where the file is included another time and takes them."""
         left_out: dict[Location, NotTaken] = {}
+        supposed = _known_if if analysis.graph is not None else _if
         while len(left_out) < _MAX_AROUND:
             found = _left_out_around(analysis.tree, file, offset)
             if found is None or found.origin[-1] in left_out:
                 break
             left_out[found.origin[-1]] = found
             assumed = frozenset(left_out)
-            analysis = _known_if(self.sources.db, self, analysis.root, analysis.args, assumed)
+            analysis = supposed(self.sources.db, self, analysis.root, analysis.args, assumed)
         return analysis, next(iter(left_out.values()), None)
 
     def _filled_in(
