@@ -345,6 +345,32 @@ async def test_what_else_is_shown(harness: Harness, package: Path) -> None:
         assert [s.detail for s in await editor.symbols(main) if s.detail] == ["robot/talker"]
 
 
+async def _hovered(editor: Editor, path: Path, needle: str) -> str:
+    found = await editor.hover(path, editor.at(path, needle, len(needle) - 2))
+    assert found is None or isinstance(found.contents, types.MarkupContent)
+    return found.contents.value if found is not None else ""
+
+
+async def test_a_node_that_its_condition_leaves_out(harness: Harness, package: Path) -> None:
+    """It is read as if it were started, before a run and after one."""
+    path = package / "launch/inner.launch.py"
+    for includer in ("main.launch.py", "outer.launch.xml"):
+        path.with_name(includer).unlink()
+    text = INNER.replace("'model')", "'model', default_value='false')", 1).replace("'frame'", "''")
+    async with editing(harness, folder=package.parents[1]) as editor:
+        editor.open(path, text, language="python")
+        for why in ("is not known", "is false"):
+            await editor.once(
+                lambda: _hovered(editor, path, "executable='listener'"),
+                lambda said, why=why: said.startswith("**/listener** `robot/listener`") and said.endswith(why),
+            )
+            (target,) = await editor.definition(path, editor.at(path, "executable='listener'", 14))
+            assert Path(target.target_uri).name == "listener.py"
+            offered = await editor.completion(path, editor.at(path, "{'':", 2))
+            assert "frame" in [item.label for item in offered]
+            editor.trust()
+
+
 async def test_values_of_a_file_that_was_run(harness: Harness, package: Path) -> None:
     inner = package / "launch/inner.launch.py"
     async with editing(harness, trusted=True, folder=package.parents[1]) as editor:
