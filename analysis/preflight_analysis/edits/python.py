@@ -167,6 +167,13 @@ class PythonWriter(HashComments):
             return ()
         return tuple(Edit(self._document.location(self._source.whole_span(node)), new) for node in nodes)
 
+    def rename_keyword(self, span: Span, new: str) -> tuple[Edit, ...]:
+        """Give the keyword of a call whose name is at `span` another name."""
+        keywords = (node for node in self._nodes if isinstance(node, ast.keyword) and node.arg is not None)
+        if not new.isidentifier() or all(self._source.keyword_span(each) != span for each in keywords):
+            return ()
+        return (Edit(self._document.location(span), new),)
+
     def insert_comma(self, offset: int) -> tuple[Edit, ...]:
         """Write a comma between two strings."""
         return (layout.insertion(self._document, offset, ","),)

@@ -8,6 +8,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.secrets import within
 from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.loaded_modules import is_loaded_module
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
@@ -125,7 +126,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> Finding:
     place = context.location(path, wrong.span)
-    edits = (Edit(place, wrong.near),) if wrong.near is not None else ()
+    writer = context.writer(path)
+    edits: tuple[Edit, ...] = ()
+    if wrong.near is not None and isinstance(writer, PythonWriter):
+        edits = writer.rename_keyword(wrong.span, wrong.near)
     fixes = fix(f"Replace '{wrong.name}' with '{wrong.near}'", edits, preferred=True)
     message = f"{wrong.made}() got an unexpected keyword argument '{wrong.name}'{did_you_mean(wrong.near)}"
     return rule.finding(message, place, fixes=fixes, stops_launch=True)
