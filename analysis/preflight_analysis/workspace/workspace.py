@@ -613,7 +613,7 @@ def _left_out_around(tree: LaunchTree, file: str, offset: int) -> NotTaken | Non
     """The outermost tag around an offset that no inclusion of the file takes."""
     found = [n for n in tree.not_taken if n.origin[-1].file == file and n.action.span.contains(offset)]
     around = min(found, key=lambda each: each.action.span.start, default=None)
-    origins = (each.origin for each in (*tree.nodes, *tree.includes))
+    origins = (*(node.origin for node in tree.nodes), *(include.origin for include in tree.includes))
     if around is None or any(
         step.file == file and around.action.span.contains(step.span.start) for origin in origins for step in origin
     ):
