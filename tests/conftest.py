@@ -14,7 +14,10 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 from preflight_analysis.edits.gate import RAISES
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.rule import Rule
 from support.build_once import VARIABLE, begin_run
+from support.internals import shown_internals, texts_of
 from support.logged_errors import LoggedErrors
 
 _QUICK = ("git", "bash", "script", Path(sys.executable).name, "ros-preflight")
@@ -59,6 +62,22 @@ def nothing_of_ours_fails(request: pytest.FixtureRequest) -> Iterator[None]:
         logger.removeHandler(errors)
     if request.node.get_closest_marker("breaks") is None:
         assert errors.messages == [], "something of ours failed"
+
+
+@pytest.fixture(autouse=True)
+def findings_show_nothing_of_ours(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Whatever a rule says in a test, in words of users and of ROS. A test of odd names may well have what looks so."""
+    said: dict[str, None] = {}
+    make = Rule.finding
+
+    def noted(*args: Any, **options: Any) -> Finding:
+        finding = make(*args, **options)
+        said.update(dict.fromkeys(texts_of((finding,))))
+        return finding
+
+    monkeypatch.setattr(Rule, "finding", noted)
+    yield
+    assert shown_internals(said) == []
 
 
 @pytest.fixture(autouse=True)

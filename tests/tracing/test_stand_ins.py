@@ -15,6 +15,7 @@ from preflight_analysis.tracing.agents.stand_ins.finder import LIBRARIES
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import KINDS, Interface
 from preflight_analysis.tracing.trace import Tracer
+from support.internals import shown_internals
 from support.ros2_harness import Ros2Harness, checked, node_of, ros2_prefix
 from support.stand_in_harness import bare_python, both_of_ros1, both_of_ros2, seen, without_rclpy, without_rospy
 from support.tracing_harness import ROS1_FIXTURES, SYSTEM_PYTHON, environment, own, request, write_node
@@ -351,6 +352,52 @@ def test_actions_of_ros2_have_their_type(tmp_path: Path) -> None:
         ("action_server", "offered", "example_interfaces/action/Fibonacci"),
         ("action_client", "used", "example_interfaces/action/Fibonacci"),
     }
+
+
+def test_modules_have_what_the_real_ones_import_and_anything_else(tmp_path: Path) -> None:
+    """As `rclpy.node` has the messages of its parameters. A program that provides for what is missing does without."""
+    body = node_of(
+        """
+        assert hasattr(nodes, 'Node') and not hasattr(nodes, 'of_tomorrow') and absent
+        self.declare_parameter('size', 4, ParameterDescriptor(integer_range=[IntegerRange(to_value=10)]))
+        self.create_subscription(String, 'in', print, 1, callback_group=ReentrantCallbackGroup())
+        assert issubclass(SingleThreadedExecutor, Executor)
+        OfTomorrow().configure(self)
+        nodes.of_tomorrow(self)
+        self.create_publisher(String, 'after', 1)
+        """,
+        "from rclpy import node as nodes",
+        "from rclpy.executors import SingleThreadedExecutor",
+        "from rclpy.node import Executor, IntegerRange, ParameterDescriptor, ReentrantCallbackGroup",
+        "from rclpy.qos import OfTomorrow",
+        "try:\n    from rclpy.qos import OfNextWeek\nexcept ImportError:\n    absent = True",
+    )
+    harness = Ros2Harness(tmp_path, newer=body)
+    path = harness.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='newer' name='n'/></launch>")
+    found = checked(path, without_rclpy(harness), None).graph
+    assert found is not None
+    (interface,) = found.processes
+    assert interface.outcome.status == "spinning", interface.outcome
+    assert own(interface) == {
+        ("subscriber", "in", "std_msgs/msg/String"),
+        ("publisher", "after", "std_msgs/msg/String"),
+    }
+    (size,) = (each for each in interface.params if each.name.endswith("size"))
+    assert size.range is not None and (size.range.low, size.range.high) == (0, 10)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("import rospy, sys, cv9\nrospy.init_node('n')\nsys.exit(cv9.run())", "<cv9.run()>"),
+        ("import rospy, cv9\nrospy.init_node('n')\n'a'.replace('a', cv9.x)", "must be str, not unknown value"),
+        ("import rospy\nrospy.init_node('n')\nraise SystemExit(rospy.__file__)", "__init__.py"),
+    ],
+)
+def test_how_a_run_is_made_is_not_told(tmp_path: Path, body: str, said: str) -> None:
+    outcome = trace_without(write_node(tmp_path, body)).outcome
+    assert said in (outcome.reason or "")
+    assert shown_internals((outcome.reason or "", outcome.lacks or "", *outcome.stderr_tail)) == []
 
 
 # Messages

@@ -7,6 +7,7 @@ import signal
 from collections.abc import Mapping
 from typing import Any
 
+from preflight_analysis.evaluation.ros2.unknown_text import readable
 from preflight_analysis.tracing import interior, sandbox
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Outcome, telling_line
 from preflight_analysis.tracing.recipe import missing_interpreter
@@ -17,6 +18,9 @@ from preflight_analysis.tracing.run import DISK_BYTES, RLIMITS, WALL_SECONDS, WA
 TAIL_LINES = 20
 TAIL_COLUMNS = 500
 _ESCAPES = re.compile(r"\x1b(\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(\x07|\x1b\\)|[@-Z\\-_])")
+_OWN_PLACE = re.compile(rf" \({interior.PRIVATE}/[^\s()]*\)")
+"""Behind an `ImportError`: where the module is that lacks a name."""
+_OWN_FILE = re.compile(rf"{interior.PRIVATE}/(?:[\w.-]+/)*([\w.-]*\w)")
 _WAITS = {
     "service": "the service {}",
     "message": "a message on {}",
@@ -90,7 +94,8 @@ def seconds_of(end: Mapping[str, Any] | None, name: str) -> float:
 
 
 def stderr_tail(data: bytes) -> tuple[str, ...]:
-    """The last lines, without terminal escapes, other control characters and our own frames in tracebacks."""
+    """The last lines, without terminal escapes, other control characters and what is ours: frames in tracebacks, where
+    our modules lie, the marks around what is not known."""
     lines: list[str] = []
     ours = False
     for raw_line in data.decode(errors="replace").split("\n"):
@@ -100,7 +105,7 @@ def stderr_tail(data: bytes) -> tuple[str, ...]:
         elif not line.startswith("    "):
             ours = False
         if line and not ours:
-            lines.append(line[:TAIL_COLUMNS])
+            lines.append(_OWN_FILE.sub(r"\1", _OWN_PLACE.sub("", readable(line)))[:TAIL_COLUMNS])
     return tuple(lines[-TAIL_LINES:])
 
 

@@ -308,10 +308,10 @@ class Anything:
 
     def __iter__(self) -> Iterator[Any]:
         """One item, or as many as it is taken apart to."""
-        operation, count = _operation(sys._getframe(1))
-        if operation == "UNPACK_EX":
+        name, count = operation(sys._getframe(1))
+        if name == "UNPACK_EX":
             count = (count & 0xFF) + (count >> 8)
-        elif operation != "UNPACK_SEQUENCE":
+        elif name != "UNPACK_SEQUENCE":
             asked(self._preflight_name, sys._getframe(1))
             count = 1
         return iter([self[0] for _ in range(count)])
@@ -335,8 +335,8 @@ class Anything:
 
     def keys(self) -> list[str]:
         """None for the arguments of a call; where a dictionary takes it in, one that stands for those not known."""
-        operation, _ = _operation(sys._getframe(1))
-        return [str(self)] if operation in ("DICT_UPDATE", "BUILD_MAP_UNPACK") else []
+        name, _ = operation(sys._getframe(1))
+        return [str(self)] if name in ("DICT_UPDATE", "BUILD_MAP_UNPACK") else []
 
     # In `with` and `await`
 
@@ -454,7 +454,13 @@ def importer() -> Any:
     return None
 
 
-def _operation(frame: Any) -> tuple[str, int]:
+def operation(frame: Any) -> tuple[str, int]:
     """The instruction at which a frame stands, and its argument."""
     code, at = frame.f_code.co_code, frame.f_lasti
     return (dis.opname[code[at]], code[at + 1]) if 0 <= at < len(code) - 1 else ("", 0)
+
+
+Anything.__name__ = Anything.__qualname__ = "unknown value"
+AnyModule.__name__ = AnyModule.__qualname__ = "module"
+UnknownText.__name__ = UnknownText.__qualname__ = "str"
+# As exceptions of Python call them.

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.abc
 import importlib.machinery
 import json
 import os
 import re
 import sys
-from typing import Any
+from typing import Any, Sequence
 
 from .. import channel
 from ..anything import AnyModule, importer, on_use
@@ -16,6 +17,7 @@ from ..missing_modules import IMPORTS, MissingModules, provided_for
 from ..variables import AGAIN, STAND_INS
 from .definitions import KINDS, Definitions
 from .interfaces import InterfaceModule, Maker
+from .names_elsewhere import Lacking
 
 LIBRARIES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "libraries")
 OF_GENERATION = {
@@ -35,6 +37,30 @@ _IMPORTS_OF = {
 """What libraries and messages of each generation import."""
 
 
+def _library(fullname: str, folders: Sequence[str]) -> Any:
+    """A module of `libraries/`, which has what it lacks of the real one from elsewhere."""
+    spec = importlib.machinery.PathFinder.find_spec(fullname, folders)
+    if spec is not None and isinstance(spec.loader, importlib.machinery.SourceFileLoader):
+        spec.loader = _LibraryLoader(spec.loader.name, spec.loader.path)
+    return spec
+
+
+class _LibraryLoader(importlib.machinery.SourceFileLoader):
+    lacking: Lacking
+
+    def exec_module(self, module: Any) -> None:
+        super().exec_module(module)
+        if "__getattr__" not in vars(module):
+            module.__getattr__ = functools.partial(self.lacking.name_in, module.__name__)
+
+
+class _PartsOfLibraries(importlib.abc.MetaPathFinder):
+    """Finds the modules within a package of `libraries/`."""
+
+    def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
+        return _library(fullname, path) if any(str(each).startswith(LIBRARIES) for each in path or ()) else None
+
+
 class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """Finds libraries of ROS, and modules of messages."""
 
@@ -44,12 +70,13 @@ class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         self._folders = [os.path.join(LIBRARIES, f"ros{generation}"), os.path.join(LIBRARIES, "both")]
         self._definitions = Definitions(generation, packages)
         self._maker = Maker(generation, self._definitions)
+        _LibraryLoader.lacking = Lacking(self._definitions)
 
     def find_spec(self, fullname: str, path: Any = None, target: Any = None) -> Any:
         top, _, rest = fullname.partition(".")
         if not rest and top in self._libraries:
             note(top)
-            return importlib.machinery.PathFinder.find_spec(fullname, self._folders)
+            return _library(fullname, self._folders)
         known = self._definitions.has_package(top)
         if (not rest and known) or (rest in KINDS and (known or not _is_provided_for())):
             note(top)
@@ -62,7 +89,7 @@ class StandIns(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         """What is found in the place of a library or a package of messages that is there."""
         note(top)
         if top in self._libraries:
-            return importlib.machinery.PathFinder.find_spec(top, self._folders)
+            return _library(top, self._folders)
         return importlib.machinery.ModuleSpec(top, self, is_package=True)
 
     def create_module(self, spec: Any) -> Any:
@@ -90,7 +117,7 @@ class _RclpyFirst(importlib.abc.MetaPathFinder):
         if fullname != "rclpy":
             return None
         note("rclpy")
-        return importlib.machinery.PathFinder.find_spec(fullname, [os.path.join(LIBRARIES, "ros2")])
+        return _library(fullname, [os.path.join(LIBRARIES, "ros2")])
 
 
 class _NoOtherGeneration(importlib.abc.MetaPathFinder):
@@ -172,6 +199,7 @@ def install() -> None:
     on_use.append(lambda: channel.send("asked", what="stand-in"))
     found = StandIns(job["generation"], job["packages"])
     sys.meta_path += [found, MissingModules(note, found.stands_in, lacked)]
+    _put_first(_PartsOfLibraries())
     _put_first(_NoOtherGeneration(job["generation"], found))
     if AGAIN in os.environ:
         put_rclpy_first()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import time
 from typing import Any
 
@@ -49,10 +48,3 @@ class ActionClient:
 
     def destroy(self) -> None:
         pass
-
-
-def __getattr__(name: str) -> Any:
-    """Messages that the real one imports: programs take them from here, too."""
-    if name not in ("GoalStatus", "GoalStatusArray"):
-        raise AttributeError(name)
-    return getattr(importlib.import_module("action_msgs.msg"), name)

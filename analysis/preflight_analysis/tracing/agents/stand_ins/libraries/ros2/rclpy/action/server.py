@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import enum
-import importlib
 from typing import Any
 
 
@@ -74,10 +73,3 @@ class ActionServer:
 
     def destroy(self) -> None:
         pass
-
-
-def __getattr__(name: str) -> Any:
-    """Messages that the real one imports: programs take them from here, too."""
-    if name not in ("GoalInfo", "GoalStatus"):
-        raise AttributeError(name)
-    return getattr(importlib.import_module("action_msgs.msg"), name)
