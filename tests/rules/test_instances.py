@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import EndpointRef, Finding, Severity
 from preflight_analysis.rules.instances import regardless_of_node
@@ -11,9 +12,9 @@ from support.check import findings_of
 PLACE = Location.of_file("/a.launch")
 
 
-def said(message: str, severity: Severity = "warning", node: str = "/n") -> Finding:
-    end = EndpointRef("topic", "/t", node)
-    return Finding("ABC001", "n", severity, "certain", message, PLACE, endpoints=(end,))
+def said(message: str, severity: Severity = "warning", node: str = "/n", quoted: str = "", about: str = "") -> Finding:
+    end, at = EndpointRef("topic", "/t", node), message.index(quoted) if quoted else None
+    return Finding("ABC001", "n", severity, "certain", message, PLACE, endpoints=(end,), quoted_from=at, node=about)
 
 
 def test_the_same_of_several_nodes_is_said_once_with_their_number() -> None:
@@ -38,8 +39,8 @@ def test_something_else_of_another_node_stays_a_finding() -> None:
 
 
 def test_files_are_no_nodes() -> None:
-    assert regardless_of_node("file '/a/b.yaml' does not exist") == "file '/a/b.yaml' does not exist"
-    assert regardless_of_node("see /a/b.yaml") == "see /a/b.yaml"
+    for message in ("file '/a/b.yaml' does not exist", "see /a/b.yaml"):
+        assert regardless_of_node(said(message)) == message
 
 
 def test_what_another_program_says_is_left_as_it_is() -> None:
@@ -48,6 +49,26 @@ def test_what_another_program_says_is_left_as_it_is() -> None:
     given = [said(f"/robot{n}/base: no permission to read /dev/serial: it is busy") for n in (1, 2)]
     (found,) = unique(given)
     assert found.message == "/robot1/base and 1 more: no permission to read /dev/serial: it is busy"
+
+
+@pytest.mark.parametrize(
+    "words", ["cannot open /data/{} for reading", "/data/{} is busy", "/data/{}: Permission denied", "/data/{}"]
+)
+def test_whatever_another_program_says_stays(words: str) -> None:
+    given = [said(f"it failed: {words.format(n)}", quoted=words.format(n)) for n in "ab"]
+    assert unique(given) == given
+    told = [
+        said(f"/{n}/base ends: {words.format('x')}", quoted=words.format("x"), about=f"/{n}/base") for n in ("r", "s")
+    ]
+    (found,) = unique(told)
+    assert found.message == f"/r/base and 1 more ends: {words.format('x')}"
+    assert found.quoted_from is not None and found.message[found.quoted_from :] == words.format("x")
+
+
+def test_of_several_nodes_that_are_named_the_one_that_it_is_about_is_counted() -> None:
+    given = [said(f"/map is not read by /{n}/base", about=f"/{n}/base") for n in ("r", "s")]
+    (found,) = unique(given)
+    assert found.message == "/map is not read by /r/base and 1 more"
 
 
 def test_a_file_that_is_included_for_each_robot() -> None:

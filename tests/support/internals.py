@@ -19,9 +19,12 @@ _PARTS = (
     r"\$\((?:unknown|python|own)(?=[ )])[^)]*\)?",
     r"\bAnything\b|\bAnyModule\b|\bUnknownText\b",
     r"\b_*preflight_(?!graph)[a-z]\w*|/run/preflight\b[^\s:'\"]*|\bfake_launch\b|\bown/lib\b",
-    r"(?<![\w.])None\.(?!None\b)[A-Za-z]\w*",  # of a variable that is not set
     r"<[^<>]* (?:object )?at 0x[0-9a-f]+>|\b(?:mappingproxy|frozenset|PosixPath)\(",
 )
+
+
+_UNSET = re.compile(r"(?<![\w.])None\.(?!None\b)[A-Za-z]\w*")
+"""Of a variable that is not set: `None.yaml`. What another program says of a file may well have it."""
 
 
 @cache
@@ -35,7 +38,7 @@ def _pattern() -> re.Pattern[str]:
 
 def internals(text: str, written: str = "") -> list[str]:
     """What a text shows of our internals; `written` is what the user wrote, and may read again."""
-    return [found[0] for found in _pattern().finditer(text) if found[0] not in written]
+    return [found[0] for each in (_pattern(), _UNSET) for found in each.finditer(text) if found[0] not in written]
 
 
 def shown_internals(texts: Iterable[str], written: str = "") -> list[str]:
@@ -46,7 +49,8 @@ def shown_internals(texts: Iterable[str], written: str = "") -> list[str]:
 def texts_of(findings: Iterable[Finding]) -> Iterator[str]:
     """All that is read of findings."""
     for finding in findings:
-        yield from (finding.message, finding.condition)
+        said = finding.message[: finding.quoted_from]
+        yield from (said, _UNSET.sub("", finding.message[len(said) :]), finding.condition)
         yield from (each.message for each in finding.related)
         yield from (each.title for each in finding.fixes)
         yield from (each.text for fix in finding.fixes for each in fix.edits)

@@ -82,5 +82,9 @@ class Finding:
     The finding about the crash has it as well."""
     lack: Lack | None = None
     """What is missing on this machine, where the finding speaks of nothing else."""
+    node: str = ""
+    """The full name of the node that it is about, where it is about one and its rule says so."""
+    quoted_from: int | None = None
+    """Where in the message that begins which another program says, and which is left as it is."""
     alike: Alike | None = field(default=None, compare=False)
     """Of one that says the same of its name as others of its file may of theirs: reports have one for many."""

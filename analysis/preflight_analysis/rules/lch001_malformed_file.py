@@ -20,7 +20,9 @@ RULE = Rule(
         ROSLAUNCH,
         FORMATS,
     ),
-    check=check_problems(lambda malformed: malformed.message, MalformedXml, MalformedYaml, MalformedPython),
+    check=check_problems(
+        lambda malformed: malformed.message, MalformedXml, MalformedYaml, MalformedPython, quotes=True
+    ),
     problems=(
         MalformedXml,
         MalformedYaml,

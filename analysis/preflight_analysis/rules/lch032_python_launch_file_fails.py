@@ -120,7 +120,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
         yield problem_finding(
-            rule, problem, message, severity=severity, confidence=confidence, related=related, lack=lack
+            rule,
+            problem,
+            message,
+            severity=severity,
+            confidence=confidence,
+            related=related,
+            lack=lack,
+            quoted=message,
         )
 
 

@@ -69,6 +69,8 @@ def refusal_finding(rule: Rule, node: LaunchNode, param: Param, use: ParamUse, m
         severity="warning" if use.assumed else "error",
         confidence="possible" if use.assumed else "likely",
         related=(related_node(node), *include_chain(node.origin)),
+        node=node.name,
+        quoted=use.refused if use.refused is not None and use.refused in message else "",
     )
     return replace(finding, crash_of=node.name) if use.refused is not None else finding
 

@@ -14,7 +14,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, BadYaml):
         message = problem.kind.message
         severity: Severity | None = "info" if says_not_set(message) else None
-        yield problem_finding(rule, problem, f"invalid parameters: {message}", severity=severity)
+        yield problem_finding(rule, problem, f"invalid parameters: {message}", severity=severity, quoted=message)
 
 
 RULE = Rule(

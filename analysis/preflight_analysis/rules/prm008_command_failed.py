@@ -49,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case CommandMissing(line):
                 yield _missing(rule, context, line, problem.origin, stops=problem.fatal)
             case MalformedCommand(message):
-                yield problem_finding(rule, problem, f"malformed command: {message}")
+                yield problem_finding(rule, problem, f"malformed command: {message}", quoted=message)
             case CommandFailed() as failed:
                 yield _failed(rule, context, problem, failed)
     # A program that is named with its folder is looked for without running anything.
@@ -68,7 +68,12 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
     severity: Severity | None = None
     if lack is None and (found := next(filter(None, map(_NO_FILE.search, failed.stderr)), None)) is not None:
         path = found["after"] or found["before"]
-        lack = _variable_in(context, path, problem.origin) or lack_of_made(context, path) or lack_of_file(context, path)
+        lack = _variable_in(context, path, problem.origin)
+        if lack is not None:
+            message = (
+                f"the command failed: environment variable '{lack.name}' is not set, and names a file that it reads"
+            )
+        lack = lack or lack_of_made(context, path) or lack_of_file(context, path)
         if lack is None and is_ignored(context.disk, path):
             severity, message = "info", f"{message}; git ignores the file, so each machine may create it"
     elif lack is None and any(_is_beside(context, problem.origin, line) for line in failed.stderr):
@@ -78,7 +83,7 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
         empty = [name for name, arg in context.tree.args.items() if not arg.value]
         severity = "info" if empty else None
         message += f"; set argument {quoted(empty)}" if empty else ""
-    return problem_finding(rule, problem, message, severity=severity, lack=lack)
+    return problem_finding(rule, problem, message, severity=severity, lack=lack, quoted=message)
 
 
 def _is_beside(context: Context, origin: Origin, said: str) -> bool:

@@ -90,6 +90,8 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
                 severity="error",
                 confidence="likely",
                 related=include_chain(node.origin),
+                node=node.name,
+                quoted=use.refused,
             )
             yield replace(found, crash_of=node.name)
 
@@ -178,12 +180,16 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
             severity="info" if setters else None,
             confidence="likely",
             related=(related_param_read(read), *include_chain(node.origin)),
+            node=node.name,
+            quoted=died,
         )
     return rule.finding(
         f"unused parameter '{meant.name}'; did you mean '{read.name}'? {node.name} {reads} and exits: {died}",
         meant.place,
         confidence="likely",
         related=(related_param_read(read), *include_chain(meant.origin)),
+        node=node.name,
+        quoted=died,
         fixes=renamed(context, meant, read.name),
     )
 

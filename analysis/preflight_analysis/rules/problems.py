@@ -54,8 +54,9 @@ def problem_finding(
     related: Iterable[Related] = (),
     fixes: Iterable[Fix] = (),
     lack: Lack | None = None,
+    quoted: str = "",
 ) -> Finding:
-    """The finding for a problem, at its place, with the includes that lead there."""
+    """The finding for a problem, at its place, with the includes that lead there; `quoted` as in `Rule.finding`."""
     return rule.finding(
         message,
         problem.location,
@@ -65,15 +66,17 @@ def problem_finding(
         fixes=fixes,
         stops_launch=problem.fatal,
         lack=lack,
+        quoted=quoted,
     )
 
 
-def check_problems(message: Callable[[K], str], *kinds: type[K]) -> Check:
-    """The check of a rule that has nothing to do but to word its problems."""
+def check_problems(message: Callable[[K], str], *kinds: type[K], quotes: bool = False) -> Check:
+    """The check of a rule that has nothing to do but to word its problems, or what a parser says of them (`quotes`)."""
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for problem in problems_of(context, *kinds):
-            yield problem_finding(rule, problem, message(problem.kind))
+            said = message(problem.kind)
+            yield problem_finding(rule, problem, said, quoted=said if quotes else "")
 
     return check
 

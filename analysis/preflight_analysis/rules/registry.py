@@ -264,7 +264,7 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
         where = chain[0] if chain else place
         others += [Related(f"in another context: {message}", where) for message in said if message not in reported]
         reported.update(said)
-    elsewhere = [message for said in contexts.values() for message in said]
+    elsewhere = [each for said in contexts.values() for each in said.values()]
     yield replace(with_others(first, elsewhere), related=(*first.related, *others[:_MOST_CONTEXTS]))
     yield from more
 

@@ -189,8 +189,11 @@ class Rule(RuleDescription):
         lack: Lack | None = None,
         every_root: bool = False,
         alike: Alike | None = None,
+        node: str = "",
+        quoted: str = "",
     ) -> Finding:
-        """A finding of this rule. What the messages say is clipped: names may be as long as a file.
+        """A finding of this rule. What the messages say is clipped: names may be as long as a file. `node` is the full
+        name of the node that it is about, `quoted` the part of the message that another program says.
 
         One that stands for a `lack` of this machine is a hint: on the robot it need not hold.
         """
@@ -209,6 +212,8 @@ class Rule(RuleDescription):
             every_root=every_root,
             lack=lack,
             alike=alike,
+            node=node,
+            quoted_from=message.index(quoted) if quoted else None,
         )
 
 

@@ -98,7 +98,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or any(is_ignored(context.disk, path) for path in paths_said(told))
         )
         empty = _empty_param(node, told) or _empty_argument(context, node, told)
-        message = _message(node.name, outcome) + (f"; it reads {lacking}" if lacking else "")
+        crash, said = _message(node.name, outcome)
+        message = crash + (f"; it reads {lacking}" if lacking else "")
         message += f"; {empty} is empty" if empty is not None else ""
         found = rule.finding(
             message + (f"; this machine has no '{absent}'" if absent else ""),
@@ -107,6 +108,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             confidence="possible" if ours or absent else "likely",
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
+            node=node.name,
+            quoted=said,
         )
         yield replace(found, crash_of=node.name) if reported else found
 
@@ -287,21 +290,25 @@ def _cause(reason: str) -> str:
     return _EXCEPTION.sub("", _EXIT.sub("", reason))
 
 
-def _message(name: str, outcome: Outcome) -> str:
+def _message(name: str, outcome: Outcome) -> tuple[str, str]:
+    """What is said of a crash, and the first of it that the node says itself."""
+    said = ""
     if outcome.lacks:
         message = f"{name} needs {outcome.lacks}; it exited"
         if outcome.exit_code is not None:
             message += f" with exit code {outcome.exit_code}"
     elif outcome.reason:
-        message = f"{name} crashes on start: {_cause(outcome.reason)}"
+        said = _cause(outcome.reason)
+        message = f"{name} crashes on start: {said}"
     elif outcome.signal:
         message = f"{name} crashes on start: killed by {outcome.signal}"
     else:
         message = f"{name} crashes on start: exit code {outcome.exit_code}"
     telling = telling_line(outcome.stderr_tail)[:REASON_COLUMNS]
-    message = message if not telling or telling in message else f"{message}; {telling}"
+    if telling and telling not in message:
+        message, said = f"{message}; {telling}", said or telling
     conflict = telling.startswith("SyntaxError") and any(_CONFLICT.match(line) for line in outcome.stderr_tail)
-    return f"{message}; its source has marks of a merge conflict" if conflict else message
+    return f"{message}; its source has marks of a merge conflict" if conflict else message, said
 
 
 RULE = Rule(

@@ -20,6 +20,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 node.location,
                 confidence="possible" if outcome.answers else "likely",
                 related=include_chain(node.origin),
+                node=node.name,
+                quoted=because,
             )
 
 

@@ -19,6 +19,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 node.location,
                 confidence="likely",
                 related=include_chain(node.origin),
+                node=node.name,
+                quoted=because,
             )
 
 
