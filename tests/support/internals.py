@@ -18,7 +18,7 @@ _PARTS = (
     r"\\u[fF][dD][dDeE][0-9a-fA-F]",
     r"\$\((?:unknown|python|own)(?=[ )])[^)]*\)?",
     r"\bAnything\b|\bAnyModule\b|\bUnknownText\b",
-    r"\b_*preflight_(?!graph)[a-z]\w*|/run/preflight\b[^\s:'\"]*|\bfake_launch\b|\bown/lib\b",
+    r"\b_*preflight_(?!(?:graph|demo|services|tutorials)\b)[a-z]\w*|/run/preflight\b[^\s:'\"]*|\bfake_launch\b|\bown/lib\b",
     r"<[^<>]* (?:object )?at 0x[0-9a-f]+>|\b(?:mappingproxy|frozenset|PosixPath)\(",
 )
 
