@@ -65,8 +65,11 @@ def nothing_of_ours_fails(request: pytest.FixtureRequest) -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True)
-def findings_show_nothing_of_ours(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Whatever a rule says in a test, in words of users and of ROS. A test of odd names may well have what looks so."""
+def findings_show_nothing_of_ours(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Whatever a rule says in a test is in words of users and of ROS; texts that are drawn at random have anything."""
+    if "fuzzing" in request.path.parts:
+        yield
+        return
     said: dict[str, None] = {}
     make = Rule.finding
 
