@@ -91,7 +91,7 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
                 confidence="likely",
                 related=include_chain(node.origin),
                 node=node.name,
-                quoted=use.refused,
+                quoted=use.refused or "",
             )
             yield replace(found, crash_of=node.name)
 
