@@ -208,6 +208,18 @@ def test_controllers_have_nodes_beside_their_manager(tmp_path: Path, name: str) 
     assert [param.name for param in graph.tree.nodes[1].params] == ["wheel"]
 
 
+@pytest.mark.parametrize(("nodes", "name"), [([["manager", "", True]], "/manager"), ([], "/manager_node")])
+def test_a_manager_without_a_name_has_its_own_beside_controllers(tmp_path: Path, nodes: list[Any], name: str) -> None:
+    data = {**MANAGER, "executables": {"manager_node": {"nodes": nodes, "publishers": [{"name": "~/state"}]}}}
+    (packages.INTERFACES / "jazzy" / "control.json").write_text(json.dumps(data))
+    param = '<param name="base.type" value="control/Drive"/>'
+    text = f'<launch><node pkg="control" exec="manager_node">{param}</node></launch>'
+    graph = graph_of(tmp_path, text, "a.launch.xml")
+    assert [node.name for node in graph.tree.nodes] == [name, "/base"]
+    assert graph.tree.nodes[0].name_from_code == bool(nodes)
+    assert f"{name}/state" in graph.topics
+
+
 @pytest.mark.parametrize(("listener", "said"), [("scanner", []), ("hearer", ["TOP003"])])
 def test_types_that_differ_within_one_node_are_its_own_affair(tmp_path: Path, listener: str, said: list[str]) -> None:
     other = {"subscriptions": [{"name": "scan", "type": "sensor_msgs/Image"}]}

@@ -1,6 +1,6 @@
 """Every fix of every finding in real projects, tried: `make fixes`.
 
-  python tests/tools/fixes.py FOLDER... [--run] [--sample N] [--only REGEX]
+  python tests/tools/fixes.py FOLDER... [--run] [--sample N] [--only REGEX] [--processes N]
 
 A FOLDER is a workspace (its launch files are those that nothing includes), or one with a `jobs*.jsonl` of launch files
 with arguments and package paths, or one with cases (`<id>/buggy`). Each is copied, and after each fix looked at again:
@@ -18,8 +18,9 @@ import re
 import shutil
 import sys
 import tempfile
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -52,31 +53,42 @@ def main() -> int:
     parser.add_argument("--run", action="store_true", help="run Python launch files and commands, in the sandbox")
     parser.add_argument("--sample", type=int, help="only so many launch files, always the same")
     parser.add_argument("--only", default="", help="launch files whose path has this in it")
+    parser.add_argument("--processes", type=int, default=2, help="each with a copy of the folder (default: 2)")
     options = parser.parse_args()
-    tried: list[Try] = []
-    for folder in options.folders:
-        with tempfile.TemporaryDirectory() as temporary:
-            copy = Path(temporary, folder.resolve().name)
-            shutil.copytree(folder, copy, symlinks=True, ignore_dangling_symlinks=True)
-            tried += tried_in(copy, run=options.run, sample=options.sample, only=options.only)
+    tasks = [(folder, part, options) for folder in options.folders for part in range(options.processes)]
+    with ProcessPoolExecutor(options.processes) as pool:
+        tried = [each for found in pool.map(_in_a_copy, tasks) for each in found]
     print(table(tried))
     wrong = [each for each in tried if each.wrong is not None]
     return int(bool(wrong))
 
 
-def tried_in(folder: Path, *, run: bool = False, sample: int | None = None, only: str = "") -> list[Try]:
-    """What comes of all fixes in a folder, which they may write to."""
+def _in_a_copy(task: tuple[Path, int, argparse.Namespace]) -> list[Try]:
+    folder, part, options = task
+    with tempfile.TemporaryDirectory() as temporary:
+        copy = Path(temporary, folder.resolve().name)
+        shutil.copytree(folder, copy, symlinks=True, ignore_dangling_symlinks=True)
+        parts = (part, options.processes)
+        return tried_in(copy, run=options.run, sample=options.sample, only=options.only, part=parts)
+
+
+def tried_in(
+    folder: Path, *, run: bool = False, sample: int | None = None, only: str = "", part: tuple[int, int] = (0, 1)
+) -> list[Try]:
+    """What comes of all fixes in a folder, which they may write to; or of the `part` (number, of how many) of them."""
     chosen = [job for job in jobs(folder) if re.search(only, str(job.file))]
     if sample is not None and sample < len(chosen):
         chosen = random.Random(0).sample(chosen, sample)
+    workspaces = defaultdict[object, list[Job]](list)
+    for job in chosen:
+        workspaces[job.package_path or job.file.relative_to(folder).parts[0]].append(job)
     known: set[object] = set()
     found: list[Try] = []
-    workspaces: dict[object, OpenWorkspace] = {}
-    for job in chosen:
-        key = job.package_path or next(iter(job.file.relative_to(folder).parts))
-        if key not in workspaces:
-            workspaces[key] = opened(job, run=run)
-        found += tried_of(workspaces[key], job, known, str(folder), run=run)
+    number, parts = part
+    for jobs_of_one in sorted(workspaces.values(), key=len, reverse=True)[number::parts]:
+        launches = opened(jobs_of_one[0], run=run)
+        for job in jobs_of_one:
+            found += tried_of(launches, job, known, str(folder), run=run)
     return found
 
 

@@ -244,7 +244,7 @@ def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...
     """The nodes of a process, of which the first are those that the launch file knows."""
     own, *others = (each.nodes for each in does)
     name = node.name.rpartition("/")[2]
-    first = own or (MadeNode(name, name, inferred=True),)
+    first = own or (MadeNode(name, "", inferred=True),)
     return (*(replace(made, full=node.name) for made in first), *(made for each in others for made in each))
 
 

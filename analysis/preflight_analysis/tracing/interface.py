@@ -391,10 +391,13 @@ class Interface:
         done = outcome.status == "spinning" or (outcome.status == "exited" and outcome.exit_code == 0)
         return self.tells_all(*ENDS) or (self.known and done)
 
-    def own_name(self, namespace: str) -> str | None:
+    def own_name(self, namespace: str, node: str | None = None) -> str | None:
         """ROS 2: the full name of the node, where its own code gives it one, in a namespace of the launch file (`/` for
-        none). None where it is not known, or where the process has several: which of them is meant nobody can tell."""
+        none). None where it is not known, or where the process has several and none is that which the launch file
+        calls `node`: which of them is meant nobody can tell."""
         made = {(each.name, each.space) for each in self.nodes if not each.hidden}
+        if len(made) > 1 and node is not None:
+            made = {(each.name, each.space) for each in self.nodes if each.full == node and each.given}
         if len(made) != 1:
             return None
         ((name, space),) = made

@@ -35,6 +35,6 @@ def _own_name(node: LaunchNode, interface: Interface, known: KnownMeanings) -> s
     if node.named or node.name_from_code or node.unknowns or node.kind not in ("node", "lifecycle", "composable"):
         return None
     if interface.nodes or not interface.known:
-        return interface.own_name(node.namespace)
+        return interface.own_name(node.namespace, node.name)
     said = known.of_node(node)
     return names.join(node.namespace, said.entry.node) if said is not None and said.entry.node else None
