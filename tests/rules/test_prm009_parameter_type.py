@@ -1,7 +1,7 @@
 """PRM009: a parameter's value is of another kind than the node's own default."""
 
 import pytest
-from support.check import check, findings_of
+from support.check import apply, check, findings_of
 
 
 def _kinds(value: str, default: str, type_: str = "") -> list[tuple[str, str]]:
@@ -95,3 +95,46 @@ def test_an_empty_default_says_little_of_the_kind(default: str, severity: str) -
         {{"/n": {{"params": {{"~tools": {default}}}}}}}
     """)
     assert [each.severity for each in found if each.rule == "PRM009"] == [severity]
+
+
+@pytest.mark.parametrize(
+    ("tag", "after"),
+    [
+        ('<param name="rate" value="1e3"/>', '<param name="rate" value="1000"/>'),
+        ('<param name="rate" value="-5e-1"/>', '<param name="rate" value="-0.5"/>'),
+        ('<param name="rate" value="0x10"/>', '<param name="rate" value="16"/>'),
+        ('<param name="rate" value="1_000"/>', '<param name="rate" value="1000"/>'),
+        ('<param name="rate" value="1e3" type="str"/>', None),
+        ('<param name="rate" value="1e-30"/>', None),
+        ('<param name="rate" value="1e999"/>', None),
+        ('<param name="rate" value="$(arg rate)"/>', None),
+        ('<param name="rate" value="fast"/>', None),
+    ],
+)
+def test_a_number_is_written_plainly(tag: str, after: str | None) -> None:
+    launch = f"""
+        <launch>
+          <arg name="rate" value="1e3"/>
+          <node pkg="p" type="t" name="n">
+            {tag}
+          </node>
+        </launch>
+        //- interfaces
+        {{"/n": {{"params": {{"~rate": 10}}}}}}
+    """
+    (finding,) = [each for each in findings_of(launch) if each.rule == "PRM009"]
+    assert [apply(launch, fix.edits)["/main.launch"].splitlines()[3].strip() for fix in finding.fixes] == (
+        [after] if after is not None else []
+    )
+
+
+def test_a_number_is_written_plainly_in_a_file() -> None:
+    launch = """
+        <launch><node pkg="p" type="t" name="n"><rosparam command="load" file="/c.yaml"/></node></launch>
+        //- /c.yaml
+        rate: 1e3
+        //- interfaces
+        {"/n": {"params": {"~rate": 10}}}
+    """
+    (finding,) = [each for each in findings_of(launch) if each.rule == "PRM009"]
+    assert [apply(launch, fix.edits)["/c.yaml"].strip() for fix in finding.fixes] == ["rate: 1000"]

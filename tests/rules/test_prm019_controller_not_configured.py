@@ -1,7 +1,7 @@
 """PRM019: a controller that its manager knows nothing of."""
 
 import pytest
-from support.check import check, findings_of
+from support.check import apply, check, findings_of
 
 _MANAGER = """<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager">
             <param from="/p/controllers.yaml"/>
@@ -162,6 +162,8 @@ def test_a_controller_of_ros_1(args: str, more: str, said: str | None) -> None:
     severity, _, message = (said or "").rpartition(": ")
     assert [each.severity for each in told] == ([severity or "warning"] if said else [])
     assert all(message in each.message for each in told)
+    fixes = [fix.title for each in told for fix in each.fixes]
+    assert fixes == (["Replace 'elbowf_controller' with 'elbow_controller'"] if "elbow_" in message else [])
 
 
 @pytest.mark.silent
@@ -191,3 +193,25 @@ def test_a_branch_that_goes_with_another_file_of_parameters(file: str, severity:
         """,
         branches=True,
     )
+
+
+@pytest.mark.parametrize(
+    ("args", "after"),
+    [
+        ("-c /controller_manager twist_controler", "-c /controller_manager twist_controller"),
+        ("twist_controler twist_controler", None),
+        ("twist_controler twist_controller", None),  # which one is it then?
+    ],
+)
+def test_a_slip_is_mended_in_the_arguments(args: str, after: str | None) -> None:
+    launch = f"""
+        //- /robot.launch.xml
+        <launch>
+          {_MANAGER}
+          <node pkg="controller_manager" exec="spawner" name="t" args="{args}"/>
+        </launch>
+        {_FILES}
+    """
+    fixes = [fix for each in findings_of(launch) if each.rule == "PRM019" for fix in each.fixes]
+    texts = [apply(launch, fix.edits)["/robot.launch.xml"] for fix in fixes]
+    assert [f'args="{after}"' in text for text in texts] == ([True] if after is not None else [])

@@ -5,24 +5,28 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
+from dataclasses import replace
 from itertools import chain
 from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchTree, Param
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, ROSLAUNCH_PARAM
 from preflight_analysis.rules.parameters import changed_names
 from preflight_analysis.rules.places import related_param_read
-from preflight_analysis.rules.problems import include_chain, shortened
+from preflight_analysis.rules.problems import fix, include_chain, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _BOOLEAN_WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "y", "n", "t", "f"})
 _OTHER_NUMBER = re.compile(
     r"[-+]?(0[xob][0-9a-f_]+|[0-9][0-9_]*(\.[0-9_]*)?(e[-+]?[0-9]+)?|\.[0-9]+(e[-+]?[0-9]+)?)", re.I
 )
+_PLAIN = re.compile(r"-?[0-9]+\.[0-9]+")
+_IN_ANOTHER_BASE = re.compile("[-+]?0[xob]", re.IGNORECASE)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -35,7 +39,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for read, found in chain.from_iterable(refused):
         if (read.name, read.node.name) not in reported:
             reported.add((read.name, read.node.name))
-            yield found
+            yield replace(found, fixes=_plain_number(context, graph.tree.params[read.name], read))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,6 +86,25 @@ def _refused_of(
             difference = _difference(param.value, read.use.default)
             if difference is not None:
                 yield read, _finding(rule, param, read, *difference)
+
+
+def _plain_number(context: Context, param: Param, read: ParamRead) -> tuple[Fix, ...]:
+    """The number that a text means, in the form that roslaunch takes for one: `1000` for `1e3`."""
+    written, writer = str(param.value).strip(), context.writer(param.place.file)
+    number_expected = isinstance(read.use.default, int | float) and not isinstance(read.use.default, bool)
+    if not (number_expected and isinstance(param.value, str) and _OTHER_NUMBER.fullmatch(written)):
+        return ()
+    file = context.launch_files.get(param.place.file)
+    tag = action_at(file, param.place.span.start) if file is not None else None
+    try:
+        number = float(int(written, 0) if _IN_ANOTHER_BASE.match(written) else written)
+    except (OverflowError, ValueError):  # an old octal number, or one that is too large
+        return ()
+    # What has a type keeps it. A number of many digits would have an exponent again.
+    if writer is None or (tag is not None and tag.value("type") is not None) or not _PLAIN.fullmatch(repr(number)):
+        return ()
+    plain = int(number) if number.is_integer() else number
+    return fix(f"Write {plain}", writer.set_parameter(param.place.span, param.value, plain), preferred=True)
 
 
 def _finding(

@@ -21,11 +21,11 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.ros2.spawners import Asked, asked_of, is_spawner, type_in
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.problems import include_chain, quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
@@ -64,7 +64,7 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
             sure = context.tree.complete or (near is not None and is_slip(controller, near))
             if sure or _is_beside(node, types):
                 missing = f"parameter '{full}/type' is not set, and the controller manager reads it"
-                found = _finding(rule, node, missing, controller, known)
+                found = _finding(rule, context, node, missing, controller, known)
                 found = found if sure else replace(found, severity="info")
                 yield replace(found, confidence="possible") if _is_of_one_variant(context, types) else found
 
@@ -127,7 +127,8 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
                 related = [Related(f"parameters of {manager.name}", source.origin[-1]) for source in files[:1]]
                 related += [Related("the type is set here", apart[1])] if apart is not None else []
                 missing = f"parameter '{controller}.type' of {manager.name} is not set"
-                yield _finding(rule, nodes[at], missing, controller, known, related, apart[0] if apart else None)
+                where = apart[0] if apart is not None else None
+                yield _finding(rule, context, nodes[at], missing, controller, known, related, where)
 
 
 def _known(context: Context, spawner: LaunchNode) -> Asked | None:
@@ -174,6 +175,7 @@ def _for_the_manager(context: Context, controller: str, documents: Iterable[Docu
 
 def _finding(
     rule: Rule,
+    context: Context,
     spawner: LaunchNode,
     missing: str,
     controller: str,
@@ -194,7 +196,23 @@ def _finding(
         spawner.location,
         confidence="likely",
         related=(*related, *include_chain(spawner.origin)),
+        fixes=_corrected(context, spawner, controller, near) if apart is None and near is not None else (),
     )
+
+
+def _corrected(context: Context, spawner: LaunchNode, controller: str, near: str) -> tuple[Fix, ...]:
+    """The slip of a controller's name written right in the arguments of its spawner, if nothing asks for that one."""
+    value = next(filter(None, map(spawner.action.value, ("args", "arguments"))), None)
+    asked = {each for node in context.tree.nodes for each in _controllers(node)}
+    if value is None or near in asked or not is_slip(controller, near):
+        return ()
+    return rename(context, context.location(spawner.location.file, value.span), controller, near)
+
+
+def _controllers(node: LaunchNode) -> tuple[str, ...]:
+    script = asked_of_script(node)
+    asked = script if script is not None else asked_of(node) if is_spawner(node) else None
+    return tuple(asked.controllers) if asked is not None else ()
 
 
 def _manager(context: Context, name: str) -> LaunchNode | None:
