@@ -1,7 +1,7 @@
 """LCH040: a substitution or a condition that Python is asked for its value."""
 
 import pytest
-from support.check import check
+from support.check import apply, check, findings_of
 
 _START = """//- /robot.launch.py
         from launch import LaunchDescription, conditions
@@ -69,3 +69,34 @@ def test_what_may_be_something_else() -> None:
                 Node(package="p", executable="f", condition=only),
             ])
     """)
+
+
+@pytest.mark.parametrize(
+    ("asked", "after"),
+    [
+        ("IfCondition(sim) and UnlessCondition(gui)", "IfCondition(AndSubstitution(sim, NotSubstitution(gui)))"),
+        ("IfCondition(sim) or IfCondition(gui)", "IfCondition(OrSubstitution(sim, gui))"),
+        ("IfCondition(sim and gui)", "IfCondition(AndSubstitution(sim, gui))"),
+        ("IfCondition(sim == '{a}')", "IfCondition(EqualsSubstitution(sim, '{a}'))"),
+        ("UnlessCondition('x' != sim)", "UnlessCondition(NotEqualsSubstitution('x', sim))"),
+        ("IfCondition(not sim)", "IfCondition(NotSubstitution(sim))"),
+        ("UnlessCondition(sim) and UnlessCondition(gui)", None),
+        ("sim and IfCondition(gui)", None),
+        ("1 if sim and gui else 2", None),
+        ("not sim", None),
+        ("sim == 'a'", None),
+        ("f'a{sim}'", None),
+    ],
+)
+def test_what_launch_evaluates_instead(asked: str, after: str | None) -> None:
+    launch = f"""
+        {_START}
+        def generate_launch_description():
+            sim = LaunchConfiguration("sim")
+            gui = LaunchConfiguration("gui")
+            asked = {asked}
+            return LaunchDescription([DeclareLaunchArgument("sim", default_value="true")])
+    """
+    found = [each for each in findings_of(launch) if each.rule == "LCH040"]
+    texts = [apply(launch, fix.edits)["/robot.launch.py"] for each in found for fix in each.fixes]
+    assert [f"asked = {after}\n" in text for text in texts] == ([True] if after is not None else [])

@@ -167,9 +167,10 @@ def analyse(
     external: Sequence[str] = (),
     sources: Sources | None = None,
     branches: bool = False,
+    edited: bool = False,
 ) -> Context:
     """What the rules get to see of a fixture. `sources` are those of fixtures before, whose files it replaces. With
-    `branches` what conditions leave out is looked at, too."""
+    `branches` what conditions leave out is looked at, too. One that was `edited` may have lost nodes."""
     sources = sources or Sources()
     for path, text in fixture.files.items():
         sources.open(path, text)
@@ -186,7 +187,7 @@ def analyse(
     if fixture.interfaces is None and not annotated:
         return context
     said = fixture.interfaces or {}
-    if branches:
+    if branches or edited:
         said = {name: said[name] for name in said if any(node.name == name for node in tree.nodes)}
     interfaces = [*interfaces_of(tree, said), *(NOT_RUN for _ in tree.simulated)]
     graph = build_graph(tree, interfaces, external, documents=context.documents)
@@ -267,7 +268,8 @@ def check(text: str, **options: Any) -> list[Finding]:
 
 def _check_fixes(fixture: Fixture, findings: Sequence[Finding], context: Context, options: Mapping[str, Any]) -> None:
     def again(texts: Mapping[str, str]) -> list[Finding]:
-        return run_rules(analyse(replace(fixture, files={**fixture.files, **texts}), **{**options, "sources": None}))
+        after = replace(fixture, files={**fixture.files, **texts})
+        return run_rules(analyse(after, **{**options, "sources": None, "edited": True}))
 
     # What a command makes of an edited file the fixture does not say.
     told = frozenset(fixture.files) - context.launch_files.keys() if fixture.commands else frozenset()

@@ -174,6 +174,13 @@ class PythonWriter(HashComments):
             return ()
         return (Edit(self._document.location(span), new),)
 
+    def write_expression(self, span: Span, substitutions: Sequence[str], code: str) -> tuple[Edit, ...]:
+        """Write an expression in the place of what is at `span`, in which `{0}`, `{1}`, ... are these classes of
+        `launch.substitutions` as the file calls them, or will."""
+        found = [self._imported(_SUBSTITUTIONS, name) for name in substitutions]
+        imports = (edit for _, edits in found for edit in edits)
+        return (*imports, Edit(self._document.location(span), code.format(*(called for called, _ in found))))
+
     def insert_comma(self, offset: int) -> tuple[Edit, ...]:
         """Write a comma between two strings."""
         return (layout.insertion(self._document, offset, ","),)

@@ -1,11 +1,12 @@
 """LCH037: a name for a process that has several nodes (ROS 2)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.further_reading import COMMAND_LINE, REMAPPING_DESIGN
-from preflight_analysis.rules.problems import include_chain, quoted
+from preflight_analysis.rules.problems import all_of, fix, include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -33,7 +34,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             severity=None if same and not inferred else "info",
             confidence="possible" if inferred else "certain" if seen else "likely",
             related=include_chain(node.origin),
+            fixes=_renamed_alone(context, node, given, leaf),
         )
+
+
+def _renamed_alone(context: Context, node: LaunchNode, given: Iterable[str], name: str) -> Iterator[Fix]:
+    """A remap for one of the nodes in the place of the name; which one was meant is for the user to say."""
+    attribute, writer = node.action.attribute("name"), context.writer(node.location.file)
+    if attribute is None or writer is None or attribute.value.text != name:
+        return
+    for each in given:
+        remap = writer.add_remap(node.action, f"{each}:__node", name)
+        yield from fix(f"Rename '{each}' only", all_of(writer.remove_attribute(attribute), remap))
 
 
 RULE = Rule(

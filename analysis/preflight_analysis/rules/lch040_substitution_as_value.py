@@ -4,26 +4,47 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.edits.python import PythonWriter
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.rules.further_reading import FORMATS, LAUNCH_SUBSTITUTIONS
-from preflight_analysis.rules.problems import shortened
+from preflight_analysis.rules.problems import fix, shortened
 from preflight_analysis.rules.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames
 from preflight_analysis.rules.rule import Context, Rule
+
+_BEFORE = ("foxy", "galactic")
+"""The distributions whose launch does not have these substitutions yet."""
+_CONDITIONS_ON = ("IfCondition", "UnlessCondition")
+_WITH_TEST = (ast.If, ast.IfExp, ast.While, ast.Assert)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
-        for span, message in _asked(launch_file) if launch_file.is_python else ():
-            yield rule.finding(message, context.location(path, span), confidence="likely")
+        for span, message, instead in _asked(launch_file) if launch_file.is_python else ():
+            known = context.environment.distro not in _BEFORE
+            fixes = _fixes(launch_file, span, instead) if instead is not None and known else ()
+            yield rule.finding(message, context.location(path, span), confidence="likely", fixes=fixes)
+
+
+class _Instead(NamedTuple):
+    """What launch evaluates in the place of an expression: its code, in which `{0}`, `{1}`, ... are the classes."""
+
+    code: str
+    classes: tuple[str, ...]
+
+
+def _fixes(launch_file: LaunchFile, span: Span, instead: _Instead) -> tuple[Fix, ...]:
+    edits = PythonWriter(launch_file.document).write_expression(span, instead.classes, instead.code)
+    return fix(f"Write {instead.classes[0]}(...)", edits, preferred=True)
 
 
 @memoize_by_file
-def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
+def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str, _Instead | None], ...]:
     source = PythonSource(launch_file.document.text, launch_file.document.lines)
     if source.module is None:
         return ()
@@ -38,7 +59,16 @@ class _Finder(ast.NodeVisitor):
     def __init__(self, source: PythonSource) -> None:
         self._source = source
         self._names = BoundNames(source)
-        self.found: list[tuple[Span, str]] = []
+        self.found: list[tuple[Span, str, _Instead | None]] = []
+        self._tests = {
+            id(node.test) for piece in source.pieces for node in ast.walk(piece) if isinstance(node, _WITH_TEST)
+        }
+        self._performed = {
+            id(node.args[0])
+            for piece in source.pieces
+            for node in ast.walk(piece)
+            if isinstance(node, ast.Call) and node.args and self._names.made_by(node) in _CONDITIONS_ON
+        }
 
     def look_at(self, module: ast.Module) -> None:
         """Visit all nodes, without a recursion: an expression may be as deep as the file is long."""
@@ -63,6 +93,7 @@ class _Finder(ast.NodeVisitor):
                     node,
                     f"Python's '{word}' drops '{self._written(lost)}': {kind} is always true before the launch "
                     f"runs{advice}",
+                    self._together(node, f"{instead}Substitution") if advice else None,
                 )
                 return
 
@@ -73,6 +104,7 @@ class _Finder(ast.NodeVisitor):
                 node,
                 f"'not' is always False: {kind} is always true before the launch runs; use UnlessCondition or "
                 "NotSubstitution",
+                self._performed_as(node, "Not", node.operand),
             )
 
     def visit_IfExp(self, node: ast.IfExp) -> None:
@@ -92,6 +124,7 @@ class _Finder(ast.NodeVisitor):
                     node,
                     f"comparison is always {equal}: {kind} has no value before the launch runs; use "
                     "EqualsSubstitution, or perform(context) in an OpaqueFunction",
+                    self._performed_as(node, "NotEquals" if equal else "Equals", node.left, node.comparators[0]),
                 )
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
@@ -124,8 +157,47 @@ class _Finder(ast.NodeVisitor):
         span = self._source.whole_span(node)
         return shortened(" ".join(self._source.text[span.start : span.end].split()))
 
-    def _say(self, node: ast.expr, message: str) -> None:
-        self.found.append((self._source.whole_span(node), message))
+    def _together(self, node: ast.BoolOp, name: str) -> _Instead | None:
+        """Two substitutions, or conditions, as one. Python itself asks for the value of a test."""
+        if id(node) in self._tests or len(node.values) != 2 or not all(map(self._kind, node.values)):
+            return None
+        made = [self._condition(each) for each in node.values]
+        if all(each is None for each in made):
+            if any(self._names.made_by(each) in CONDITIONS for each in node.values):
+                return None
+            return _Instead(f"{{0}}({', '.join(map(self._code, node.values))})", (name,))
+        if any(each is None for each in made):
+            return None
+        classes, parts = [name], list[str]()
+        for condition in filter(None, made):
+            code = self._code(condition.args[0])
+            if self._names.made_by(condition) == "UnlessCondition":
+                classes += () if "NotSubstitution" in classes else ("NotSubstitution",)
+                code = f"{{1}}({code})"
+            parts.append(code)
+        positive = next((each for each in filter(None, made) if self._names.made_by(each) == "IfCondition"), None)
+        if positive is None:
+            return None
+        return _Instead(f"{self._code(positive.func)}({{0}}({', '.join(parts)}))", tuple(classes))
+
+    def _condition(self, node: ast.expr) -> ast.Call | None:
+        """The call that makes one of the two plain conditions, if it is written here."""
+        plain = isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords
+        return node if plain and self._names.made_by(node) in _CONDITIONS_ON else None  # type: ignore[return-value]
+
+    def _performed_as(self, node: ast.expr, name: str, *operands: ast.expr) -> _Instead | None:
+        """A substitution where a condition takes the value, which evaluates it."""
+        kinds = {self._names.made_by(each) for each in operands}
+        if id(node) not in self._performed or kinds & CONDITIONS:
+            return None
+        return _Instead(f"{{0}}({', '.join(map(self._code, operands))})", (f"{name}Substitution",))
+
+    def _code(self, node: ast.expr) -> str:
+        span = self._source.whole_span(node)
+        return self._source.text[span.start : span.end].replace("{", "{{").replace("}", "}}")
+
+    def _say(self, node: ast.expr, message: str, instead: _Instead | None = None) -> None:
+        self.found.append((self._source.whole_span(node), message, instead))
 
 
 RULE = Rule(
