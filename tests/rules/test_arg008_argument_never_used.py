@@ -124,6 +124,24 @@ def test_files_of_which_one_is_chosen_have_to_declare_what_the_others_use() -> N
     """)
 
 
+def test_a_value_of_the_file_s_own_is_not_passed_on() -> None:
+    """As turtlebot's `3dsensor/asus_xtion_pro.launch.xml` has it: passed on, it starts nodes twice."""
+    (found,) = check("""
+        <launch>
+          <arg name="depth" value="depth_registered"/>
+                     ^^^^^ warning[ARG008] argument 'depth' has no effect: the include does not pass it to '/inc.launch'
+          <include file="/inc.launch"/>
+        </launch>
+        //- /inc.launch
+        <launch>
+          <arg name="depth" default="depth"/>
+          <node pkg="p" type="t" name="$(arg depth)"/>
+          <node pkg="p" type="t" name="depth_registered"/>
+        </launch>
+    """)
+    assert [fix.title for fix in found.fixes] == ["Remove the declaration of 'depth'"]
+
+
 def test_an_argument_that_is_not_passed_on() -> None:
     text = """
         <launch>

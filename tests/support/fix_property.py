@@ -1,5 +1,12 @@
 """Every fix of every finding is tried: the files parse, the finding is gone, and no error is new.
 
+An error is new if it is said of something that was evaluated before, too. Two kinds are not, and say nothing against a
+fix, which has only come to them:
+
+- those of a file that the launch did not read before, as its include was not found;
+- those of what a package has, in the very tag in which the fix corrects the name of the package. Nothing is looked up
+  in a package that is not found: whether it has that executable or file was not asked before (`_LOOKED_UP`).
+
 Each try is a line of the file that `FIX_TALLY` names, where it is set: `tests/tools/fixes.py` counts them.
 """
 
@@ -17,6 +24,11 @@ from preflight_analysis.edits.gate import refusal
 from preflight_analysis.findings.finding import Finding, Fix
 
 TALLY = "FIX_TALLY"
+
+_PACKAGE_NAMES = ("PKG001", "LCH027")
+"""What is said of the name of a package that is not found, or has another one now."""
+_LOOKED_UP = ("LCH013", "PKG002", "PRM002", "PRM005", "PRM008")
+"""Errors of what is looked up in a package: files, executables and what a command makes of such a file."""
 
 TextOf = Callable[[str], str | None]
 Again = Callable[[Mapping[str, str]], Iterable[Finding]]
@@ -79,8 +91,19 @@ def _wrong(
     after = list(again(texts))
     if _count(after)[_key(finding)] >= _count(before)[_key(finding)]:
         return "the finding is still there"
-    errors = _errors(after, read) - _errors(before, read)
+    uncovered = {id(each) for each in after if _only_uncovered(each, finding, fix, texts)}
+    errors = _errors((each for each in after if id(each) not in uncovered), read) - _errors(before, read)
     return f"new errors: {sorted(errors)}" if errors else None
+
+
+def _only_uncovered(error: Finding, mended: Finding, fix: Fix, texts: Mapping[str, str]) -> bool:
+    """Whether an error is of what could not be looked up before, in the tag in which the fix names another package."""
+    text = texts.get(error.location.file)
+    if text is None or mended.rule not in _PACKAGE_NAMES or error.rule not in _LOOKED_UP or len(fix.edits) != 1:
+        return False
+    start, end = sorted((fix.edits[0].location.span.start, error.location.span.start))
+    between = text[start:end] if text[start] != "<" else text[start + 1 : end]
+    return "<" not in between and ">" not in between
 
 
 def _errors(findings: Iterable[Finding], read: Collection[str]) -> Counter[tuple[str, str, str]]:

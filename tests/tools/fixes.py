@@ -1,6 +1,6 @@
 """Every fix of every finding in real projects, tried: `make fixes`.
 
-  python tests/tools/fixes.py FOLDER... [--run] [--sample N] [--only REGEX] [--processes N]
+  python tests/tools/fixes.py FOLDER... [--run] [--sample N] [--only REGEX] [--rules REGEX] [--processes N]
 
 A FOLDER is a workspace (its launch files are those that nothing includes), or one with a `jobs*.jsonl` of launch files
 with arguments and package paths, or one with cases (`<id>/buggy`). Each is copied, and after each fix looked at again:
@@ -53,6 +53,7 @@ def main() -> int:
     parser.add_argument("--run", action="store_true", help="run Python launch files and commands, in the sandbox")
     parser.add_argument("--sample", type=int, help="only so many launch files, always the same")
     parser.add_argument("--only", default="", help="launch files whose path has this in it")
+    parser.add_argument("--rules", default="", help="fixes of the rules whose id begins so")
     parser.add_argument("--processes", type=int, default=2, help="each with a copy of the folder (default: 2)")
     options = parser.parse_args()
     tasks = [(folder, part, options) for folder in options.folders for part in range(options.processes)]
@@ -69,11 +70,19 @@ def _in_a_copy(task: tuple[Path, int, argparse.Namespace]) -> list[Try]:
         copy = Path(temporary, folder.resolve().name)
         shutil.copytree(folder, copy, symlinks=True, ignore_dangling_symlinks=True)
         parts = (part, options.processes)
-        return tried_in(copy, run=options.run, sample=options.sample, only=options.only, part=parts)
+        return tried_in(
+            copy, run=options.run, sample=options.sample, only=options.only, rules=options.rules, part=parts
+        )
 
 
 def tried_in(
-    folder: Path, *, run: bool = False, sample: int | None = None, only: str = "", part: tuple[int, int] = (0, 1)
+    folder: Path,
+    *,
+    run: bool = False,
+    sample: int | None = None,
+    only: str = "",
+    rules: str = "",
+    part: tuple[int, int] = (0, 1),
 ) -> list[Try]:
     """What comes of all fixes in a folder, which they may write to; or of the `part` (number, of how many) of them."""
     chosen = [job for job in jobs(folder) if re.search(only, str(job.file))]
@@ -88,7 +97,7 @@ def tried_in(
     for jobs_of_one in sorted(workspaces.values(), key=len, reverse=True)[number::parts]:
         launches = opened(jobs_of_one[0], run=run)
         for job in jobs_of_one:
-            found += tried_of(launches, job, known, str(folder), run=run)
+            found += tried_of(launches, job, known, str(folder), run=run, rules=rules)
     return found
 
 
@@ -98,13 +107,16 @@ def opened(job: Job, *, run: bool) -> OpenWorkspace:
     return open_workspace(environment, argparse.Namespace(no_run=not run), similar=False)
 
 
-def tried_of(launches: OpenWorkspace, job: Job, known: set[object], base: str, *, run: bool) -> list[Try]:
+def tried_of(
+    launches: OpenWorkspace, job: Job, known: set[object], base: str, *, run: bool, rules: str = ""
+) -> list[Try]:
     """What comes of the fixes of one launch file that were not tried in another one."""
     sources = launches.workspace.sources
     analysis = look(launches, job)
     findings = analysis.findings
-    new = [each for each in findings if not {(each.rule, fix.edits) for fix in each.fixes} <= known]
-    known.update((each.rule, fix.edits) for each in new for fix in each.fixes)
+    wanted = [each for each in findings if re.match(rules, each.rule)]
+    new = [each for each in wanted if not _written(each) <= known]
+    known.update(written for each in new for written in _written(each))
 
     def text_of(path: str) -> str | None:
         found = sources.text(path)
@@ -128,6 +140,14 @@ def tried_of(launches: OpenWorkspace, job: Job, known: set[object], base: str, *
         if each.wrong is not None:
             print(f"{os.path.relpath(job.file, base)}: {each.rule} {each.title}: {each.wrong}", flush=True)
     return tried
+
+
+def _written(finding: Finding) -> set[object]:
+    """What the fixes of a finding write, wherever it was found."""
+    return {
+        (finding.rule, *((edit.location.file, edit.location.span, edit.text) for edit in fix.edits))
+        for fix in finding.fixes
+    }
 
 
 def look(launches: OpenWorkspace, job: Job) -> Analysis:

@@ -86,6 +86,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield rule.finding(message, location, fixes=remove)
             else:
                 included, its_declaration = below
+                # A value that no includer may give is for what this file does, whatever is called like it below.
+                own = any(tag.value("value") is not None for tag in tags)
+                passed = () if own else pass_on(context, included.origin[-1], name)
                 yield rule.finding(
                     f"argument '{name}' has no effect: the include does not pass it to "
                     f"'{shown(str(included.path), context)}', which declares it too",
@@ -95,7 +98,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                         Related("included here", included.file_location),
                         Related("declared here", its_declaration),
                     ),
-                    fixes=(*pass_on(context, included.origin[-1], name), *remove),
+                    fixes=(*passed, *remove),
                 )
 
 

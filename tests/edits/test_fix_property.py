@@ -1,0 +1,48 @@
+"""What counts against a fix: a file that does not parse, a finding that is still there, an error that is new."""
+
+from collections.abc import Iterable
+
+import pytest
+from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.finding import Finding, Fix, Severity
+from support.fix_property import tries
+from support.locations import location
+
+_TEXT = '<launch><node pkg="gazbo" type="t" name="a"/><node pkg="q" type="u" name="b"/></launch>'
+_NAME = location("/a.launch", _TEXT.index("gazbo"), _TEXT.index("gazbo") + 5)
+
+
+def _said(rule: str, where: str, file: str = "/a.launch", severity: Severity = "error") -> Finding:
+    at = _TEXT.replace("gazbo", "gazebo").index(where)
+    return Finding(rule, "some", severity, "certain", f"{rule} of {where}", location(file, at, at + len(where)))
+
+
+def _wrong(rule: str, new: str, after: Iterable[Finding]) -> str | None:
+    fix = Fix("Write it", (Edit(_NAME, new),), True)
+    finding = Finding(rule, "some", "error", "certain", "not found", _NAME, fixes=(fix,))
+    (tried,) = tries([finding], {"/a.launch": _TEXT}.get, lambda _: after, read=["/a.launch"])
+    return tried.wrong
+
+
+def test_what_counts_against_a_fix() -> None:
+    assert _wrong("PKG001", "gazebo", []) is None
+    assert (_wrong("PKG001", '" pkg="b', []) or "").startswith("it leaves /a.launch with")
+    still = Finding("PKG001", "some", "error", "certain", "not found", _NAME)
+    assert _wrong("PKG001", "gazebo", [still]) == "the finding is still there"
+    assert _wrong("PKG001", "gazebo", [_said("LCH016", '"a"', severity="warning")]) is None
+    assert (_wrong("PKG001", "gazebo", [_said("LCH016", '"a"')]) or "").startswith("new errors")
+
+
+@pytest.mark.parametrize(
+    ("rule", "error", "counts"),
+    [
+        ("PKG001", _said("PKG002", '"t"'), False),  # of a package that was not found nothing was looked up
+        ("LCH027", _said("PKG002", '"t"'), False),
+        ("PKG001", _said("PKG002", '"u"'), True),  # another tag
+        ("ARG001", _said("PKG002", '"t"'), True),  # the package was found before
+        ("PKG001", _said("LCH016", '"a"'), True),  # nothing that is looked up
+        ("PKG001", _said("PKG002", '"t"', "/b.launch"), False),  # a file that was not read before
+    ],
+)
+def test_an_error_of_what_was_not_evaluated_before_is_not_new(rule: str, error: Finding, counts: bool) -> None:
+    assert (_wrong(rule, "gazebo", [error]) is not None) == counts
