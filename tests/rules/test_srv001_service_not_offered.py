@@ -1,7 +1,7 @@
 """SRV001: a node calls a service that nobody offers."""
 
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 
 
 def test_a_near_miss_is_a_warning_that_names_both() -> None:
@@ -88,3 +88,19 @@ def test_a_nodelet_that_asks_for_its_manager_is_lch034s() -> None:
         {"/manager": {"services": {"~load_nodelet": "nodelet/NodeletLoad"}},
          "/a": {"clients": {"maneger/load_nodelet": "nodelet/NodeletLoad"}}}
     """)
+
+
+@pytest.mark.parametrize(("name", "fixes"), [("", 0), ('name="server"', 2)])
+def test_a_private_name_of_a_node_whose_name_is_not_known_is_not_mended(name: str, fixes: int) -> None:
+    launch = f"""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="server" {name}/>
+          <node pkg="p" exec="client" name="client"/>
+        </launch>
+        //- interfaces
+        {{"/server": {{"services": {{"~/load_map": "std_srvs/srv/Trigger"}}}},
+          "/client": {{"clients": {{"serve/load_map": "std_srvs/srv/Trigger"}}}}}}
+    """
+    (finding,) = [each for each in findings_of(launch) if each.rule == "SRV001"]
+    assert len(finding.fixes) == fixes

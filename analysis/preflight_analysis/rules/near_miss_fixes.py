@@ -21,7 +21,7 @@ def fixes(near: NearMiss, consumers: Document | None, providers: Document | None
     """What makes the two ends meet: the remap that gave the wrong name corrected, else a remap into a node's tag.
     `consumers` and `providers` are the texts in which the ends have their places: see `documents_of`."""
     site, other = near.site, near.other
-    if not near.mendable:
+    if not near.mendable or _is_guessed(near.consumer) or _is_guessed(near.provider):
         return ()
     if site.remap is not None:
         document = consumers if site is near.consumer else providers
@@ -44,6 +44,12 @@ def fixes(near: NearMiss, consumers: Document | None, providers: Document | None
         for connection in connections
     ]
     return tuple(fix for fix in found if fix is not None)
+
+
+def _is_guessed(connection: Connection) -> bool:
+    """Whether a private name stands below a name that only the executable suggests for its node."""
+    node = connection.node
+    return connection.endpoint.name.startswith("~") and not (node.named or node.name_from_code)
 
 
 def _partner(near: NearMiss, connection: Connection) -> Connection:
