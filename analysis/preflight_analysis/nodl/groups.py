@@ -14,12 +14,3 @@ GROUPS: Mapping[Role, str] = {
     "action_server": "action_servers",
     "action_client": "action_clients",
 }
-KINDS: Mapping[Role, str] = {
-    "publisher": "msg",
-    "subscriber": "msg",
-    "service": "srv",
-    "client": "srv",
-    "action_server": "action",
-    "action_client": "action",
-}
-"""Of the types that they have."""
