@@ -159,11 +159,10 @@ static void managed(int fail, int by_itself) {
       SERVICE(lifecycle_msgs, GetAvailableStates), SERVICE(lifecycle_msgs, GetAvailableTransitions),
       SERVICE(lifecycle_msgs, GetAvailableTransitions), &options));
   for (uint8_t id = 0; id < by_itself; ++id) {
-    check(rcl_lifecycle_trigger_transition_by_id(
-        &machine,
-        id == 0 ? lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE
-                : lifecycle_msgs__msg__Transition__TRANSITION_ACTIVATE,
-        true));
+    check(rcl_lifecycle_trigger_transition_by_id(&machine,
+                                                 id == 0 ? lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE
+                                                         : lifecycle_msgs__msg__Transition__TRANSITION_ACTIVATE,
+                                                 true));
     check(rcl_lifecycle_trigger_transition_by_label(&machine, rcl_lifecycle_transition_success_label, true));
   }
   const rcl_service_t* change = &machine.com_interface.srv_change_state;
