@@ -14,7 +14,7 @@ LUA = $(shell git ls-files '*.lua')
 PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus fixes nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus ecosystem fixes nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 

@@ -30,15 +30,16 @@ def main() -> int:
     options = parser.parse_args()
     with (options.corpus / "repositories.tsv").open() as table:
         rows = list(csv.DictReader(table, delimiter="\t"))
-    missing = [row["repository"] for row in rows if _repository(options.sources, row) is None]
+    found = {row["repository"]: repository(options.sources, row["repository"], row["commit"]) for row in rows}
+    missing = [name for name, git in found.items() if git is None]
     if missing:
         print(f"Python launch files are not compared: no sources of {', '.join(missing)} in {options.sources}")
         return 0
     options.out.mkdir(parents=True, exist_ok=True)
     for row in rows:
-        repository = _repository(options.sources, row)
-        assert repository is not None
-        take_over(repository, row["commit"], options.out / "src" / row["folder"])
+        git = found[row["repository"]]
+        assert git is not None
+        take_over(git, row["commit"], options.out / "src" / row["folder"])
     for name in ("jobs-python.jsonl", "packages.json"):
         shutil.copyfile(options.corpus / name, options.out / name)
     actual = options.out / "actual.jsonl"
@@ -51,13 +52,17 @@ def main() -> int:
     return 0
 
 
-def _repository(sources: Path, row: dict[str, str]) -> Path | None:
-    """The git folder that has the recorded commit."""
-    plus = row["repository"].replace("/", "+")
-    for folder in (sources / plus / "repo", sources / plus, sources / row["folder"]):
+def repository(sources: Path, name: str, commit: str) -> Path | None:
+    """The git folder of `<owner>/<name>` that has the commit."""
+    owner, _, project = name.partition("/")
+    for folder in (
+        sources / f"{owner}+{project}" / "repo",
+        sources / f"{owner}+{project}",
+        sources / f"{owner}__{project}",
+    ):
         git = folder / ".git" if (folder / ".git").exists() else folder
         found = subprocess.run(
-            ["git", f"--git-dir={git}", "cat-file", "-e", row["commit"] + "^{tree}"], capture_output=True, check=False
+            ["git", f"--git-dir={git}", "cat-file", "-e", commit + "^{tree}"], capture_output=True, check=False
         )
         if found.returncode == 0:
             return git
