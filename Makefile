@@ -93,6 +93,11 @@ corpus: $(READY) ## how many records of ../shared/corpus are as real roslaunch a
 fixes: $(READY) ## every fix of every finding in the fixtures, ../shared/corpus and ../shared/cases, tried one by one: what each leaves
 	$(BIN)/python tests/tools/fixes.py fixtures/ros1/* fixtures/ros2/* $(wildcard ../shared/corpus/ros? ../shared/cases/dev)
 
+ecosystem: SOURCES = $(realpath ../.mirror)
+ecosystem: PIECE = 1/1
+ecosystem: setup ## what changed in the findings of the public projects of bench/ecosystem that are in SOURCES=FOLDER; PIECE=1/9 a part, ONLY="o/p q/r" some, WRITE=1 keeps it
+	$(BIN)/python tests/tools/ecosystem.py --sources "$(SOURCES)" --piece $(PIECE) $(if $(WRITE),--write) $(ONLY)
+
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages
 	$(BIN)/python tests/tools/real_nodes.py --write

@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-
 from tools import ecosystem
 from tools.ecosystem import DATA, Change, Entry, Project, Snapshot, compare, merged, read_findings, read_projects
 
@@ -27,7 +26,9 @@ def test_what_is_new_gone_or_of_another_severity_is_a_change() -> None:
     assert changes(FOUND, replace(FOUND, message="in other words", line=9)) == []
     assert [str(each).split(" TOP001")[0] for each in changes(None, FOUND)] == ["+ warning (likely)"]
     assert [str(each).split(" TOP001")[0] for each in changes(FOUND, None)] == ["- warning (likely)"]
-    assert [str(each).split(" TOP001")[0] for each in changes(FOUND, louder)] == ["~ warning (likely) -> error (likely)"]
+    assert [str(each).split(" TOP001")[0] for each in changes(FOUND, louder)] == [
+        "~ warning (likely) -> error (likely)"
+    ]
 
 
 @pytest.mark.parametrize(
