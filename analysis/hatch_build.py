@@ -56,7 +56,6 @@ class PreloadHook(BuildHookInterface):  # type: ignore[misc]
         assert spec is not None
         assert spec.loader is not None
         module: Any = importlib.util.module_from_spec(spec)
-        sys.modules[spec.name] = module  # its dataclasses look for it there
         spec.loader.exec_module(module)
         machines = [machine for machine in module.MACHINES if wanted in ("", "1") or wanted.endswith(f"_{machine}")]
         compilers = {machine: module.compiler(machine) for machine in machines if sys.platform == "linux"}

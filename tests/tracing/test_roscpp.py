@@ -6,7 +6,6 @@ import os
 import shutil
 import subprocess
 import threading
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -261,7 +260,7 @@ def test_without_a_compiler_the_master_sees_the_rest(tmp_path: Path, no_compiler
 def test_what_does_not_compile_is_tried_once(tmp_path: Path) -> None:
     source = tmp_path / "odd.cpp"
     source.write_text("#error odd\n")
-    odd = replace(preload_compile.ROSCPP, source=source)
+    odd = preload_compile.ROSCPP._replace(source=source)
     library = Library(tmp_path / "cache", watched=odd)
     assert "does not compile" in master_alone(library).notes[0]
     source.write_text("")

@@ -6,9 +6,11 @@ import json
 import platform
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from preflight_analysis.tracing import preload_compile
 from preflight_analysis.tracing.preload_compile import MACHINES, WATCHED
 from support.installed_wheel import install, wheel
 
@@ -51,3 +53,8 @@ def test_an_installed_wheel_watches_roscpp_nodes_without_a_compiler(package: Pat
     assert copy.read_bytes() == (agents / f"roscpp_preload.{platform.machine()}.so").read_bytes()
     libraries = {path.name for path in agents.glob("*.so")}
     assert libraries == {watched.prebuilt(machine).name for watched in WATCHED for machine in MACHINES}
+
+
+def test_what_compiles_for_a_wheel_needs_the_standard_library_alone() -> None:
+    """A wheel is built where nothing of ours is installed: else it silently comes without the compiled libraries."""
+    subprocess.run([sys.executable, "-I", "-S", preload_compile.__file__], check=True)

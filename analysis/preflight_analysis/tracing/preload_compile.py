@@ -10,16 +10,14 @@ import shutil
 import subprocess
 import tempfile
 from pathlib import Path
-
-from preflight_analysis.dataclass import dataclass
+from typing import NamedTuple
 
 _AGENTS = Path(__file__).parent / "agents"
 _COMMON = _AGENTS / "preload.hpp"
 """What both of them include."""
 
 
-@dataclass(frozen=True, slots=True)
-class Watched:
+class Watched(NamedTuple):
     """A client library, and what is preloaded into the nodes that use it. `exports` are the functions of its that are
     intercepted: nothing of the C++ library that was compiled into ours takes the place of the node's."""
 
