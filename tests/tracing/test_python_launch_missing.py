@@ -945,6 +945,11 @@ IMPORTS = {
         "no launch of Humble, Jazzy, Kilted or Rolling has it",
         "error",
     ),
+    "from launch_ros.actions.node import Nodee": (
+        "cannot import name 'Nodee' from 'launch_ros.actions.node'; "
+        "no launch_ros of Humble, Jazzy, Kilted or Rolling has it",
+        "error",
+    ),
     "from p.utlis import helper": ("module 'p.utlis' does not exist; did you mean 'p.utils'?", "error"),
     "from p import utlis": ("module 'p.utlis' does not exist; did you mean 'p.utils'?", "error"),
     "import numpyy": ("module 'numpyy' is not known; did you mean 'numpy'?", "warning"),
@@ -960,3 +965,17 @@ def test_an_import_that_no_machine_can_do_is_certain(harness: PythonHarness, lin
     path = harness.write("launch/a.launch.py", f"{text}return LaunchDescription([])\n")
     (finding,) = harness.launch(path).findings
     assert (finding.rule, finding.message, finding.severity) == ("LCH032", *IMPORTS[line])
+
+
+def test_a_module_of_the_implementation_has_what_it_imports(harness: PythonHarness) -> None:
+    """`launch_ros/actions/node.py` imports what others define: no release says that it goes on doing so."""
+    names = (
+        "launch_ros.actions.node import ExecuteProcess",
+        "launch_ros.substitutions.find_package import get_package_share_directory",
+        "launch.actions.declare_launch_argument import LaunchContext",
+        "launch.frontend.parse_substitution import TextSubstitution",
+    )
+    lines = "\n".join(f"from {each}" for each in names)
+    text = f"from launch import LaunchDescription\n{lines}\n\ndef generate_launch_description():\n    "
+    path = harness.write("launch/a.launch.py", f"{text}return LaunchDescription([])\n")
+    assert harness.launch(path).findings == ()

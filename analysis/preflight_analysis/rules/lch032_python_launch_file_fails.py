@@ -214,8 +214,6 @@ def _wrong_import(
     """What is said of an import that no machine can do; None of one that a machine may."""
     name = _NO_NAME.search(failed.message)
     if name is not None and _LAUNCH.match(name[2].partition(".")[0]):
-        if failed.instead and name[2].count(".") > 1:
-            return None  # a module that implements one class or two has what it imports itself, too
         top = name[2].partition(".")[0]
         instead = f"it is in '{failed.instead}'" if failed.instead else f"no {top} of {_RELEASES} has it"
         return f"cannot import name '{name[1]}' from '{name[2]}'; {instead}", None, "certain"

@@ -25,9 +25,8 @@ from ..process import own_seconds
 from . import programs, reads, rewrites, rewritten, unknown_files, waiting, written
 from .base import OURS, RECORDER, Condition, LaunchContext, LaunchDescription, NotHereError
 from .library import InvalidPythonLaunchFileError
-from .modules import install
+from .modules import install, module_with
 from .serialize import Serializer
-from .tables import TABLE
 
 _FUNCTION = "generate_launch_description"
 MAX_FILES = 200
@@ -298,8 +297,7 @@ def _error_record(error: BaseException) -> dict[str, Any]:
 def _module_with(message: str) -> str:
     """The module of launch that has the name which another one does not; "" where there is none."""
     name = _NOT_IN_MODULE.match(message)
-    having = [module for module, names in TABLE.items() if name is not None and name[1] in names]
-    return min(having, key=lambda module: (module.count("."), module), default="") if name is not None else ""
+    return module_with(name[1]) if name is not None else ""
 
 
 def _looked_for(error: BaseException) -> Optional[str]:

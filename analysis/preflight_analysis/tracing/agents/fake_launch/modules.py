@@ -16,7 +16,7 @@ from ..anything import member
 from ..missing_modules import MissingModules
 from . import settings
 from .base import RECORDER
-from .tables import FALLBACK, SIBLINGS, TABLE
+from .tables import FALLBACK, FOLDERS, SIBLINGS, TABLE
 
 _TOP = {name.partition(".")[0] for name in TABLE}
 _FALLBACK_TOP = {name.partition(".")[0] for name in FALLBACK}
@@ -35,6 +35,12 @@ def _contents(fullname: str, table: dict[str, dict[str, Any]]) -> Optional[dict[
         if above and (name in SIBLINGS.get(parent, ()) or any(_snake(each) == name for each in above)):
             return above
     return found
+
+
+def module_with(name: str) -> str:
+    """The module of launch that has a name; "" where there is none."""
+    having = [module for module, names in TABLE.items() if name in names]
+    return min(having, key=lambda module: (module.count("."), module), default="")
 
 
 class _Anything(settings.PushEnvironment):
@@ -72,6 +78,18 @@ def _below(module: str) -> Any:
         return importlib.import_module(f"{module}.{name}")
 
     return attribute
+
+
+def _imported(name: str) -> Any:
+    """What a module that is no folder may have: it imports what others define, and which of it is not known."""
+    having = module_with(name)
+    if not having:
+        raise AttributeError(name)
+    return TABLE[having][name]
+
+
+def _more_of_launch(module: str) -> Any:
+    return _below(module) if module in FOLDERS else _imported
 
 
 def _more(module: str) -> Any:
@@ -127,7 +145,7 @@ class _Loader(importlib.abc.Loader):
 
     def create_module(self, spec: Any) -> Any:
         module = types.ModuleType(spec.name)
-        module.__getattr__ = _below(spec.name)  # type: ignore[method-assign]
+        module.__getattr__ = _more_of_launch(spec.name)  # type: ignore[method-assign]
         if spec.name.partition(".")[0] == "launch_testing":
             module.__getattr__ = _anything  # type: ignore[method-assign]
         if self._stands_in:
@@ -226,7 +244,7 @@ def install() -> None:
 
 def _module(name: str) -> Any:
     module = types.ModuleType(name)
-    module.__getattr__ = _below(name)  # type: ignore[method-assign]
+    module.__getattr__ = _more_of_launch(name)  # type: ignore[method-assign]
     vars(module).update(TABLE[name])
     module.__path__ = []
     module.__spec__ = importlib.machinery.ModuleSpec(name, None, is_package=True)

@@ -287,6 +287,16 @@ TABLE: dict[str, dict[str, Any]] = {
     "ament_index_python.resources": _RESOURCES,
     "ament_index_python.search_paths": {"get_search_paths": ament.get_search_paths},
 }
+_FOLDERS = {
+    "launch": "actions conditions descriptions event_handlers events events.process frontend "
+    "launch_description_sources logging substitutions utilities",
+    "launch_ros": "actions descriptions event_handlers events events.lifecycle substitutions utilities",
+    "launch_xml": "launch_description_sources",
+    "launch_yaml": "launch_description_sources",
+    "ament_index_python": "",
+}
+FOLDERS = {*_FOLDERS, *(f"{top}.{name}" for top, names in _FOLDERS.items() for name in names.split())}
+"""Modules that are folders. They have the names that they say; any other module has what it imports, too."""
 SIBLINGS = {
     "launch.actions": ("log", "shutdown_action"),
     "launch.conditions": ("evaluate_condition_expression_impl",),
