@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.claim import Subject, Text, as_text, say
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.finding import Alike, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
@@ -129,9 +130,12 @@ def test_colour_and_severities_are_a_choice() -> None:
 
 
 def finding(
-    severity: Severity, file: str, start: int, message: str = "m", rule: str = "ABC001", lack: Lack | None = None
+    severity: Severity, file: str, start: int, said: str | Text = "m", rule: str = "ABC001", lack: Lack | None = None
 ) -> Finding:
-    return Finding(rule, "n", severity, "certain", message, location(file, start, start + 1), lack=lack)
+    """One that speaks of what its message has in quotes."""
+    text, name = as_text(said), str(said).partition("'")[2].partition("'")[0]
+    place, subject = location(file, start, start + 1), Subject("name", name)
+    return Finding(rule, "n", severity, "certain", str(text), place, lack=lack, text=text, subject=subject)
 
 
 def test_the_most_severe_come_first_then_files_and_places() -> None:
@@ -187,7 +191,7 @@ def test_one_cause_in_several_places_is_shown_once() -> None:
 
 
 def test_programs_get_one_finding_for_each_cause() -> None:
-    gone = "there is no /map"
+    gone = "there is no '/map'"
     same = [replace(finding("error", f"/{n}.launch", 1, gone), roots=(f"/{n}.launch",)) for n in range(8)]
     report = Report.of([*same, finding("error", "/0.launch", 1, "other")], {}, Coverage())
     first, other = to_json(report)["findings"]
@@ -205,7 +209,7 @@ def test_text_and_json_count_alike() -> None:
         replace(finding("info", "/c", 1, "'/x' here"), related=there),
         replace(finding("info", "/d", 1, "'/x' there"), related=(Related("there", location("/c", 1, 2)),)),
     ]
-    many = [replace(finding("error", "/e", n, f"'{n}' is odd"), alike=Alike("are odd", str(n))) for n in range(12)]
+    many = [replace(finding("error", "/e", n, f"'{n}' is odd"), alike=Alike(say("are odd"), str(n))) for n in range(12)]
     report = Report.of([*two, *pair, *many, finding("hint", "/f", 1)], {}, Coverage())
     for severity, said in (
         ("hint", "12 errors, 1 warning, 1 info, 1 hint; "),
@@ -222,8 +226,8 @@ def test_text_and_json_count_alike() -> None:
 
 
 def test_how_much_of_a_launch_is_known_is_no_part_of_the_cause() -> None:
-    said = "'/scan' has no publisher; {} of 9 nodes not fully analysed; did you mean '/scans'?"
-    same = [finding("warning", f"/{n}.launch", 1, said.format(n)) for n in range(3)]
+    said = "'/scan' has no publisher{aside}; did you mean '/scans'?"
+    same = [finding("warning", f"/{n}.launch", 1, say(said, aside=f"; {n} of 9 nodes")) for n in range(3)]
     assert len(to_json(Report.of(same, {}, Coverage()))["findings"]) == 1
 
 

@@ -97,7 +97,7 @@ def test_what_differs_from_include_to_include_is_told_of() -> None:
 def test_the_graver_of_two_contexts_is_shown() -> None:
     place = location("/inc.launch", 0, 1)
     finding = Finding("LCH013", "", "hint", "certain", "mild", place)
-    chains = [(Related("included here", location("/main.launch", at, at)),) for at in (1, 2)]
+    chains = [(Related("included here", location("/main.launch", at, at), "included"),) for at in (1, 2)]
     said = [
         replace(finding, related=chains[0]),
         replace(finding, related=chains[1], severity="error", message="grave"),

@@ -65,6 +65,7 @@ from preflight_analysis.tracing.interface import (
 from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
 
+from support.claims import undeclared
 from support.fix_property import tries
 from support.messages import wording
 
@@ -284,7 +285,7 @@ def _text_of(context: Context, path: str) -> str | None:
 
 
 def _check_wording(findings: Sequence[Finding]) -> None:
-    complaint = [each for finding in findings for each in wording(finding)]
+    complaint = [each for finding in findings for each in (*wording(finding), *undeclared(finding))]
     assert not complaint, "\n" + "\n".join(complaint)
 
 

@@ -49,7 +49,7 @@ def shown_internals(texts: Iterable[str], written: str = "") -> list[str]:
 def texts_of(findings: Iterable[Finding]) -> Iterator[str]:
     """All that is read of findings."""
     for finding in findings:
-        said = finding.message[: finding.quoted_from]
+        said = str(finding.text.own)
         yield from (said, _UNSET.sub("", finding.message[len(said) :]), finding.condition)
         yield from (each.message for each in finding.related)
         yield from (each.title for each in finding.fixes)
@@ -57,7 +57,7 @@ def texts_of(findings: Iterable[Finding]) -> Iterator[str]:
         if finding.lack is not None:
             yield from (finding.lack.name, finding.lack.remedy or "")
         if finding.alike is not None:
-            yield from (finding.alike.what, finding.alike.name)
+            yield from (str(finding.alike.what), finding.alike.name)
 
 
 def strings_in(data: Any) -> Iterator[str]:

@@ -8,6 +8,8 @@ from typing import Literal, NamedTuple
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.findings.claim import Effect, Kind, Subject, Text
+from preflight_analysis.findings.doubt import Doubt
 from preflight_analysis.findings.lack import Lack
 
 Severity = Literal["error", "warning", "info", "hint"]
@@ -15,6 +17,8 @@ Confidence = Literal["certain", "likely", "possible"]
 
 SEVERITIES: tuple[Severity, ...] = ("hint", "info", "warning", "error")
 """From the least to the most severe."""
+CONFIDENCES: tuple[Confidence, ...] = ("possible", "likely", "certain")
+"""From the least to the most sure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,10 +32,12 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Related:
-    """Another place that belongs to the finding: the other end of a connection, a step of the include chain."""
+    """Another place that belongs to the finding: the other end of a connection, a step of the include chain. `role`
+    says which, where a program has to know: `included` is a step of that chain."""
 
     message: str
     location: Location
+    role: Literal["", "included"] = ""
 
 
 class EndpointRef(NamedTuple):
@@ -47,7 +53,7 @@ class Alike:
     """What many findings of one cause have in common. `what` goes on from their number (`parameters are not declared by
     /n`), `name` is what this one is about."""
 
-    what: str
+    what: Text
     name: str
 
 
@@ -55,7 +61,9 @@ class Alike:
 class Finding:
     """Something wrong, where it is, how sure we are and what mends it.
 
-    `severity` is what it means for the robot, `confidence` how sure we are. `stops_launch` marks what would stop the
+    `severity` is what it means for the robot, `confidence` how sure we are; both are of `policy.py`, by its `effect`
+    and `doubts`. `message` is its `text`, which speaks of its `subject`; `candidates` are what was probably meant, the
+    best first. `stops_launch` marks what would stop the
     launcher itself (the `errors` of `tree`). `roots` are the launch files in whose context it holds.
     """
 
@@ -82,9 +90,11 @@ class Finding:
     The finding about the crash has it as well."""
     lack: Lack | None = None
     """What is missing on this machine, where the finding speaks of nothing else."""
-    node: str = ""
-    """The full name of the node that it is about, where it is about one and its rule says so."""
-    quoted_from: int | None = None
-    """Where in the message that begins which another program says, and which is left as it is."""
     alike: Alike | None = field(default=None, compare=False)
     """Of one that says the same of its name as others of its file may of theirs: reports have one for many."""
+    effect: Effect = "misbehaves"
+    kind: Kind = "invalid"
+    doubts: tuple[Doubt, ...] = ()
+    subject: Subject = Subject("text")
+    candidates: tuple[str, ...] = ()
+    text: Text = field(default=Text(""), compare=False)

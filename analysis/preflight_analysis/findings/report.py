@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -14,6 +13,7 @@ from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.claim import Text
 from preflight_analysis.findings.clipping import clipped
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.failure import Failure, failures_json
@@ -215,14 +215,7 @@ def _counted(counts: Mapping[Severity, int]) -> str:
     return ", ".join(_plural(counts[each], each) for each in reversed(SEVERITIES) if counts.get(each))
 
 
-_NAMED = re.compile(r"'|(?<!<)/\w")
-"""In a message that says what is wrong with something of a name, not only what kind of mistake it is."""
-
-_COUNTED = re.compile(r"; \d+ of \d+ nodes not fully analysed")
-"""What a message says of the launch, not of the cause."""
-
-
-_Cause = tuple[str, Severity, str, str]
+_Cause = tuple[str, Severity, Text | tuple[str, Confidence, Text], str]
 
 
 def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequence[Finding]]:
@@ -237,8 +230,8 @@ def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequ
         if finding.alike is not None and many[cause] >= _MANY:
             found.setdefault(cause, []).append(finding)
             continue
-        where = "" if _NAMED.search(finding.message) else finding.location.file
-        key = finding.rule, finding.severity, _COUNTED.sub("", finding.message), where
+        where = "" if finding.subject.name else finding.location.file
+        key = finding.rule, finding.severity, finding.text.cause, where
         same = found.get(key)
         to = [(related.location, finding.location) for related in finding.related]
         back = (pointing.get((finding.rule, there, here)) for there, here in to)
@@ -253,8 +246,8 @@ def _causes(findings: Iterable[Finding], *, alike: bool = True) -> Iterator[Sequ
 
 
 def _alike(finding: Finding) -> _Cause:
-    what = finding.alike.what if finding.alike is not None else ""
-    return finding.rule, finding.severity, f"{finding.condition} {finding.confidence} {what}", finding.location.file
+    what = finding.alike.what if finding.alike is not None else Text("")
+    return finding.rule, finding.severity, (finding.condition, finding.confidence, what), finding.location.file
 
 
 def _as_one(group: Sequence[Finding]) -> Sequence[Finding]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Kind, Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import UnknownAttribute
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.misspelt_attributes import explained
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -28,13 +29,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if tag is None or tag.action.attribute(near) is None:  # a second one of the name would be malformed
                 fixes = rename(context, problem.location, name, near)
         message = f"unknown attribute '{name}' of <{problem.kind.tag}>{did_you_mean(near)}"
-        yield problem_finding(rule, problem, message, severity="error" if problem.fatal else None, fixes=fixes)
+        kind: Kind = "invalid" if near is None else "near"
+        about = Subject("attribute", name)
+        yield problem_claim(rule, problem, message, subject=about, kind=kind, candidates=(near,), fixes=fixes)
 
 
 RULE = Rule(
     id="LCH005",
     name="unknown-attribute",
-    severity="warning",
+    effect="no-effect",
+    kind="near",
+    sometimes=("stops-launch",),
     what="Checks for an attribute that the element does not have. The finding names the nearest valid attribute.",
     why="`roslaunch` prints a warning and ignores the attribute. `ros2 launch` stops and starts nothing from the file.",
     example='<node pkg="camera" type="driver" name="camera" respwan="true"/>',

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 
 from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import ROSDEP
 from preflight_analysis.rules.nearest import did_you_mean
@@ -22,12 +24,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             said.add(found.name)
             absent = isinstance(found, Absent)
-            what = f"module '{found.name}' does not exist" if absent else f"module '{found.name}' is not known"
-            yield rule.finding(
-                f"{what}; {node.name} imports it{did_you_mean(found.near)}",
+            what = "does not exist" if absent else "is not known"
+            text = "module '{name}' {what}; {node} imports it{near}"
+            yield rule.claim(
+                say(text, name=found.name, what=what, node=node.name, near=did_you_mean(found.near)),
                 node.location,
-                severity=None if absent else "warning",
-                confidence="certain" if absent else "likely",
+                subject=Subject("module", found.name),
+                kind="absent" if found.near is None else "near",
+                doubts=doubts(UNSEEN=not absent),
+                candidates=(found.near,),
                 related=(Related("imported here", found.location), *include_chain(node.origin)),
             )
 
@@ -35,7 +40,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="PKG009",
     name="python-module-not-found",
-    severity="error",
+    effect="stops-node",
+    kind="absent",
+    sometimes=(Reason.UNSEEN,),
     what="Checks for a node in Python that imports a module which its own package, or another one of the workspace, "
     "does not have. The sources are read, nothing is run. Imports in a `try`, in a function or under a condition "
     "are ignored, and so are modules that a build makes. A module of no package of the workspace is a warning if its "

@@ -9,6 +9,7 @@ from dataclasses import replace
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.finding import Alike, Confidence, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
@@ -120,7 +121,7 @@ def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
         severity="hint",
         confidence="possible",
         related=(*((related_node(holder),) if holder is not None else ()), *include_chain(param.origin)),
-        alike=Alike(f"unused parameters, {by_whom}", param.name),
+        alike=Alike(say("unused parameters, {by_whom}", by_whom=by_whom), param.name),
     )
 
 

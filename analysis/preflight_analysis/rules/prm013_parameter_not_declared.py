@@ -8,7 +8,9 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Alike, Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Alike, Finding, Fix
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parameters import OF_ALL_NODES
@@ -24,6 +26,9 @@ _OF_TRANSPORT = re.compile(
     r"\.(?:(?:en|dis)able_pub_plugins|(?:compressed|compressedDepth|theora|zstd|ffmpeg|draco|zlib|cloudini)\.\w+)\Z"
 )
 """What image_transport and point_cloud_transport declare for each topic that they publish."""
+_SAID = "parameter '{name}' is not declared by {node}; its value is ignored{near}"
+_MANY = "parameters are not declared by {node}; their values are ignored"
+_NO_CLOCK = "parameter '{name}' of {node} has no effect; did you mean '{near}'?"
 _NUMBER = re.compile(r"\d+")
 
 
@@ -62,33 +67,39 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
                 continue  # it may have come to it later
             in_full = interface.tells_all("parameters")
-            spared = near is None and (
+            use = declared.get(near) if near is not None else None
+            shared = near is None and (
                 _is_for_all(context, node, param)
                 or _is_other_choice(param.name, declared)
                 or _is_handed_over(context, param)
             )
-            severity: Severity = "warning" if near or (in_full and not spared) else "info"
-            use = declared.get(near) if near is not None else None
-            related = [related_node(node)]
-            yield rule.finding(
-                f"parameter '{param.name}' is not declared by {node.name}; its value is ignored{did_you_mean(near)}",
+            yield rule.claim(
+                say(_SAID, name=param.name, node=node.name, near=did_you_mean(near)),
                 param.place,
-                severity=severity,
-                confidence="likely" if in_full or (use is not None and not use.inferred) else "possible",
-                related=(*related, *include_chain(node.origin)),
+                subject=Subject("parameter", param.name),
+                kind="absent" if near is None else "near",
+                doubts=doubts(
+                    SHARED=shared,
+                    PARTLY_READ=near is None and not in_full,
+                    NOT_ANALYSED=node.name if not in_full and (use is None or use.inferred) else "",
+                    FROM_SOURCE=in_full or use is not None,
+                ),
+                candidates=(near,),
+                related=(related_node(node), *include_chain(node.origin)),
                 fixes=_rename(context, param, near) if near is not None else (),
-                alike=Alike(f"parameters are not declared by {node.name}; their values are ignored", param.name)
-                if near is None
-                else None,
+                alike=Alike(say(_MANY, node=node.name), param.name) if near is None else None,
             )
 
 
 def _clock(rule: Rule, context: Context, node: LaunchNode, param: Param) -> Finding:
     """A slip of the one parameter that each node has, be the node known or not."""
-    return rule.finding(
-        f"parameter '{param.name}' of {node.name} has no effect; did you mean '{_CLOCK}'?",
+    return rule.claim(
+        say(_NO_CLOCK, name=param.name, node=node.name, near=_CLOCK),
         param.place,
-        confidence="likely",
+        subject=Subject("parameter", param.name),
+        kind="near",
+        doubts=doubts(FROM_SOURCE=True),
+        candidates=(_CLOCK,),
         related=include_chain(node.origin),
         fixes=_rename(context, param, _CLOCK),
     )
@@ -172,7 +183,9 @@ def _rename(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
 RULE = Rule(
     id="PRM013",
     name="parameter-not-declared",
-    severity="warning",
+    effect="no-effect",
+    kind="near",
+    sometimes=(Reason.SHARED, Reason.PARTLY_READ, Reason.NOT_ANALYSED, Reason.FROM_SOURCE),
     what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. The "
     "finding names the nearest declared parameter. Nodes that accept undeclared parameters are checked for a typo "
     "of `use_sim_time` only. Parameters of controllers of ros2_control are not checked. A value that several nodes "

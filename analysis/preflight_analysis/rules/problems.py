@@ -13,6 +13,8 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.writer import replaced
 from preflight_analysis.evaluation.problems import Problem
+from preflight_analysis.findings.claim import Effect, Kind, Subject, Text
+from preflight_analysis.findings.doubt import Doubt
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
@@ -70,6 +72,37 @@ def problem_finding(
     )
 
 
+def problem_claim(
+    rule: Rule,
+    problem: Problem[ProblemKind],
+    said: str | Text,
+    *,
+    subject: Subject,
+    kind: Kind | None = None,
+    effect: Effect | None = None,
+    doubts: Iterable[Doubt] = (),
+    candidates: Iterable[str | None] = (),
+    related: Iterable[Related] = (),
+    fixes: Iterable[Fix] = (),
+    lack: Lack | None = None,
+) -> Finding:
+    """The finding for a problem, at its place, with the includes that lead there. One that stops the launcher has that
+    effect."""
+    return rule.claim(
+        said,
+        problem.location,
+        subject=subject,
+        kind=kind,
+        effect=effect or ("stops-launch" if problem.fatal else None),
+        doubts=doubts,
+        candidates=candidates,
+        related=(*related, *include_chain(problem.origin)),
+        fixes=fixes,
+        stops_launch=problem.fatal,
+        lack=lack,
+    )
+
+
 def check_problems(message: Callable[[K], str], *kinds: type[K], quotes: bool = False) -> Check:
     """The check of a rule that has nothing to do but to word its problems, or what a parser says of them (`quotes`)."""
 
@@ -81,12 +114,9 @@ def check_problems(message: Callable[[K], str], *kinds: type[K], quotes: bool = 
     return check
 
 
-INCLUDED_HERE = "included here"
-
-
 def include_chain(origin: Origin) -> tuple[Related, ...]:
     """The include tags on the way to a place, the innermost first."""
-    return tuple(Related(INCLUDED_HERE, location) for location in reversed(origin[:-1]))
+    return tuple(Related("included here", location, "included") for location in reversed(origin[:-1]))
 
 
 def rename(context: Context, location: Location, old: str, new: str, *, preferred: bool = True) -> tuple[Fix, ...]:

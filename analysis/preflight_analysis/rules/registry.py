@@ -22,13 +22,15 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
+from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
+from preflight_analysis.findings.instances import together, with_others
+from preflight_analysis.findings.policy import doubted
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.rules.catalogued import as_known, robots_by_catalogue
-from preflight_analysis.rules.instances import together, with_others
-from preflight_analysis.rules.problems import INCLUDED_HERE, include_chain, numbered_problems
+from preflight_analysis.rules.problems import include_chain, numbered_problems
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
 _log = logging.getLogger(__name__)
@@ -147,7 +149,7 @@ def _outside(rule: Rule, finding: Finding) -> Finding | None:
     fixes = tuple(fix for fix in finding.fixes if not any(_is_catalogued(edit.location) for edit in fix.edits))
     if not _is_catalogued(finding.location):
         return finding if fixes == finding.fixes else replace(finding, fixes=fixes)
-    others = (each for each in finding.related if each.message != INCLUDED_HERE) if rule.needs_graph else ()
+    others = (each for each in finding.related if each.role != "included") if rule.needs_graph else ()
     place = next((each.location for each in others if not _is_catalogued(each.location)), None)
     return replace(finding, location=place, fixes=fixes) if place is not None else None
 
@@ -193,7 +195,7 @@ def _of_file(
     if set_aside is not None:
         findings = tuple(_information(f, set_aside) if f.severity in _GRAVE else f for f in findings)
     if is_guessed:
-        findings = tuple(replace(f, confidence="likely") if f.confidence == "certain" else f for f in findings)
+        findings = tuple(doubted(f, Doubt(Reason.BRANCHES)) if f.confidence == "certain" else f for f in findings)
     filtered = apply_suppressions(unique(findings), suppressions, document)
     kept = [_in_context(finding, chain, root) for finding in filtered.kept]
     judge = next((rule for rule in rules if rule.unused_suppression is not None), None)
@@ -219,7 +221,8 @@ def _why_set_aside(context: Context, path: str, findings: Iterable[Finding]) -> 
 
 
 def _information(finding: Finding, why: str) -> Finding:
-    return replace(finding, severity="info", message=f"{finding.message} ({why})")
+    text = finding.text.followed_by(" ({set_aside})", set_aside=why)
+    return doubted(replace(finding, text=text, message=f"{finding.message} ({why})"), Doubt(Reason.SET_ASIDE))
 
 
 def _in_order(rule: Rule, findings: Iterable[Finding], context: Context) -> Iterator[Finding]:
@@ -252,7 +255,7 @@ def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[F
     """What one rule says of one place."""
     contexts: dict[tuple[Location, ...], dict[str, Finding]] = {}
     for finding in findings:
-        chain = tuple(related.location for related in finding.related if related.message == INCLUDED_HERE)
+        chain = tuple(related.location for related in finding.related if related.role == "included")
         contexts.setdefault(chain, {}).setdefault(finding.message, finding)
     ranks = {chain: max(SEVERITIES.index(f.severity) for f in said.values()) for chain, said in contexts.items()}
     lead = max(ranks, key=ranks.__getitem__)
@@ -275,7 +278,7 @@ def _in_context(finding: Finding, chain: tuple[Related, ...], root: str) -> Find
 
 def _with_chain(finding: Finding, chain: tuple[Related, ...]) -> Finding:
     """One about a file, whatever includes it, says how the file is reached."""
-    if not chain or any(related.message == INCLUDED_HERE for related in finding.related):
+    if not chain or any(related.role == "included" for related in finding.related):
         return finding
     return replace(finding, related=(*finding.related, *chain))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Protocol, TypeVar
@@ -17,9 +18,12 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Executables
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.findings.claim import Effect, Kind, Subject, Text, as_text, say
 from preflight_analysis.findings.clipping import SHORT, clipped
+from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.finding import Alike, Confidence, EndpointRef, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.findings.policy import judge
 from preflight_analysis.findings.rule_description import RuleDescription
 from preflight_analysis.findings.suppression import Suppression
 from preflight_analysis.graph.model import Graph
@@ -143,9 +147,9 @@ class Context(Once):
 Check = Callable[["Rule", Context], Iterable[Finding]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Rule(RuleDescription):
-    """A rule. A check may give a finding another severity than the usual one with `finding(..., severity=...)`.
+    """A rule. What its check yields is made by `claim`: how severe that is says `findings/policy.py`.
 
     `problems` are the kinds of problems that the rule reports; each kind has one rule.
     `needs_graph`: it says nothing before the interfaces are there, so nothing follows from its silence then.
@@ -175,6 +179,55 @@ class Rule(RuleDescription):
     unused_suppression: Callable[[Rule, Suppression], Finding] | None = field(default=None, repr=False)
     left_out: Callable[[Rule, str, Sequence[Finding]], Finding] | None = field(default=None, repr=False)
 
+    def claim(
+        self,
+        said: str | Text,
+        location: Location,
+        *,
+        subject: Subject,
+        kind: Kind | None = None,
+        effect: Effect | None = None,
+        doubts: Iterable[Doubt] = (),
+        candidates: Iterable[str | None] = (),
+        related: Iterable[Related] = (),
+        fixes: Iterable[Fix] = (),
+        stops_launch: bool = False,
+        endpoints: Iterable[EndpointRef] = (),
+        lack: Lack | None = None,
+        every_root: bool = False,
+        alike: Alike | None = None,
+    ) -> Finding:
+        """A finding of this rule, as severe as the policy has it. `effect` and `kind` are the rule's where they are not
+        given, and the doubts come to those that the rule always has; a `lack` of this machine is one. What the messages
+        say is clipped: names may be as long as a file."""
+        text = as_text(said)
+        all_doubts = (*map(Doubt, self.always), *doubts)
+        if lack is not None:
+            all_doubts = (Doubt(Reason.NOT_HERE, lack.name), *all_doubts)
+        severity, confidence = judge(effect or self.effect, all_doubts)
+        return Finding(
+            self.id,
+            self.name,
+            severity,
+            confidence,
+            clipped(str(text)),
+            location,
+            tuple(r if len(r.message) <= SHORT else replace(r, message=clipped(r.message)) for r in related),
+            tuple(f if len(f.title) <= SHORT else replace(f, title=clipped(f.title)) for f in fixes),
+            (),
+            stops_launch,
+            endpoints=tuple(endpoints),
+            every_root=every_root,
+            lack=lack,
+            alike=alike,
+            effect=effect or self.effect,
+            kind=kind or self.kind,
+            doubts=all_doubts,
+            subject=subject,
+            candidates=tuple(filter(None, candidates)),
+            text=text,
+        )
+
     def finding(
         self,
         message: str,
@@ -192,29 +245,32 @@ class Rule(RuleDescription):
         node: str = "",
         quoted: str = "",
     ) -> Finding:
-        """A finding of this rule. What the messages say is clipped: names may be as long as a file. `node` is the full
-        name of the node that it is about, `quoted` the part of the message that another program says.
-
-        One that stands for a `lack` of this machine is a hint: on the robot it need not hold.
-        """
-        return Finding(
-            self.id,
-            self.name,
-            "hint" if lack is not None else severity or self.severity,
-            confidence,
-            clipped(message),
+        """What rules use that make no claims yet. It goes with the last of them."""
+        own = message[: message.index(quoted)] if quoted else message
+        about = node or (found[0] if (found := _NODE.search(own)) else "")
+        at = re.search(rf"(?<![\w'\"./~$-]){re.escape(about)}(?![\w/.'-])", own) if about else None
+        text = say("{before}{quoted}", before=own, quoted=message[len(own) :])
+        if at is not None:
+            values = {"node": about, "after": own[at.end() :], "quoted": message[len(own) :]}
+            text = say("{before}{node}{after}{quoted}", before=own[: at.start()], **values)
+        made = self.claim(
+            text,
             location,
-            tuple(r if len(r.message) <= SHORT else replace(r, message=clipped(r.message)) for r in related),
-            tuple(f if len(f.title) <= SHORT else replace(f, title=clipped(f.title)) for f in fixes),
-            (),
-            stops_launch,
-            endpoints=tuple(endpoints),
-            every_root=every_root,
+            subject=Subject("name", "x") if _NAMED.search(message) else Subject("name"),
+            related=related,
+            fixes=fixes,
+            stops_launch=stops_launch,
+            endpoints=endpoints,
             lack=lack,
+            every_root=every_root,
             alike=alike,
-            node=node,
-            quoted_from=message.index(quoted) if quoted else None,
         )
+        weight: Severity = "hint" if lack is not None else severity or self.severity
+        return replace(made, severity=weight, confidence=confidence)
+
+
+_NODE = re.compile(r"(?:(?<![\w'\"./~$-])/[A-Za-z_]\w*(?:/\w+)*(?![\w/.':-])|\A/[A-Za-z_]\w*(?:/\w+)*(?=: ))")
+_NAMED = re.compile(r"'|(?<!<)/\w")
 
 
 def in_root(finding: Finding, root: str) -> Finding:

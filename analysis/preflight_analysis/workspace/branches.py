@@ -25,18 +25,20 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.conditions import VARIABLE, named_arguments
 from preflight_analysis.evaluation.inversion import Assignment, assignments
 from preflight_analysis.evaluation.tree import LaunchTree, NotTaken
+from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.failure import Failure
-from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.policy import doubted
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.launch.python_actions import OF_CODE
-from preflight_analysis.rules.problems import INCLUDED_HERE
 from preflight_analysis.rules.syntax import CONDITIONS
 from preflight_analysis.workspace.index import Root
 
 MAX_WHAT_IFS = 24
 """Further evaluations of one launch."""
 _MAX_ASSUMED = 3
+_ASSUMED = Doubt(Reason.OTHER_ARGUMENTS)
 """Of these, how often the tags are taken that stand in tags which no arguments take."""
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _Key = tuple[tuple[str, str], ...]
@@ -231,12 +233,12 @@ class _Search:
             all_found = (*what_if.found, *self._of_params(what_if.tree, args, frozenset(taken)))
             for each in todo.values():
                 found = (found for found in all_found if _stands_in(found, each))
-                doubted = (
-                    _doubted(found)
+                unsure = (
+                    doubted(found, _ASSUMED)
                     for found in found
                     if found.rule != _OF_TWO and not _depends(found, each, what_if.documents)
                 )
-                self._note(doubted, _in_words(each), what_if.documents)
+                self._note(unsure, _in_words(each), what_if.documents)
             inside = (
                 each for each in _open(what_if.tree) if any(_holds(outer, each.origin) for outer in todo.values())
             )
@@ -248,7 +250,7 @@ class _Search:
             key = (finding.rule, finding.location)
             if key not in self._findings:
                 if finding.rule == _OF_VARIANTS and finding.confidence == "possible":
-                    finding = _doubted(finding)  # noqa: PLW2901
+                    finding = doubted(finding, _ASSUMED)  # noqa: PLW2901
                 self._findings[key] = _under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
                 self._documents |= {each.file: documents[each.file] for each in places if each.file in documents}
@@ -331,13 +333,9 @@ def _in_words(left_out: NotTaken) -> str:
 
 
 def _under(finding: Finding, condition: str) -> Finding:
+    text = finding.text.followed_by(" (if {condition})", condition=condition)
     message = f"{finding.message} (if {condition})"
-    return replace(finding, message=message, condition=condition, stops_launch=False, launch_order=0)
-
-
-def _doubted(finding: Finding) -> Finding:
-    less = SEVERITIES[max(0, SEVERITIES.index(finding.severity) - 1)]
-    return replace(finding, severity=less, confidence="possible")
+    return replace(finding, text=text, message=message, condition=condition, stops_launch=False, launch_order=0)
 
 
 def _unsure_of_others(finding: Finding, left_out: NotTaken, changed: AbstractSet[str], what_if: WhatIf) -> Finding:
@@ -346,13 +344,13 @@ def _unsure_of_others(finding: Finding, left_out: NotTaken, changed: AbstractSet
     as a robot of another version has no such bus."""
     if not _depends_beside(finding, left_out, what_if.documents):
         return finding
-    chain = (related.location for related in finding.related if related.message == INCLUDED_HERE)
+    chain = (related.location for related in finding.related if related.role == "included")
     for place in (finding.location, *chain):
         launch_file = what_if.launch_files.get(place.file)
         for action in _around(launch_file.root if launch_file is not None else None, place):
             conditions = (value for kind in CONDITIONS if (value := action.value(kind)) is not None)
             if any((named := named_arguments(value)) and changed.isdisjoint(named) for value in conditions):
-                return replace(finding, severity="info", confidence="possible")
+                return doubted(finding, Doubt(Reason.PARTLY_READ))
     return finding
 
 
@@ -403,7 +401,7 @@ def _text(finding: Finding, documents: Mapping[str, Document]) -> str:
 
 def _stands_in(finding: Finding, left_out: NotTaken) -> bool:
     """Whether a finding is of a tag, or of what that includes."""
-    chain = (related.location for related in finding.related if related.message == INCLUDED_HERE)
+    chain = (related.location for related in finding.related if related.role == "included")
     return _holds(left_out, (finding.location, *chain))
 
 

@@ -55,7 +55,7 @@ _READS = r"(?:environ(?:\.get)?|getenv)\s*[\[(]\s*['\"](%s)['\"]"
 _NAMED = re.compile(r"(['\"])([A-Za-z_][A-Za-z0-9_]*)\1")
 """What no run is told, whatever its file asks for."""
 _PACKAGE_ERROR = "PackageNotFoundError"
-_GUESSED = "a condition depends on it, and only one of its branches is known"
+_UNSEENED = "a condition depends on it, and only one of its branches is known"
 _IMPORT_ERRORS = ("ModuleNotFoundError", "ImportError")
 
 
@@ -435,7 +435,7 @@ def _guessed(state: Collector, place: Place, run: PythonRun, guessed: object, or
         match each:
             case [str(name), at]:
                 there = _line(place, run, at, origin)[-1]
-                state.note_unknown(readable(name), _GUESSED, there, decides=True)
+                state.note_unknown(readable(name), _UNSEENED, there, decides=True)
 
 
 def _line(place: Place, run: PythonRun, at: object, origin: Origin) -> Origin:
