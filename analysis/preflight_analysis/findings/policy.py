@@ -24,6 +24,16 @@ USUAL: Mapping[Effect, Severity] = {
     "style": "hint",
 }
 """How severe a claim without doubts is."""
+EFFECTS: Mapping[Effect, str] = {
+    "stops-launch": "the launcher stops, or does not load the file",
+    "stops-node": "a node does not start, or ends",
+    "breaks": "a connection, controller, plugin or description never comes about",
+    "misbehaves": "the robot does something else than is written, and nothing says so",
+    "no-effect": "what is written is ignored",
+    "note": "nothing is wrong by it alone",
+    "style": "it works",
+}
+"""What the effects are, in words for users."""
 
 
 class Limit(NamedTuple):
@@ -91,9 +101,9 @@ def _limited(severity: Severity, confidence: Confidence, doubts: Iterable[Doubt]
     return SEVERITIES[rank], CONFIDENCES[sure]
 
 
-def decisive(finding: Finding) -> Reason | None:
-    """The doubt that makes it less severe than its effect alone would; None where none does."""
+def cell(finding: Finding) -> str:
+    """Which row of the tables decides how severe it is: the name of a doubt, or else its effect."""
     for doubt in finding.doubts:
-        if judge(finding.effect, (doubt,))[0] == finding.severity != USUAL[finding.effect]:
-            return doubt.reason
-    return None
+        if _limited(USUAL[finding.effect], "certain", (doubt,))[0] == finding.severity != USUAL[finding.effect]:
+            return doubt.reason.name
+    return finding.effect

@@ -16,6 +16,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.claim import Text
 from preflight_analysis.findings.clipping import clipped
 from preflight_analysis.findings.coverage import Coverage
+from preflight_analysis.findings.doubt import Doubt
 from preflight_analysis.findings.failure import Failure, failures_json
 from preflight_analysis.findings.finding import SEVERITIES, Confidence, Finding, Related, Severity
 from preflight_analysis.findings.lack import Missing, commands, in_words, missing
@@ -288,6 +289,12 @@ def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[s
         "name": finding.name,
         "severity": finding.severity,
         "confidence": finding.confidence,
+        "effect": finding.effect,
+        "kind": finding.kind,
+        "subject": {"kind": finding.subject.kind, "name": finding.subject.name},
+        "node": finding.text.node,
+        "candidates": list(finding.candidates),
+        "doubts": [doubt_json(each) for each in dict.fromkeys(finding.doubts)],
         "message": finding.message,
         **({"condition": finding.condition} if finding.condition else {}),
         "file": finding.location.file,
@@ -299,6 +306,11 @@ def _finding_json(finding: Finding, documents: Mapping[str, Document]) -> dict[s
         "roots": list(finding.roots),
         "fixes": [fix.title for fix in finding.fixes],
     }
+
+
+def doubt_json(doubt: Doubt) -> dict[str, str]:
+    """A doubt: its name, what it says, what it is about, and what would remove it; the latter two may be empty."""
+    return {"name": doubt.reason.name, "message": doubt.reason.sentence, "about": doubt.of, "remedy": doubt.remedy}
 
 
 def _range_json(location: Location, documents: Mapping[str, Document]) -> dict[str, Any]:

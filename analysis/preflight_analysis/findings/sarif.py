@@ -15,8 +15,9 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding, Fix, Severity
 from preflight_analysis.findings.fingerprint import fingerprints
+from preflight_analysis.findings.policy import cell
 from preflight_analysis.findings.printable import printable
-from preflight_analysis.findings.report import Report, by_cause, environment_lines, positions, relative
+from preflight_analysis.findings.report import Report, by_cause, doubt_json, environment_lines, positions, relative
 from preflight_analysis.findings.rule_description import RuleDescription
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -105,6 +106,10 @@ def _result(
         "properties": {
             "severity": finding.severity,
             "confidence": finding.confidence,
+            "effect": finding.effect,
+            "kind": finding.kind,
+            "decidedBy": cell(finding),
+            "doubts": [doubt_json(each) for each in dict.fromkeys(finding.doubts)],
             **({"condition": finding.condition} if finding.condition else {}),
             "roots": [relative(root, base) for root in finding.roots],
         },

@@ -8,6 +8,9 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 
+from preflight_analysis.findings.doubt import Doubt, Reason
+from preflight_analysis.findings.finding import SEVERITIES, Severity
+from preflight_analysis.findings.policy import EFFECTS, LIMITS, USUAL, judge
 from preflight_analysis.rules.fix_availability import AVAILABILITY, fix_availability
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.rules.rule import Rule
@@ -15,6 +18,7 @@ from preflight_analysis.rules.rule import Rule
 COMMAND = "python -m preflight_analysis.rules.reference docs/rules"
 SECTIONS = (
     "What it checks",
+    "Severity",
     "Why it matters",
     "Example",
     "How to fix",
@@ -48,6 +52,8 @@ _IN_BRANCHES = (
     "\n\nTags under a false condition are checked too. The finding names the arguments that make the condition true."
 )
 _EVERY_ROOT = "\n\nIn a file that other files include, the finding is reported only if it applies in every root."
+_NEEDS = "This rule needs the interfaces of the nodes.\n"
+_CASES = ("[Severity](../severity.md) says what else limits it.\n", "| severity | when |", "| --- | --- |")
 _GENERATED = f"<!-- Written by `{COMMAND}`. Do not edit: the text is in the rule's file. -->\n"
 _ROS_VERSIONS = {(1, 2): "ROS 1 and ROS 2.", (1,): "ROS 1.", (2,): "ROS 2."}
 _SETTINGS = {
@@ -72,7 +78,7 @@ def page(rule: Rule) -> str:
     return "\n".join(
         (
             f"# {rule.id} {rule.name}\n",
-            f"Severity: {rule.severity}{_needs(rule)}\n",
+            *((_NEEDS,) if rule.needs_graph else ()),
             *(f"## {heading}\n\n{content}\n" for heading, content in sections),
         )
     )
@@ -82,6 +88,7 @@ def _contents(rule: Rule) -> Iterator[str]:
     """What is below each heading."""
     more = (_IN_BRANCHES if rule.in_branches else "") + (_EVERY_ROOT if rule.every_root else "")
     yield f"{rule.what}{more}"
+    yield "\n".join((*_CASES, *(f"| {severity} | {when} |" for severity, when in cases(rule))))
     yield rule.why
     yield _block(rule.example)
     yield f"Use instead:\n\n{_block(rule.instead)}"
@@ -106,6 +113,24 @@ def _options(rule: Rule) -> str:
             f"```yaml\n# preflight: ignore[{rule.id}] reason\n```",
         )
     )
+
+
+def cases(rule: Rule) -> Iterator[tuple[Severity, str]]:
+    """How severe the findings of a rule are, and when: the usual case first, then what makes them more or less severe,
+    the most severe first."""
+    always = tuple(map(Doubt, rule.always))
+    usual = judge(rule.effect, always)[0]
+    deciding = (each.sentence for each in rule.always if LIMITS[each].severity == usual != USUAL[rule.effect])
+    yield usual, next(deciding, EFFECTS[rule.effect])
+    others: list[tuple[Severity, str]] = []
+    for each in rule.sometimes:
+        if isinstance(each, Reason):
+            severity, when = judge(rule.effect, (*always, Doubt(each)))[0], each.sentence
+        else:
+            severity, when = judge(each, always)[0], EFFECTS[each]
+        if severity != usual:
+            others.append((severity, when))
+    yield from sorted(others, key=lambda case: -SEVERITIES.index(case[0]))
 
 
 def write(folder: Path) -> None:
@@ -138,10 +163,6 @@ def _index(rules: Sequence[Rule]) -> str:
         ]
         lines.append("")
     return "\n".join(lines)
-
-
-def _needs(rule: Rule) -> str:
-    return "; needs the interfaces of the nodes" if rule.needs_graph else ""
 
 
 def _block(text: str) -> str:

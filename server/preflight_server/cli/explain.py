@@ -11,6 +11,7 @@ from typing import Any
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.fingerprint import fingerprints
+from preflight_analysis.findings.policy import EFFECTS
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, finding_lines, place, to_json
 from preflight_analysis.rules.registry import all_rules
@@ -103,7 +104,13 @@ def _named(report: Report, what: str) -> Iterator[Finding]:
 def _lines(finding: Finding, report: Report) -> Iterator[str]:
     yield from finding_lines(replace(finding, fixes=()), report.documents, os.getcwd(), colour=colours(), host=links())
     yield ""
+    yield f"Severity: {finding.severity}, because {EFFECTS[finding.effect]}."
     yield f"Confidence: {finding.confidence}. {_CONFIDENCE[finding.confidence]}"
+    for doubt in dict.fromkeys(finding.doubts):
+        about = f" ({doubt.of})" if doubt.of else ""
+        yield f"Doubt: {doubt.reason.sentence}{printable(about)}."
+        if doubt.remedy:
+            yield f"  To remove it: {printable(doubt.remedy)}."
     if finding.condition:
         yield f"Only with: {printable(finding.condition)}"
     if finding.roots:
