@@ -43,7 +43,7 @@ def _lines(judged: Mapping[str, Judged]) -> Iterator[str]:
 
 
 def _most(limit: Limit) -> str:
-    said = [] if limit.severity == "error" else [limit.severity]
+    said: list[str] = [] if limit.severity == "error" else [limit.severity]
     said += ["one step less"] if limit.less else []
     said += [] if limit.confidence == "certain" else [limit.confidence]
     return ", ".join(said)
