@@ -15,6 +15,7 @@ from dataclasses import replace
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents import secrets
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
+from preflight_analysis.environment.distribution import stated_distribution
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import (
     LEGACY_MANIFEST,
@@ -146,7 +147,12 @@ def detect_environment(
         prefixes = ament_prefixes(variables, colcon or workspace, root)
     ros2 = _is_ros2(variables, workspace, found.packages.values(), prefixes)
     found = found.built_for(2 if ros2 else 1)
-    packages, shadowed = _in_order(found, prefixes, system, _own(workspace, found.packages.values()), ros2=ros2)
+    own = _own(workspace, found.packages.values())
+    packages, shadowed = _in_order(found, prefixes, system, own, ros2=ros2)
+    used = (
+        distribution(variables, prefixes) if ros2 else distro or (_debian_distribution(debian) if has_debian else None)
+    )
+    stated = None if used else stated_distribution(workspace, SETTINGS_FILE, own, 2 if ros2 else 1)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     ros2_python = rclpy_interpreter(given, prefixes, root)
@@ -170,9 +176,8 @@ def detect_environment(
     withheld = secrets.withheld(given, allowed)
     return Environment(
         generation=2 if ros2 else 1,
-        distro=distribution(variables, prefixes)
-        if ros2
-        else distro or (_debian_distribution(debian) if has_debian else None),
+        distro=stated.name if stated else used,
+        distro_by=stated.by if stated else "",
         variables={name: value for name, value in given.items() if name not in withheld},
         package_path=tuple(path),
         packages=packages,

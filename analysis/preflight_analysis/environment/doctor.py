@@ -16,6 +16,7 @@ def describe(environment: Environment) -> tuple[tuple[str, str], ...]:
     none = "none found"
     generation = f"ROS {environment.generation}"
     distro = f"{generation} {environment.distro.capitalize()}" if environment.distro else f"{generation}, {none}"
+    distro += f", by {environment.distro_by}; not installed" if environment.distro_by else ""
     rows = [("distribution", distro), ("workspace", environment.workspace or "none")]
     counts = _counts(environment)
     rows += [("package path", f"{folder} ({_packages(counts[folder])})") for folder in environment.package_path]

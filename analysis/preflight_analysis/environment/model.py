@@ -107,6 +107,8 @@ class Environment:
     """Folders and files that the user named, likewise: by variables, package path and interpreters. See `reach.py`."""
     debians: bool = False
     """Whether ROS 1 comes from Debian's own archive here, whose packages have other names than those of ROS's."""
+    distro_by: str = ""
+    """What of the workspace says which distribution it is for, where none is sourced or installed."""
     withheld: frozenset[str] = frozenset()
     """The names of the variables that are set and whose values are secrets: nobody is told these."""
     allowed_secrets: tuple[str, ...] = ()

@@ -13,6 +13,7 @@ nodes:                          # what nodes do that cannot be run, in the words
     params: [{name: ~rate, default: 10}]
 knowledge:                      # files that say what parameters of nodes mean: docs/knowledge.md
   - config/knowledge.yaml
+distribution: humble            # that the workspace is for, where no ROS is sourced or installed
 severities:                     # of rules: off, hint, info, warning or error; `all` are those that are not named
   TOP002: off
 paths:                          # the same for files below a folder, or of a pattern; the last that matches counts
@@ -35,6 +36,7 @@ from preflight_analysis.documents.reading import Text, Unreadable, digest, read_
 from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.environment.detect import SETTINGS_FILE
+from preflight_analysis.environment.distribution import known_distributions
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Severity
 from preflight_analysis.findings.severities import ALL, CHOICES, Severities
@@ -46,8 +48,10 @@ from preflight_analysis.rules.registry import rule_by_id
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
 from preflight_analysis.workspace.index import Root
 
-KEYS = ("roots", "external", "nodes", "knowledge", "severities", "paths")
+KEYS = ("roots", "external", "nodes", "knowledge", "distribution", "severities", "paths")
 """The names on the top level."""
+_DISTRIBUTIONS = (*known_distributions(1), *known_distributions(2))
+"""`environment/distribution.py` reads it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +146,10 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
                     problems.append(_problem(item, "invalid item of 'knowledge': expected a file"))
         elif key.value == "knowledge":
             problems.append(_problem(value, "invalid value of 'knowledge': expected a list of files"))
+        elif key.value == "distribution":
+            if value.value not in _DISTRIBUTIONS:
+                expected = f"expected one of {', '.join(_DISTRIBUTIONS)}"
+                problems.append(_problem(value, f"invalid value of 'distribution': {expected}"))
         elif key.value == "severities":
             everywhere.append(Severities(_severities(value, problems)))
         elif key.value == "paths" and isinstance(value, yaml.SequenceNode):

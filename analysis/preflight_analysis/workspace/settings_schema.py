@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from preflight_analysis.environment.distribution import known_distributions
 from preflight_analysis.findings.severities import ALL, CHOICES
 from preflight_analysis.graph.annotations import CLASSES, GROUPS
 from preflight_analysis.rules.registry import all_rules
@@ -66,6 +67,10 @@ def schema() -> dict[str, Any]:
             "Files that say what the parameters of nodes mean.",
             {"type": "string", "description": "A file, relative to this file."},
         ),
+        "distribution": {
+            "description": "The distribution of ROS that the workspace is for, if none is sourced or installed.",
+            "enum": [*known_distributions(1), *known_distributions(2)],
+        },
         "severities": _SEVERITIES,
         "paths": _list(
             "Severities for some files; the last matching entry applies.",

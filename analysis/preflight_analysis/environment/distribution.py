@@ -1,0 +1,153 @@
+"""Which distribution of ROS a workspace is for, by what it says of itself: where none is sourced or installed, what is
+known of packages is known of that one.
+
+Sources, the first that names one distribution and no other counts: `distribution:` in the settings file; images of
+containers; workflows of CI; scripts and read-me files; the branch that is checked out; conditions in package.xml
+(REP 149); the packages that it needs, where one distribution alone has released all of them.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator
+from typing import NamedTuple
+
+import yaml
+
+from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with
+from preflight_analysis.documents.reading import Text, read_text
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
+from preflight_analysis.environment.model import Package
+
+SETTING = "distribution"
+"""The key of the settings file."""
+_OLDER = {1: ("jade", "lunar"), 2: ("crystal", "dashing", "eloquent")}
+"""Of which no packages are known."""
+_DEPTH = 3
+_MOST_FILES = 100
+_MOST_ENTRIES = 5000
+"""How deep, and how much, is looked at."""
+_LONGEST = 1 << 16
+_HIDDEN = (".devcontainer", ".docker", ".github", ".circleci", "workflows")
+_IMAGES = re.compile(
+    r"(?i)(?:.*[._-])?(?:dockerfile|containerfile)(?:[._-].*)?\Z|(?:docker-?)?compose.*\.ya?ml\Z|devcontainer\.json\Z"
+)
+_CI = re.compile(r"(?i)\.?(?:gitlab-ci|travis|appveyor|azure-pipelines)\.ya?ml\Z|Jenkinsfile\Z")
+_SCRIPTS = re.compile(r"(?i).*\.(?:sh|bash|zsh|repos)\Z|makefile\Z|justfile\Z|readme.*\Z|install.*\.md\Z")
+
+
+class Stated(NamedTuple):
+    """A distribution, and what says so: a file relative to the workspace, or words."""
+
+    name: str
+    by: str
+
+
+def known_distributions(generation: int) -> tuple[str, ...]:
+    """The names of the distributions of a generation of ROS."""
+    return (*_OLDER[generation], *DISTRIBUTIONS[generation])
+
+
+def stated_distribution(
+    workspace: str | None, settings: str, packages: Collection[Package], generation: int
+) -> Stated | None:
+    """What a workspace says of itself; None where it does not, or says several. `packages` are its own. Never raises.
+
+    Nothing is run, and no link is followed."""
+    if workspace is None:
+        return None
+    names = known_distributions(generation)
+    setting = _of_settings(os.path.join(workspace, settings))
+    if setting in names:
+        return Stated(setting, settings)
+    files = [*_files(workspace)]
+    said = _pattern(names)
+    for chosen in (_IMAGES, _CI, _SCRIPTS):
+        found: dict[str, str] = {}
+        for path in files:
+            is_workflow = chosen is _CI and f"{os.sep}.github{os.sep}" in path
+            if is_workflow or chosen.match(os.path.basename(path)):
+                found |= dict.fromkeys(said(_text(path)), os.path.relpath(path, workspace))
+        if len(found) == 1:
+            return Stated(*next(iter(found.items())))
+    branch = _branch(workspace, names)
+    if branch is not None:
+        return branch
+    return _of_manifests(packages, names, generation)
+
+
+def _of_settings(path: str) -> str:
+    try:
+        document = compose(_text(path))
+    except CONSTRUCTION_ERRORS:
+        return ""
+    entries = document.value if isinstance(document, yaml.MappingNode) else ()
+    return next((str(value.value) for key, value in entries if key.value == SETTING), "")
+
+
+def _text(path: str) -> str:
+    found = read_text(path)
+    return found.text[:_LONGEST] if isinstance(found, Text) else ""
+
+
+def _files(workspace: str) -> Iterator[str]:
+    """The files that may say it, those of the upper folders first."""
+    pending, seen, given = [(workspace, 0)], 0, 0
+    while pending:
+        folder, depth = pending.pop(0)
+        try:
+            with os.scandir(folder) as entries:
+                found = sorted(entries, key=lambda entry: entry.name)
+        except OSError:
+            continue
+        for entry in found:
+            seen += 1
+            if seen > _MOST_ENTRIES or given > _MOST_FILES:
+                return
+            if entry.is_symlink():
+                continue
+            if entry.is_dir():
+                if depth < _DEPTH and (not entry.name.startswith(".") or entry.name in _HIDDEN):
+                    pending.append((entry.path, depth + 1))
+            elif any(each.match(entry.name) for each in (_IMAGES, _CI, _SCRIPTS)) or ".github" in folder.split(os.sep):
+                given += 1
+                yield entry.path
+
+
+def _pattern(names: Collection[str]) -> Callable[[str], set[str]]:
+    """What gives the distributions that a text speaks of."""
+    any_name = f"({'|'.join(names)})"
+    end = r"(?![a-z])"
+    patterns = [
+        re.compile(each.replace("NAME", any_name) + end)
+        for each in (
+            r"[\w./-]*ros[\w./-]*:NAME",  # an image: osrf/ros:humble-desktop
+            r"/opt/ros/NAME",
+            r"(?i:ros2?[_-]?distr(?:o|ibution)s?)\W{1,6}NAME",  # a variable, or what a workflow's action is given
+            r"\bros-NAME(?=-[a-z])",  # a package of Ubuntu
+        )
+    ]
+    return lambda text: {found[1] for each in patterns for found in each.finditer(text)}
+
+
+def _branch(workspace: str, names: Collection[str]) -> Stated | None:
+    head = _text(os.path.join(workspace, ".git", "HEAD")).partition("refs/heads/")[2].strip()
+    found = [name for name in names if name in re.split(r"[^a-z]+", head.lower())]
+    return Stated(found[0], f"the branch '{head}'") if len(found) == 1 else None
+
+
+def _of_manifests(packages: Iterable[Package], names: Collection[str], generation: int) -> Stated | None:
+    packages = [*packages]
+    condition = re.compile(rf"\$ROS_DISTRO\s*==\s*['\"]?({'|'.join(names)})\b")
+    asked = {found[1]: package.name for package in packages for found in condition.finditer(_text(package.manifest))}
+    if len(asked) == 1:
+        name, package = next(iter(asked.items()))
+        return Stated(name, f"package.xml of {package}")
+    own = {package.name for package in packages}
+    left, deciding = set(DISTRIBUTIONS[generation]), ""
+    for needed in sorted({each for package in packages for each in package.dependencies} - own):
+        having = set(distributions_with(needed, generation))
+        if having and not left <= having:
+            left, deciding = left & having, needed
+    return Stated(next(iter(left)), f"package '{deciding}', which it needs") if len(left) == 1 else None
