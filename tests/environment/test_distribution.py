@@ -22,6 +22,12 @@ SAYS = {
     "a matrix, then a script": ({"ci/Dockerfile": "#ros:humble ros:iron", "a.sh": "ROS_DISTRO=iron"}, "iron"),
     "the branch": ({".git/HEAD": "ref: refs/heads/jazzy-devel\n"}, "jazzy"),
     "a condition": ({"p/package.xml": "<!-- $ROS_DISTRO == humble -->"}, "humble"),
+    "copies of others that agree": (
+        {"others/a/Dockerfile": "FROM ros:iron", "others/b/README.md": "/opt/ros/iron"},
+        "iron",
+    ),
+    "the workspace before its copies": ({"others/a/Dockerfile": "FROM ros:iron", "README.md": "/opt/ros/foxy"}, "foxy"),
+    "no folder of the build": ({"install/setup.sh": "/opt/ros/iron", "README.md": "/opt/ros/foxy"}, "foxy"),
     "one that is old": ({"Dockerfile": "FROM ros:eloquent"}, "eloquent"),
 }
 
@@ -54,6 +60,11 @@ def test_what_says_nothing_or_two_things(tmp_path: Path, text: str) -> None:
     assert detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path / "root")).distro is None
 
 
+def test_copies_of_other_projects_that_do_not_agree(tmp_path: Path) -> None:
+    workspace(tmp_path / "ws", {"others/a/Dockerfile": "FROM ros:iron", "others/b/run.sh": "/opt/ros/foxy"})
+    assert detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path / "root")).distro is None
+
+
 def test_what_is_sourced_comes_first(tmp_path: Path) -> None:
     workspace(tmp_path / "ws", {".ros-preflight.yaml": "distribution: jazzy"})
     found = detect_environment(str(tmp_path / "ws"), {"ROS_DISTRO": "humble"}, root=str(tmp_path / "root"))
@@ -66,10 +77,15 @@ def test_a_workspace_of_ros_1(tmp_path: Path) -> None:
     assert (found.generation, found.distro, found.distro_by) == (1, "melodic", "Dockerfile")
 
 
-def test_a_package_that_one_distribution_alone_has(tmp_path: Path) -> None:
-    for name, packages in (("one", "adi_tmcl"), ("none", "rclcpp"), ("two", "adi_tmcl canopen_inventus_driver")):
+def test_packages_that_one_distribution_alone_has(tmp_path: Path) -> None:
+    needs = {
+        "two": "adi_tmcl adi_3dtof_image_stitching",
+        "one": "adi_tmcl rclcpp",
+        "both": "adi_tmcl canopen_inventus_driver",
+    }
+    for name, packages in needs.items():
         workspace(tmp_path / name, {}, more="".join(f"<depend>{each}</depend>" for each in packages.split()))
-    found = [detect_environment(str(tmp_path / name), {}, root=str(tmp_path)).distro for name in ("one", "none", "two")]
+    found = [detect_environment(str(tmp_path / name), {}, root=str(tmp_path)).distro for name in needs]
     assert found == ["humble", None, None]
 
 

@@ -152,7 +152,7 @@ def detect_environment(
     used = (
         distribution(variables, prefixes) if ros2 else distro or (_debian_distribution(debian) if has_debian else None)
     )
-    stated = None if used else stated_distribution(workspace, SETTINGS_FILE, own, 2 if ros2 else 1)
+    stated = None if used else stated_distribution(workspace, SETTINGS_FILE, BUILT, own, 2 if ros2 else 1)
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     ros2_python = rclpy_interpreter(given, prefixes, root)

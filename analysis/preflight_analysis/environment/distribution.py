@@ -35,6 +35,10 @@ _IMAGES = re.compile(
 )
 _CI = re.compile(r"(?i)\.?(?:gitlab-ci|travis|appveyor|azure-pipelines)\.ya?ml\Z|Jenkinsfile\Z")
 _SCRIPTS = re.compile(r"(?i).*\.(?:sh|bash|zsh|repos)\Z|makefile\Z|justfile\Z|readme.*\Z|install.*\.md\Z")
+_KINDS = (_IMAGES, _CI, _SCRIPTS)
+"""In the order in which they count."""
+_OWN = 2
+"""So deep are the files of the workspace itself: `docker/Dockerfile`."""
 
 
 class Stated(NamedTuple):
@@ -50,25 +54,22 @@ def known_distributions(generation: int) -> tuple[str, ...]:
 
 
 def stated_distribution(
-    workspace: str | None, settings: str, packages: Collection[Package], generation: int
+    workspace: str | None, settings: str, built: Collection[str], packages: Collection[Package], generation: int
 ) -> Stated | None:
-    """What a workspace says of itself; None where it does not, or says several. `packages` are its own. Never raises.
-
-    Nothing is run, and no link is followed."""
+    """What a workspace says of itself; None where it does not, or says several. `packages` are its own, `built` the
+    names of folders that its build makes. Nothing is run, and no link is followed. Never raises."""
     if workspace is None:
         return None
     names = known_distributions(generation)
     setting = _of_settings(os.path.join(workspace, settings))
     if setting in names:
         return Stated(setting, settings)
-    files = [*_files(workspace)]
+    files = [(os.path.relpath(path, workspace), _text(path)) for path in _files(workspace, built)]
     said = _pattern(names)
-    for chosen in (_IMAGES, _CI, _SCRIPTS):
-        found: dict[str, str] = {}
-        for path in files:
-            is_workflow = chosen is _CI and f"{os.sep}.github{os.sep}" in path
-            if is_workflow or chosen.match(os.path.basename(path)):
-                found |= dict.fromkeys(said(_text(path)), os.path.relpath(path, workspace))
+    own = [(path, text) for path, text in files if _depth(path) < _OWN]
+    # Below are copies of other projects, too: there all have to agree.
+    for chosen in (*([each for each in own if _kind(each[0]) is kind] for kind in _KINDS), files):
+        found = {name: path for path, text in chosen for name in said(text)}
         if len(found) == 1:
             return Stated(*next(iter(found.items())))
     branch = _branch(workspace, names)
@@ -91,7 +92,19 @@ def _text(path: str) -> str:
     return found.text[:_LONGEST] if isinstance(found, Text) else ""
 
 
-def _files(workspace: str) -> Iterator[str]:
+def _kind(path: str) -> re.Pattern[str] | None:
+    """Of which kind a file is that may say it."""
+    if ".github" in path.split(os.sep):
+        return _CI
+    return next((each for each in _KINDS if each.match(os.path.basename(path))), None)
+
+
+def _depth(path: str) -> int:
+    """How deep below the workspace; folders of tools are no depth."""
+    return sum(not folder.startswith(".") and folder != "workflows" for folder in os.path.dirname(path).split(os.sep))
+
+
+def _files(workspace: str, built: Collection[str]) -> Iterator[str]:
     """The files that may say it, those of the upper folders first."""
     pending, seen, given = [(workspace, 0)], 0, 0
     while pending:
@@ -108,9 +121,10 @@ def _files(workspace: str) -> Iterator[str]:
             if entry.is_symlink():
                 continue
             if entry.is_dir():
-                if depth < _DEPTH and (not entry.name.startswith(".") or entry.name in _HIDDEN):
+                hidden = entry.name.startswith(".") and entry.name not in _HIDDEN
+                if depth < _DEPTH and not hidden and entry.name not in built:
                     pending.append((entry.path, depth + 1))
-            elif any(each.match(entry.name) for each in (_IMAGES, _CI, _SCRIPTS)) or ".github" in folder.split(os.sep):
+            elif _kind(entry.path) is not None:
                 given += 1
                 yield entry.path
 
@@ -144,10 +158,13 @@ def _of_manifests(packages: Iterable[Package], names: Collection[str], generatio
     if len(asked) == 1:
         name, package = next(iter(asked.items()))
         return Stated(name, f"package.xml of {package}")
-    own = {package.name for package in packages}
-    left, deciding = set(DISTRIBUTIONS[generation]), ""
-    for needed in sorted({each for package in packages for each in package.dependencies} - own):
-        having = set(distributions_with(needed, generation))
-        if having and not left <= having:
-            left, deciding = left & having, needed
-    return Stated(next(iter(left)), f"package '{deciding}', which it needs") if len(left) == 1 else None
+    needed = {each for package in packages for each in package.dependencies} - {package.name for package in packages}
+    having = [found for each in sorted(needed) if (found := frozenset(distributions_with(each, generation)))]
+    left = [
+        frozenset[str](DISTRIBUTIONS[generation]).intersection(*having[:at], *having[at + 1 :])
+        for at in range(len(having))
+    ]
+    # Whatever a single one of them says: some are written down wherever they are to be had.
+    if left and len(left[0]) == 1 and len({*left}) == 1:
+        return Stated(next(iter(left[0])), "the packages that it needs")
+    return None
