@@ -1,8 +1,9 @@
 """What changed in the findings of public projects: `make ecosystem`.
 
 `bench/ecosystem/projects.tsv` names repositories and commits. Those that lie in one folder, as `<owner>+<name>/repo`,
-are checked as on a machine without ROS 2. `bench/ecosystem/findings/<owner>+<name>.jsonl` has what was found there: a
-line for each finding but hints, which are counted, named by its fingerprint. One that somebody judged has a verdict and
+are checked as on a machine without ROS 2. `bench/ecosystem/findings/<owner>+<name>.jsonl` has what was found there: the
+code and the day of the check with the counts of hints, then a line for each other finding, named by its fingerprint.
+One that somebody judged has a verdict and
 a reason, and stays listed, with `severity` null, when it is gone. It is a failure when a false one comes back or a true
 one goes.
 """
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import datetime
 import json
 import os
 import subprocess
@@ -66,10 +68,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """What is found in a project, by fingerprint; `hints` are counts by rule."""
+    """What is found in a project, by fingerprint; `hints` are counts by rule. With `code` of `date` it was checked."""
 
     entries: dict[str, Entry] = field(default_factory=dict)
     hints: dict[str, int] = field(default_factory=dict)
+    code: str = ""
+    date: str = ""
 
 
 @dataclass(frozen=True)
@@ -115,6 +119,7 @@ def main() -> int:
     listed = read_projects()
     chosen = [each for each in listed if not options.projects or each.repository in options.projects]
     missing, failed, found = [], [], False
+    code, date = code_of_today()
     (options.out / "src").mkdir(parents=True, exist_ok=True)
 
     def checked(project: Project) -> tuple[Project, Path | None, Snapshot | str]:
@@ -141,7 +146,7 @@ def main() -> int:
                 print(f"{project.repository}: {_hints(before, snapshot)}")
                 print("".join(f"  {change}\n" for change in changes), end="", flush=True)
             if options.write:
-                write_findings(project, merged(before, snapshot))
+                write_findings(project, replace(merged(before, snapshot), code=code, date=date))
     print("".join(f"not checked: {each}\n" for each in [*missing, *failed]), end="")
     print(f"{len(chosen[part - 1 :: of]) - len(missing) - len(failed)} of {len(listed)} projects were checked")
     return 1 if found or failed else 0
@@ -151,6 +156,17 @@ def read_projects() -> list[Project]:
     """The list, in its order."""
     with (DATA / "projects.tsv").open() as table:
         return [Project(**row) for row in csv.DictReader(table, delimiter="\t")]
+
+
+def code_of_today() -> tuple[str, str]:
+    """The commit that last changed the code, with `+` if it has changed since, and the day."""
+    git = ("git", "-C", str(DATA))
+    folders = (":/analysis", ":/server")
+    last = subprocess.run(
+        [*git, "log", "-1", "--format=%h", "--abbrev=8", "--", *folders], capture_output=True, check=True
+    )
+    changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", *folders], check=False).returncode
+    return last.stdout.decode().strip() + "+" * changed, datetime.date.today().isoformat()
 
 
 def check(command: Sequence[str], folder: Path) -> Snapshot | str:
@@ -219,13 +235,14 @@ def read_findings(project: Project) -> Snapshot:
     for entry in entries:
         if entry.verdict and entry.verdict not in get_args(Verdict):
             raise SystemExit(f"{path}: {entry.verdict!r} is no verdict; write one of {', '.join(get_args(Verdict))}")
-    return Snapshot({each.fingerprint: each for each in entries}, json.loads(head)["hints"])
+    return Snapshot({each.fingerprint: each for each in entries}, **json.loads(head))
 
 
 def write_findings(project: Project, snapshot: Snapshot) -> None:
-    """Keep what is found in a project: the counts of hints, then a line for each finding."""
+    """Keep what is found in a project: when, with the counts of hints, then a line for each finding."""
     entries = sorted(snapshot.entries.values(), key=lambda each: (each.file, each.rule, each.fingerprint))
-    rows = [{"hints": snapshot.hints}, *({k: v for k, v in asdict(each).items() if v != ""} for each in entries)]
+    head = {"code": snapshot.code, "date": snapshot.date, "hints": snapshot.hints}
+    rows = [head, *({k: v for k, v in asdict(each).items() if v != ""} for each in entries)]
     path = DATA / "findings" / f"{project.name}.jsonl"
     path.parent.mkdir(exist_ok=True)
     path.write_text("".join(json.dumps(row, ensure_ascii=False) + "\n" for row in rows))
