@@ -23,7 +23,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple, Protocol, TypeVar, get_args
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
@@ -49,6 +49,35 @@ class Project(NamedTuple):
     def name(self) -> str:
         """That of its folder and of the file with its findings."""
         return self.repository.replace("/", "+")
+
+
+class Listed(Protocol):
+    """A row of a list."""
+
+    @property
+    def repository(self) -> str:
+        """`<owner>/<name>`."""
+
+
+Row = TypeVar("Row", bound=Listed)
+
+
+@dataclass(frozen=True)
+class Options:
+    """What to check, and how."""
+
+    projects: Sequence[str]
+    sources: Path
+    part: int
+    of: int
+    command: Sequence[str]
+    out: Path
+    write: bool
+
+    def piece(self, rows: Sequence[Row]) -> Sequence[Row]:
+        """Those of a list that are asked for."""
+        chosen = [each for each in rows if not self.projects or each.repository in self.projects]
+        return chosen[self.part - 1 :: self.of]
 
 
 @dataclass(frozen=True)
@@ -107,17 +136,9 @@ def _shown(entry: Entry | None) -> str | None:
 
 def main() -> int:
     """Check the projects that are at hand, print what is new, gone and of another severity."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("projects", nargs="*", help="<owner>/<name>; all without")
-    parser.add_argument("--sources", type=Path, required=True, help="the folder with the git repositories")
-    parser.add_argument("--piece", default="1/1", help="2/8: the second of eight parts of the list")
-    parser.add_argument("--command", default=f"{sys.executable} -m preflight_server.cli.main", help="ros-preflight")
-    parser.add_argument("--out", type=Path, default=Path("out/ecosystem"), help="where the projects are laid out")
-    parser.add_argument("--write", action="store_true", help="keep what is found now")
-    options = parser.parse_args()
-    part, of = map(int, options.piece.split("/"))
+    options = read_options(__doc__)
     listed = read_projects()
-    chosen = [each for each in listed if not options.projects or each.repository in options.projects]
+    chosen = options.piece(listed)
     missing, failed, found = [], [], False
     code, date = code_of_today()
     (options.out / "src").mkdir(parents=True, exist_ok=True)
@@ -126,16 +147,12 @@ def main() -> int:
         git = repository(options.sources, project.repository, project.commit)
         if git is None:
             return project, None, "not in the folder of sources"
-        folder = options.out / "src" / project.name
-        if not (folder / ".git").exists():
-            take_over(git, project.commit, folder)
-            # A checkout of its own: what this repository ignores says nothing of the project.
-            subprocess.run(["git", "init", "--quiet"], cwd=folder, check=True)
-            subprocess.run(["git", "add", "--all", "--force"], cwd=folder, check=True)
-        return project, git, check(options.command.split(), folder.resolve())
+        folder = lay_out(git, project.commit, options.out / "src" / project.name)
+        found = check(options.command, folder)
+        return project, git, found if isinstance(found, str) else snapshot_of(found)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for project, git, snapshot in pool.map(checked, chosen[part - 1 :: of]):
+        for project, git, snapshot in pool.map(checked, chosen):
             if isinstance(snapshot, str):
                 (missing if git is None else failed).append(f"{project.repository}: {snapshot}")
                 continue
@@ -148,8 +165,22 @@ def main() -> int:
             if options.write:
                 write_findings(project, replace(merged(before, snapshot), code=code, date=date))
     print("".join(f"not checked: {each}\n" for each in [*missing, *failed]), end="")
-    print(f"{len(chosen[part - 1 :: of]) - len(missing) - len(failed)} of {len(listed)} projects were checked")
+    print(f"{len(chosen) - len(missing) - len(failed)} of {len(listed)} projects were checked")
     return 1 if found or failed else 0
+
+
+def read_options(description: str) -> Options:
+    """Of the command line."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("projects", nargs="*", help="<owner>/<name>; all without")
+    parser.add_argument("--sources", type=Path, required=True, help="the folder with the git repositories")
+    parser.add_argument("--piece", default="1/1", help="2/8: the second of eight parts of the list")
+    parser.add_argument("--command", default=f"{sys.executable} -m preflight_server.cli.main", help="ros-preflight")
+    parser.add_argument("--out", type=Path, default=Path("out/ecosystem"), help="where the projects are laid out")
+    parser.add_argument("--write", action="store_true", help="keep what is found now")
+    given = parser.parse_args()
+    part, of = map(int, given.piece.split("/"))
+    return Options(given.projects, given.sources, part, of, given.command.split(), given.out, given.write)
 
 
 def read_projects() -> list[Project]:
@@ -169,12 +200,21 @@ def code_of_today() -> tuple[str, str]:
     return last.stdout.decode().strip() + "+" * changed, datetime.date.today().isoformat()
 
 
-def check(command: Sequence[str], folder: Path) -> Snapshot | str:
-    """What `check .` finds in a project, or why that is not known."""
+def lay_out(git: Path, commit: str, folder: Path) -> Path:
+    """The small files of a commit, as a checkout: what this repository ignores must not count as ignored there."""
+    if not (folder / ".git").exists():
+        take_over(git, commit, folder)
+        subprocess.run(["git", "init", "--quiet"], cwd=folder, check=True)
+        subprocess.run(["git", "add", "--all", "--force"], cwd=folder, check=True)
+    return folder.resolve()
+
+
+def check(command: Sequence[str], folder: Path, files: Sequence[str] = (".",)) -> list[Entry] | str:
+    """What `check` finds in files of a project, hints too, or why that is not known."""
     with tempfile.TemporaryDirectory() as home:
         try:
             done = subprocess.run(
-                [*command, "check", ".", "--format", "sarif"],
+                [*command, "check", *files, "--format", "sarif"],
                 cwd=folder,
                 env={"PATH": "/usr/bin:/bin", "HOME": home, "LANG": "C.UTF-8"},
                 capture_output=True,
@@ -185,12 +225,8 @@ def check(command: Sequence[str], folder: Path) -> Snapshot | str:
             return "took more than 15 minutes"
     if done.returncode not in (0, 1):
         return f"exit code {done.returncode}: {done.stderr.decode(errors='replace').strip()[-300:]}"
-    entries, hints = {}, Counter[str]()
+    entries = []
     for result in json.loads(done.stdout)["runs"][0]["results"]:
-        properties = result["properties"]
-        if properties["severity"] == "hint":
-            hints[result["ruleId"]] += 1
-            continue
         place = result["locations"][0]["physicalLocation"]
         entry = Entry(
             result["ruleId"],
@@ -198,11 +234,17 @@ def check(command: Sequence[str], folder: Path) -> Snapshot | str:
             place["artifactLocation"]["uri"],
             place["region"]["startLine"],
             result["message"]["text"].replace(f"{folder}/", "")[:_MOST],
-            properties["severity"],
-            properties["confidence"],
+            result["properties"]["severity"],
+            result["properties"]["confidence"],
         )
-        entries[entry.fingerprint] = entry
-    return Snapshot(entries, dict(sorted(hints.items())))
+        entries.append(entry)
+    return entries
+
+
+def snapshot_of(found: Sequence[Entry]) -> Snapshot:
+    """What is kept of the findings of a project: hints are only counted."""
+    hints = Counter(each.rule for each in found if each.severity == "hint")
+    return Snapshot({each.fingerprint: each for each in found if each.severity != "hint"}, dict(sorted(hints.items())))
 
 
 def compare(before: Snapshot, after: Snapshot) -> Iterator[Change]:
