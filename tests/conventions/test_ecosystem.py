@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from tools import ecosystem
 from tools.ecosystem import DATA, Change, Entry, Project, Snapshot, compare, merged, read_findings, read_projects
+from tools.ros2_python_corpus import MAX_SIZE
 
 FOUND = Entry("TOP001", "1:1", "a.launch", 7, "'/chater' has no publisher", "warning", "likely")
 GONE = replace(FOUND, severity=None, confidence=None)
@@ -63,6 +65,26 @@ def test_what_was_judged_is_kept_with_what_is_found_and_after_it_is_gone(
     assert read_findings(project).entries == {"1:1": replace(judged, line=9, severity=None, confidence=None)}
     ecosystem.write_findings(project, merged(Snapshot({"1:1": FOUND}), Snapshot()))
     assert read_findings(project) == Snapshot()
+
+
+def test_a_commit_is_laid_out_with_what_is_too_large_as_an_empty_file(tmp_path: Path) -> None:
+    source = tmp_path / "source"
+    (source / "meshes").mkdir(parents=True)
+    (source / "a.launch").write_text("<launch/>")
+    (source / "run").write_text("#!/bin/sh")
+    (source / "run").chmod(0o755)
+    (source / "b.launch").symlink_to("a.launch")
+    (source / "meshes" / "arm.dae").write_bytes(b"x" * (MAX_SIZE + 1))
+    (source / ".gitignore").write_text("*.launch")
+    git = ("git", "-c", "user.name=n", "-c", "user.email=e")
+    for words in (["init", "--quiet"], ["add", "--all", "--force"], ["commit", "--quiet", "--message", "all"]):
+        subprocess.run([*git, *words], cwd=source, check=True)
+    folder = ecosystem.lay_out(source / ".git", "HEAD", tmp_path / "out" / "p")
+    assert (folder / "meshes" / "arm.dae").read_bytes() == b""
+    assert (folder / "b.launch").read_text() == "<launch/>"
+    assert (folder / "run").stat().st_mode & 0o111
+    listed = subprocess.run(["git", "ls-files"], cwd=folder, capture_output=True, check=True).stdout.decode().split()
+    assert sorted(listed) == [".gitignore", "a.launch", "b.launch", "meshes/arm.dae", "run"]
 
 
 def test_each_file_of_findings_is_of_a_listed_project_and_all_are_small() -> None:

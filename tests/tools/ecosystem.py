@@ -201,7 +201,7 @@ def code_of_today() -> tuple[str, str]:
 
 
 def lay_out(git: Path, commit: str, folder: Path) -> Path:
-    """The small files of a commit, as a checkout: what this repository ignores must not count as ignored there."""
+    """A commit as a checkout of its own, large files empty: what this repository ignores is not ignored there."""
     if not (folder / ".git").exists():
         take_over(git, commit, folder)
         subprocess.run(["git", "init", "--quiet"], cwd=folder, check=True)

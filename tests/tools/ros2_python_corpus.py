@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 MAX_SIZE = 1_000_000
-"""Of a file that is taken over: launch files, parameters and manifests are small, meshes and pictures are not."""
+"""Of a file with its text: launch files, parameters and manifests are small, meshes and pictures are not."""
 
 
 def main() -> int:
@@ -70,14 +70,14 @@ def repository(sources: Path, name: str, commit: str) -> Path | None:
 
 
 def take_over(git: Path, commit: str, folder: Path) -> None:
-    """The small files of a commit; done once."""
+    """The files of a commit, those that are large or not stored without their text; done once."""
     mark = folder.with_name(f".{folder.name}.{commit}")
     if mark.exists():
         return
     for path, mode, content in _files(git, commit):
         file = folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
-        if mode == "120000":
+        if mode == "120000" and content:
             file.unlink(missing_ok=True)
             file.symlink_to(content.decode())
         else:
@@ -90,25 +90,28 @@ def _files(git: Path, commit: str) -> Iterator[tuple[str, str, bytes]]:
     listing = subprocess.run(
         ["git", f"--git-dir={git}", "ls-tree", "-r", "-l", "-z", commit], capture_output=True, check=True
     ).stdout.decode(errors="surrogateescape")
-    wanted = []
+    wanted, large = [], []
     for line in filter(None, listing.split("\0")):
         about, path = line.split("\t", 1)
         mode, kind, blob, size = about.split()
         # What a partial copy lacks has no size.
-        if kind == "blob" and size.isdigit() and int(size) <= MAX_SIZE:
-            wanted.append((path, mode, blob))
+        if kind == "blob":
+            (wanted if size.isdigit() and int(size) <= MAX_SIZE else large).append((path, mode, blob))
     blobs = subprocess.run(
         ["git", f"--git-dir={git}", "cat-file", "--batch"],
         input="".join(f"{blob}\n" for _, _, blob in wanted).encode(),
         capture_output=True,
         check=True,
     ).stdout
+    for path, mode, _ in large:
+        yield path, mode, b""
     at = 0
     for path, mode, _ in wanted:
         end = blobs.index(b"\n", at)
         head = blobs[at:end].split()
         at = end + 1
         if head[1] == b"missing":
+            yield path, mode, b""
             continue
         size = int(head[2])
         yield path, mode, blobs[at : at + size]
