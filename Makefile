@@ -14,7 +14,7 @@ LUA = $(shell git ls-files '*.lua')
 PROSE = $(shell git ls-files '*.md' ':!fixtures' ':!tests' ':!bench')
 BENCHMARKS := start catalogue editing completion index growth trace fleet commands launch_files graph
 
-.PHONY: help setup apt demo test quick lint format bench bench-quick corpus ecosystem fixes nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
+.PHONY: help setup apt demo test quick lint format bench bench-quick corpus ecosystem truth fixes nodes attacks catalogue catalogue-truth knowledge fuzz endurance wheel release pin vsix lock test-editors images docs clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
@@ -95,8 +95,11 @@ fixes: $(READY) ## every fix of every finding in the fixtures, ../shared/corpus 
 
 ecosystem: SOURCES = $(realpath ../.mirror)
 ecosystem: PIECE = 1/1
-ecosystem: setup ## what changed in the findings of the public projects of bench/ecosystem that are in SOURCES=FOLDER; PIECE=1/9 a part, ONLY="o/p q/r" some, WRITE=1 keeps it
-	$(BIN)/python tests/tools/ecosystem.py --sources "$(SOURCES)" --piece $(PIECE) $(if $(WRITE),--write) $(ONLY)
+ecosystem: setup ## what changed in the findings of the public projects of bench/ecosystem that are in SOURCES=FOLDER; PIECE=1/9 a part, ONLY="o/p q/r" some, FIXES=1 fixes of histories, WRITE=1 keeps it
+	$(BIN)/python tests/tools/ecosystem$(if $(FIXES),_fixes).py --sources "$(SOURCES)" --piece $(PIECE) $(if $(WRITE),--write) $(ONLY)
+
+truth: $(READY) ## docs/truth.md, written from the verdicts and results of bench/ecosystem
+	$(BIN)/python tests/tools/truth.py
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md
 	.ci/apt-install fixtures/ros1/real_nodes/apt-packages

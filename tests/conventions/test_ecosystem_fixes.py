@@ -1,0 +1,74 @@
+"""`make ecosystem FIXES=1`: what is taken for the mistake that a commit fixes, and what counts as lost."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from tools import ecosystem_fixes
+from tools.ecosystem import Entry
+from tools.ecosystem_fixes import NOTHING, Fix, gone, is_lost, read_fixes, worst, write_fixes
+
+FOUND = Entry("PRM001", "1:1", "src/p/a.launch", 7, "'/a/x' is not read; 2 others are", "warning", "likely")
+FIX = Fix(
+    "o/p", "1", "c0ffee", "beef", "a.launch", "parameter", "x for y", "yes", "f00d", "2026-11-28", "warning PRM001"
+)
+
+
+def test_what_moved_or_counts_otherwise_is_not_gone() -> None:
+    places = {"src/p/a.launch"}
+    assert list(gone([FOUND], [], places)) == [FOUND]
+    assert list(gone([FOUND], [replace(FOUND, line=9, message="another text")], places)) == []
+    assert (
+        list(gone([FOUND], [replace(FOUND, fingerprint="2:1", message="'/a/x' is not read; 3 others are")], places))
+        == []
+    )
+    other = replace(FOUND, fingerprint="2:1", message="'/a/y' is not read; 2 others are")
+    assert list(gone([FOUND], [other], places)) == [FOUND]
+
+
+def test_one_of_two_alike_is_gone() -> None:
+    second = replace(FOUND, fingerprint="2:1", line=9)
+    assert list(gone([FOUND, second], [replace(FOUND, fingerprint="3:1")], {"."})) == [second]
+
+
+@pytest.mark.parametrize(
+    ("places", "there"),
+    [({"src"}, True), ({"src/p"}, True), ({"."}, True), ({"src/p/a"}, False), ({""}, False), ({"b.launch"}, False)],
+)
+def test_only_what_is_in_the_files_counts(places: set[str], there: bool) -> None:
+    assert bool(list(gone([FOUND], [], places))) == there
+
+
+def test_the_worst_is_recorded_with_its_rules() -> None:
+    assert worst([]) == NOTHING
+    assert worst([replace(FOUND, severity="hint")]) == "hint PRM001"
+    assert worst([FOUND, replace(FOUND, rule="LCH001"), replace(FOUND, severity="info")]) == "warning LCH001 PRM001"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "lost"),
+    [
+        ("warning PRM001", NOTHING, True),
+        ("info PRM001", "hint PRM001", True),
+        ("error PRM001", "info PRM002", False),
+        ("hint PRM001", NOTHING, False),
+        (NOTHING, "error PRM001", False),
+        ("", NOTHING, False),
+    ],
+)
+def test_what_was_found_must_be_found(before: str, after: str, lost: bool) -> None:
+    assert is_lost(FIX._replace(found=before), FIX._replace(found=after)) == lost
+
+
+def test_the_list_is_written_as_it_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    listed = read_fixes()
+    assert len({(each.repository, each.fixed) for each in listed}) == len(listed)
+    assert {each.visible for each in listed} <= {"yes", "no"}
+    known = ("error", "warning", "info", "hint", NOTHING, "")
+    assert {each.severity for each in listed} <= set(known)
+    kept = (ecosystem_fixes.DATA / "fixes.tsv").read_bytes()
+    monkeypatch.setattr(ecosystem_fixes, "DATA", tmp_path)
+    write_fixes(listed)
+    assert (tmp_path / "fixes.tsv").read_bytes() == kept

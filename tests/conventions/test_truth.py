@@ -1,0 +1,86 @@
+"""docs/truth.md: what it says is what `bench/ecosystem` has."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+
+from tools.ecosystem import DATA, Entry, Project, Snapshot, read_findings, read_projects
+from tools.ecosystem_fixes import NOTHING, Fix, read_fixes
+from tools.truth import PAGE, Round, page, read_rounds
+
+PROJECT = Project("o/p", "c0ffee", "2")
+FOUND = Entry("TOP001", "1:1", "a.launch", 7, "'/chater' has no publisher", "warning", "likely")
+FIX = Fix("o/p", "1", "c0ffee", "beef", "a.launch", "syntax", "not closed", "yes", "f00d", "2026-11-28", "error LCH001")
+ROUND = Round("2", "1", "1", "unseen", "8", "", "10", "7", "3", "3")
+
+
+def of(*entries: Entry) -> dict[Project, Snapshot]:
+    return {PROJECT: Snapshot({each.fingerprint: each for each in entries}, {}, "f00d", "2026-11-28")}
+
+
+def test_the_page_is_the_one_that_is_written() -> None:
+    written = page({each: read_findings(each) for each in read_projects()}, read_fixes(), read_rounds())
+    assert PAGE.read_text() == written, "run: make truth"
+    assert len(written.splitlines()) <= 60
+
+
+def test_precision_is_of_what_is_judged_and_still_found() -> None:
+    verdicts = ("true", "trivial", "false", "machine", "")
+    entries = [replace(FOUND, fingerprint=f"{n}:1", verdict=verdict) for n, verdict in enumerate(verdicts)]
+    entries.append(replace(FOUND, fingerprint="9:1", severity=None, confidence=None, verdict="false"))
+    entries.append(replace(FOUND, fingerprint="8:1", rule="LCH001", severity="error", verdict="true"))
+    text = page(of(*entries), [], [])
+    assert "in 1 public projects. Of these, 1 are ROS 2 projects." in text
+    assert "That was on 2026-11-28 with the code at f00d. Of 6 findings 5 were judged" in text
+    assert "2 are true, 1 trivial (true, and nobody fixes it), 1 false, 1 of the machine" in text
+    assert "| all | 1 of 1 (100 %) | 2 of 4 (50 %) | – | 1 |" in text
+    assert "| LCH | 1 of 1 (100 %) | – | – | 0 |" in text
+    assert "| TOP | – | 2 of 4 (50 %) | – | 1 |" in text
+
+
+def test_a_project_that_was_never_checked_is_not_counted() -> None:
+    assert "in 0 public projects" in page({PROJECT: Snapshot()}, [], [])
+
+
+def test_rounds_are_summed_over_their_samples() -> None:
+    samples = [ROUND, ROUND._replace(sample="2", errors="90"), ROUND._replace(state="fixed", errors="7")]
+    row = "| 2 | 1 | 16 | 14 of 100 (14 %) | 6 of 6 (100 %) | 7 of 7 (100 %) | 3 of 3 (100 %) |"
+    assert row in page({}, [], samples)
+
+
+def test_recall_is_of_what_the_repository_shows() -> None:
+    fixes = [FIX, FIX._replace(found=NOTHING), FIX._replace(kind="argument", found="hint ARG008")]
+    fixes += [FIX._replace(visible="no", found=NOTHING), FIX._replace(visible="no"), FIX._replace(found="")]
+    text = page({}, fixes, [])
+    assert (
+        "| all | 3 | 1 | 0 | 0 | 1 | 1 |\n| argument | 1 | 0 | 0 | 0 | 1 | 0 |\n| syntax | 2 | 1 | 0 | 0 | 0 | 1 |"
+        in text
+    )
+    assert "In 2 further fixes nothing in the repository shows the mistake; 1 of them have such a finding." in text
+
+
+def test_all_families_and_kinds_fit_the_page() -> None:
+    families = {each.stem[:3] for each in (PAGE.parent / "rules").glob("*[0-9].md")}
+    entries = [replace(FOUND, fingerprint=f"{each}:1", rule=f"{each}001", verdict="true") for each in families]
+    assert (
+        len(
+            page(
+                of(*entries), [each._replace(found="info X", date="d") for each in read_fixes()], read_rounds()
+            ).splitlines()
+        )
+        <= 60
+    )
+
+
+def test_the_projects_of_a_sample_add_up_to_it() -> None:
+    with (DATA / "rounds" / "projects.tsv").open(newline="") as table:
+        projects = list(csv.DictReader(table, delimiter="\t"))
+    for sample in read_rounds():
+        if sample.state != "unseen" or not sample.sample:
+            continue
+        of = [p for p in projects if all(p[key] == getattr(sample, key) for key in ("round", "generation", "sample"))]
+        assert len(of) == int(sample.projects), sample
+        for key in ("errors", "errors_true", "warnings", "warnings_true"):
+            counts = [each[key] for each in of]
+            assert not all(counts) or sum(map(int, counts)) == int(getattr(sample, key)), (sample, key)
