@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from tools import ecosystem_fixes
-from tools.ecosystem import Entry
-from tools.ecosystem_fixes import NOTHING, Fix, gone, is_lost, read_fixes, worst, write_fixes
+from tools.ecosystem import Entry, Options
+from tools.ecosystem_fixes import NOTHING, Fix, goes_away, gone, is_lost, read_fixes, worst, write_fixes
 
 FOUND = Entry("PRM001", "1:1", "src/p/a.launch", 7, "'/a/x' is not read; 2 others are", "warning", "likely")
 FIX = Fix(
@@ -72,3 +74,24 @@ def test_the_list_is_written_as_it_is_read(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(ecosystem_fixes, "DATA", tmp_path)
     write_fixes(listed)
     assert (tmp_path / "fixes.tsv").read_bytes() == kept
+
+
+def test_what_goes_away_with_a_fix_is_found(tmp_path: Path) -> None:
+    source = tmp_path / "sources" / "o+p" / "repo"
+    source.mkdir(parents=True)
+    (source / "package.xml").write_text("<package><name>p</name></package>")
+    git = ("git", "-c", "user.name=n", "-c", "user.email=e")
+    subprocess.run([*git, "init", "--quiet"], cwd=source, check=True)
+    commits = []
+    for text in ("<launch><arg name='a'></launch>", "<launch><arg name='a'/></launch>"):
+        (source / "a.launch").write_text(text)
+        subprocess.run([*git, "add", "--all"], cwd=source, check=True)
+        subprocess.run([*git, "commit", "--quiet", "--message", "all"], cwd=source, check=True)
+        commits.append(subprocess.check_output([*git, "rev-parse", "HEAD"], cwd=source, text=True).strip())
+    fix = FIX._replace(buggy=commits[0], fixed=commits[1])
+    command = [sys.executable, "-m", "preflight_server.cli.main"]
+    options = Options([], tmp_path / "sources", 1, 1, command, tmp_path / "out", False)
+    found = goes_away(fix, options)
+    assert isinstance(found, list)
+    assert worst(found) == "error LCH001"
+    assert goes_away(fix._replace(repository="o/elsewhere"), options) is None

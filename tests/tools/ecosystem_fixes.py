@@ -58,7 +58,7 @@ def main() -> int:
     now, missing, failed, lost = {}, [], [], False
     code, date = code_of_today()
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for fix, found in zip(chosen, pool.map(lambda each: _found(each, options), chosen), strict=True):
+        for fix, found in zip(chosen, pool.map(lambda each: goes_away(each, options), chosen), strict=True):
             name = f"{fix.repository} {fix.buggy[:8]}"
             if found is None:
                 missing.append(f"{name}: not in the folder of sources")
@@ -80,7 +80,7 @@ def main() -> int:
     return 1 if lost or failed else 0
 
 
-def _found(fix: Fix, options: Options) -> list[Entry] | str | None:
+def goes_away(fix: Fix, options: Options) -> list[Entry] | str | None:
     """What goes away with a fix, or why that is not known; None without a repository."""
     git = repository(options.sources, fix.repository, fix.fixed)
     if git is None:
