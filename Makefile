@@ -98,7 +98,7 @@ ecosystem: PIECE = 1/1
 ecosystem: setup ## what changed in the findings of the public projects of bench/ecosystem that are in SOURCES=FOLDER; PIECE=1/9 a part, ONLY="o/p q/r" some, FIXES=1 fixes of histories, WRITE=1 keeps it
 	$(BIN)/python tests/tools/ecosystem$(if $(FIXES),_fixes).py --sources "$(SOURCES)" --piece $(PIECE) $(if $(WRITE),--write) $(ONLY)
 
-truth: $(READY) ## docs/truth.md, written from the verdicts and results of bench/ecosystem
+truth: $(READY) ## docs/truth.md and docs/severity.md, written from the verdicts and results of bench/ecosystem
 	$(BIN)/python tests/tools/truth.py
 
 nodes: setup ## Debian's ROS nodes and C++ tutorials, traced and beside a real master: docs/real_nodes.md

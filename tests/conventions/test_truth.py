@@ -5,9 +5,13 @@ from __future__ import annotations
 import csv
 from dataclasses import replace
 
+import pytest
+from preflight_analysis.findings import policy_page
+from preflight_analysis.findings.finding import Severity
+from preflight_analysis.findings.policy import LIMITS, USUAL
 from tools.ecosystem import DATA, Entry, Project, Snapshot, read_findings, read_projects
 from tools.ecosystem_fixes import NOTHING, Fix, read_fixes
-from tools.truth import PAGE, Round, page, read_rounds
+from tools.truth import PAGE, SEVERITY, Round, judged, page, read_rounds
 
 PROJECT = Project("o/p", "c0ffee", "2")
 FOUND = Entry("TOP001", "1:1", "a.launch", 7, "'/chater' has no publisher", "warning", "likely")
@@ -23,6 +27,26 @@ def test_the_page_is_the_one_that_is_written() -> None:
     written = page({each: read_findings(each) for each in read_projects()}, read_fixes(), read_rounds())
     assert PAGE.read_text() == written, "run: make truth"
     assert len(written.splitlines()) <= 60
+
+
+def test_the_page_of_the_policy_is_the_one_that_is_written() -> None:
+    assert SEVERITY.read_text() == policy_page.page(_judged()), "run: make truth"
+
+
+@pytest.mark.parametrize(("severity", "least"), [("warning", 85), ("error", 95)])
+def test_the_policy_is_calibrated(severity: Severity, least: int) -> None:
+    """A row of which too few of ten or more are true is less severe."""
+    loud: dict[str, str] = {**USUAL} | {r.name: limit.severity for r, limit in LIMITS.items()}
+    wrong = [
+        f"{row}: {of}"
+        for row, of in _judged().items()
+        if loud.get(row) == severity and of.all >= 10 and 100 * of.true < least * of.all
+    ]
+    assert wrong == []
+
+
+def _judged() -> dict[str, policy_page.Judged]:
+    return judged([read_findings(each) for each in read_projects()])
 
 
 def test_precision_is_of_what_is_judged_and_still_found() -> None:

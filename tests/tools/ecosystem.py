@@ -82,7 +82,8 @@ class Options:
 
 @dataclass(frozen=True)
 class Entry:
-    """A finding of a project, and what was judged of it. `severity` is null once a judged one is gone."""
+    """A finding of a project, and what was judged of it. `severity` is null once a judged one is gone; `cell` is the
+    row of docs/severity.md that decides it."""
 
     rule: str
     fingerprint: str
@@ -91,6 +92,7 @@ class Entry:
     message: str
     severity: str | None
     confidence: str | None
+    cell: str = ""
     verdict: Verdict | Literal[""] = ""
     reason: str = ""
 

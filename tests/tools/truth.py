@@ -1,4 +1,4 @@
-"""How many findings are true, and how many mistakes are found: `make truth` writes docs/truth.md.
+"""How many findings are true, and how many mistakes are found: `make truth` writes docs/truth.md and docs/severity.md.
 
 Everything in it is in `bench/ecosystem`: verdicts beside the findings of public projects (`findings/*.jsonl`), fixes of
 public histories with what is found before them (`fixes.tsv`), and rounds of projects that were unseen when they were
@@ -17,10 +17,13 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from preflight_analysis.findings import policy_page
+
 from tools.ecosystem import DATA, Project, Snapshot, read_findings, read_projects
 from tools.ecosystem_fixes import NOTHING, Fix, read_fixes
 
 PAGE = Path(__file__).parents[2] / "docs" / "truth.md"
+SEVERITY = PAGE.with_name("severity.md")
 _SEVERITIES = {"error": "errors", "warning": "warnings", "info": "information"}
 _TRUE = ("true", "trivial")
 
@@ -41,9 +44,22 @@ class Round(NamedTuple):
 
 
 def main() -> int:
-    """Write the page."""
-    PAGE.write_text(page({each: read_findings(each) for each in read_projects()}, read_fixes(), read_rounds()))
+    """Write the pages."""
+    found = {each: read_findings(each) for each in read_projects()}
+    PAGE.write_text(page(found, read_fixes(), read_rounds()))
+    SEVERITY.write_text(policy_page.page(judged(found.values())))
     return 0
+
+
+def judged(found: Iterable[Snapshot]) -> dict[str, policy_page.Judged]:
+    """By rows of the policy, how many of the findings that it decides were judged, and are true. What this machine
+    lacks is not true; what a robot's makers leave as it is is."""
+    rows: dict[str, policy_page.Judged] = {}
+    for entry in (each for snapshot in found for each in snapshot.entries.values()):
+        if entry.severity is not None and entry.verdict:
+            row = rows.get(entry.cell, policy_page.Judged())
+            rows[entry.cell] = policy_page.Judged(row.true + (entry.verdict in _TRUE), row.all + 1)
+    return rows
 
 
 def read_rounds() -> list[Round]:

@@ -17,9 +17,9 @@ class Reason(Enum):
     ON_ROBOT = "it speaks of another machine than this one", "check it on the robot"
     MADE_BY_BUILD = "the build of the package may create it", "build the package"
     MADE_ELSEWHERE = "another program may create it", "create it, or commit it"
-    NOT_SET = "a value is empty or stands to be replaced", "set {of}"
+    NOT_SET = "a value is empty or a placeholder", "set {of}"
     WHERE_STARTED = "it depends on the folder where the launch is started", "write the path from its package"
-    OTHER_ARGUMENTS = "it holds with other arguments only", "launch with {of}"
+    OTHER_ARGUMENTS = "it applies with other arguments only", "launch with {of}"
     # What is known is of something like it.
     CATALOGUE = "it is known from the catalogue, not from this machine", "install the package"
     OTHER_DISTRIBUTION = (
@@ -41,9 +41,9 @@ class Reason(Enum):
     LIKE_NAMES = "only the names are alike", ""
     IN_USE = "other files of the workspace use the name", ""
     SHARED = "it is written for several nodes, and one may want it", ""
-    INTENDED = "it looks as if it were meant so", ""
+    INTENDED = "it looks intended", ""
     NO_DIFFERENCE = "it makes no difference here", ""
-    EXPLAINED = "another finding says what is behind it", "mend that one first"
+    EXPLAINED = "another finding names the cause", "fix that one first"
     SET_ASIDE = "nobody starts the file as it is", ""
     UNSEEN = "something that is not on this machine may have it", ""
 

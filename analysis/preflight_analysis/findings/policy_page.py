@@ -24,7 +24,7 @@ def page(judged: Mapping[str, Judged]) -> str:
 
 
 def _lines(judged: Mapping[str, Judged]) -> Iterator[str]:
-    yield "<!-- Written by `make ecosystem PAGES=1`. Do not edit. -->\n"
+    yield "<!-- Written by `make truth`. Do not edit. -->\n"
     yield "# Severity and confidence\n"
     yield "What a mistake does to the robot gives the severity of a finding. Each doubt limits it, and the confidence."
     yield "`ros-preflight explain FINDING` shows the doubts of a finding, and what removes each."
