@@ -21,13 +21,17 @@ FIX = Fix(
 def test_what_moved_or_counts_otherwise_is_not_gone() -> None:
     places = {"src/p/a.launch"}
     assert list(gone([FOUND], [], places)) == [FOUND]
-    assert list(gone([FOUND], [replace(FOUND, line=9, message="another text")], places)) == []
+    assert list(gone([FOUND], [replace(FOUND, line=9)], places)) == []
     assert (
         list(gone([FOUND], [replace(FOUND, fingerprint="2:1", message="'/a/x' is not read; 3 others are")], places))
         == []
     )
     other = replace(FOUND, fingerprint="2:1", message="'/a/y' is not read; 2 others are")
     assert list(gone([FOUND], [other], places)) == [FOUND]
+
+
+def test_another_mistake_at_the_same_place_is_another_finding() -> None:
+    assert list(gone([FOUND], [replace(FOUND, message="'/b' does not exist")], {"."})) == [FOUND]
 
 
 def test_one_of_two_alike_is_gone() -> None:

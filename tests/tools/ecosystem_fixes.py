@@ -107,13 +107,10 @@ def goes_away(fix: Fix, options: Options) -> list[Entry] | str | None:
 def gone(buggy: Sequence[Entry], fixed: Sequence[Entry], places: Collection[str]) -> Iterator[Entry]:
     """What only the first has, in some files or folders, other than by its line or the numbers in its message."""
     after = Counter(map(_signature, fixed))
-    same = {each.fingerprint for each in fixed}
     for entry in buggy:
         if after[_signature(entry)]:
             after[_signature(entry)] -= 1
-        elif entry.fingerprint not in same and any(
-            place in (".", entry.file) or entry.file.startswith(f"{place}/") for place in places if place
-        ):
+        elif any(place in (".", entry.file) or entry.file.startswith(f"{place}/") for place in places if place):
             yield entry
 
 
