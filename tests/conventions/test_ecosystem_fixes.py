@@ -14,7 +14,7 @@ from tools.ecosystem_fixes import NOTHING, Fix, goes_away, gone, is_lost, read_f
 
 FOUND = Entry("PRM001", "1:1", "src/p/a.launch", 7, "'/a/x' is not read; 2 others are", "warning", "likely")
 FIX = Fix(
-    "o/p", "1", "c0ffee", "beef", "a.launch", "parameter", "x for y", "yes", "f00d", "2026-11-28", "warning PRM001"
+    "o/p", "1", "c0", "fe", "a.launch", "parameter", "x for y", "yes", "f00d", "2026-11-28", "warning PRM001", "yes"
 )
 
 
@@ -68,10 +68,22 @@ def test_what_was_found_must_be_found(before: str, after: str, lost: bool) -> No
     assert is_lost(FIX._replace(found=before), FIX._replace(found=after)) == lost
 
 
+def test_what_was_read_is_of_what_was_found_then() -> None:
+    assert FIX.with_found("warning PRM001", "beef", "2026-11-29").mistake == "yes"
+    assert FIX.with_found("info PRM001", "beef", "2026-11-29").mistake == ""
+
+
+def test_a_finding_of_another_cause_is_not_the_mistake() -> None:
+    other = FIX._replace(mistake="no")
+    assert other.severity == NOTHING
+    assert not is_lost(other, other.with_found(NOTHING, "beef", "2026-11-29"))
+
+
 def test_the_list_is_written_as_it_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     listed = read_fixes()
     assert len({(each.repository, each.fixed) for each in listed}) == len(listed)
     assert {each.visible for each in listed} <= {"yes", "no"}
+    assert {each.mistake for each in listed} <= {"yes", "no", ""}
     known = ("error", "warning", "info", "hint", NOTHING, "")
     assert {each.severity for each in listed} <= set(known)
     kept = (ecosystem_fixes.DATA / "fixes.tsv").read_bytes()

@@ -15,7 +15,9 @@ from tools.truth import PAGE, SEVERITY, Round, judged, page, read_rounds
 
 PROJECT = Project("o/p", "c0ffee", "2")
 FOUND = Entry("TOP001", "1:1", "a.launch", 7, "'/chater' has no publisher", "warning", "likely")
-FIX = Fix("o/p", "1", "c0ffee", "beef", "a.launch", "syntax", "not closed", "yes", "f00d", "2026-11-28", "error LCH001")
+FIX = Fix(
+    "o/p", "1", "c0ffee", "beef", "a.launch", "syntax", "not closed", "yes", "f00d", "2026-11-28", "error LCH001", "yes"
+)
 ROUND = Round("2", "1", "1", "unseen", "8", "", "10", "7", "3", "3")
 
 
@@ -76,12 +78,13 @@ def test_rounds_are_summed_over_their_samples() -> None:
 def test_recall_is_of_what_the_repository_shows() -> None:
     fixes = [FIX, FIX._replace(found=NOTHING), FIX._replace(kind="argument", found="hint ARG008")]
     fixes += [FIX._replace(visible="no", found=NOTHING), FIX._replace(visible="no"), FIX._replace(found="")]
+    fixes += [FIX._replace(kind="argument", found="error LCH002", mistake="no")]
     text = page({}, fixes, [])
     assert (
-        "| all | 3 | 1 | 0 | 0 | 1 | 1 |\n| argument | 1 | 0 | 0 | 0 | 1 | 0 |\n| syntax | 2 | 1 | 0 | 0 | 0 | 1 |"
+        "| all | 4 | 1 | 0 | 0 | 1 | 2 |\n| argument | 2 | 0 | 0 | 0 | 1 | 1 |\n| syntax | 2 | 1 | 0 | 0 | 0 | 1 |"
         in text
     )
-    assert "In 2 further fixes nothing in the repository shows the mistake; 1 of them have such a finding." in text
+    assert "In 2 further fixes nothing in the repository shows the mistake; found above a hint: 1." in text
 
 
 def test_all_families_and_kinds_fit_the_page() -> None:

@@ -2,9 +2,9 @@
 
 `bench/ecosystem/fixes.tsv` names commits of public projects that fix a launch configuration, and their parents. Both
 are checked as the projects of `make ecosystem` are, in the files that the row names. What is found at the parent, is
-gone with the fix, and is in one of these files or in one that the commit changes, is taken for the mistake: an
-approximation. `found` has the worst severity of it and its rules. It is a failure when that was above a hint and no
-longer is.
+gone with the fix, and is in one of these files or in one that the commit changes, may be the mistake. `found` has the
+worst severity of it and its rules; `mistake` is what a reader says of it ("yes" or "no", empty until somebody read it).
+It is a failure when the mistake was found above a hint and no longer is.
 """
 
 from __future__ import annotations
@@ -43,11 +43,16 @@ class Fix(NamedTuple):
     code: str
     date: str
     found: str
+    mistake: str
 
     @property
     def severity(self) -> str:
-        """The worst of what is found; empty of one that was never checked."""
-        return self.found.partition(" ")[0]
+        """The worst of what is found, if that is the mistake; empty of one that was never checked."""
+        return NOTHING if self.found and self.mistake == "no" else self.found.partition(" ")[0]
+
+    def with_found(self, found: str, code: str, date: str) -> Fix:
+        """What a check found; what was read of another finding says nothing of it."""
+        return self._replace(found=found, code=code, date=date, mistake=self.mistake if found == self.found else "")
 
 
 def main() -> int:
@@ -65,7 +70,7 @@ def main() -> int:
             elif isinstance(found, str):
                 failed.append(f"{name}: {found}")
             else:
-                now[fix] = fix._replace(found=worst(found), code=code, date=date)
+                now[fix] = fix.with_found(worst(found), code, date)
                 lost = lost or is_lost(fix, now[fix])
                 if fix.found != now[fix].found:
                     mark = "FAIL " if is_lost(fix, now[fix]) else ""

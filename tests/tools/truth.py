@@ -150,9 +150,10 @@ def _recall(fixes: Sequence[Fix]) -> list[str]:
     return [
         f"Commits that fix a launch configuration were checked {_when((each.code, each.date) for each in fixes)}, "
         "before and after the fix.",
-        "The worst finding that goes away with a fix is taken for the mistake. Causes of some misses were fixed since.",
+        "The worst finding that goes away with the fix counts, unless a reader saw that it has another cause "
+        f"({sum(each.mistake == 'no' for each in fixes)}). Causes of misses were fixed before.",
         f"In {len(hidden)} further fixes nothing in the repository shows the mistake; "
-        f"{sum(each.severity not in ('hint', NOTHING) for each in hidden)} of them have such a finding.",
+        f"found above a hint: {sum(each.severity not in ('hint', NOTHING) for each in hidden)}.",
         "",
         *_table(["kind of mistake", "fixes", "error", "warning", "information", "hint", NOTHING], rows),
     ]
