@@ -20,7 +20,7 @@ from preflight_analysis.evaluation.ros2.spawners import (
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.evaluation.words import words_of
-from preflight_analysis.findings.finding import Confidence, Severity
+from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import Robot, robots_of, unread_of
 from preflight_analysis.rules.robots import robots
@@ -73,14 +73,11 @@ class Controller(NamedTuple):
     """Its own, by the names by which it asks for them."""
 
     @property
-    def confidence(self) -> Confidence:
-        """How sure it is what the parameters mean."""
-        return "likely" if self.known is not None and self.known.is_used else "possible"
-
-    @property
-    def severity(self) -> Severity | None:
-        """That of a finding about the parameters: information where it is not sure what they mean."""
-        return None if self.confidence == "likely" else "info"
+    def doubts(self) -> tuple[Doubt, ...]:
+        """Why a finding about the parameters is not certain: what they mean was read of its source, or of another
+        version."""
+        is_used = self.known is not None and self.known.is_used
+        return doubts(FROM_SOURCE=is_used, OTHER_VERSION=not is_used)
 
 
 def controllers_of(context: Context) -> tuple[Controller, ...]:

@@ -9,7 +9,9 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import unread_of
 from preflight_analysis.rules.controllers import (
@@ -67,12 +69,14 @@ def _of_controller_of_ros1(
         place, near = place_of(context, each.param, each.joint), nearest(each.joint, joints - beside)
         is_typo = near is not None and is_slip(each.joint, near)
         of_robot = is_typo or not joints.isdisjoint(beside) or (is_simulated and not each.is_extra)
-        severity: Severity = "info" if not of_robot else "error" if is_typo and not each.is_extra else "warning"
-        yield rule.finding(
+        yield rule.claim(
             f"joint '{each.joint}' does not exist: '{controller}' ({type_}) uses it{did_you_mean(near)}",
             place,
-            severity=severity,
-            confidence="likely" if severity == "error" else "possible",
+            subject=Subject("joint", each.joint),
+            kind="absent" if near is None else "near",
+            effect="misbehaves" if each.is_extra else None,
+            doubts=doubts(FROM_SOURCE=True, UNSEEN=not is_typo, INTENDED=not of_robot),
+            candidates=(near,),
             related=[Related(f"'{controller}' is spawned here", spawner.location)],
             fixes=rename(context, place, each.joint, near) if near is not None else (),
         )
@@ -97,14 +101,15 @@ def _of_controller(rule: Rule, context: Context, controller: Controller, robot: 
         reported.add(claim.joint)
         place, near = place_of(context, claim.param, claim.joint), nearest(claim.joint, joints)
         spawner = controller.spawner
-        yield rule.finding(
+        of_other = not is_of_robot and not (near is not None and is_slip(claim.joint, near))
+        yield rule.claim(
             f"joint '{claim.joint}' does not exist: '{controller.name}' ({controller.type}) uses it"
             f"{did_you_mean(near)}",
             place,
-            severity=controller.severity
-            if is_of_robot or (near is not None and is_slip(claim.joint, near))
-            else "info",
-            confidence=controller.confidence,
+            subject=Subject("joint", claim.joint),
+            kind="absent" if near is None else "near",
+            doubts=(*controller.doubts, *doubts(INTENDED=of_other)),
+            candidates=(near,),
             related=[Related(f"'{controller.name}' is spawned here", spawner.location)] if spawner is not None else (),
             fixes=rename(context, place, claim.joint, near) if near is not None else (),
         )
@@ -113,16 +118,11 @@ def _of_controller(rule: Rule, context: Context, controller: Controller, robot: 
 RULE = Rule(
     id="CTL001",
     name="unknown-joint",
-    severity="error",
-    what="Checks for a joint in the parameters of a controller that the robot description of the launch does not have. "
-    "The controller is one of ros2_controllers, and the launch spawns it. A name that contains a slash is an interface "
-    "of another controller and is not checked here. If the robot has none of the joints of the controller and none "
-    "of a similar name, it is another variant of the robot, and the finding is information. In ROS 1 the rule checks "
-    "`joint`, `joints`, `left_wheel`, `right_wheel` and `extra_joints` of controllers that `controller_manager` loads. "
-    "A joint without a similar name is a warning there, as the hardware may have joints of its own. If the launch "
-    "spawns the robot in Gazebo, this includes controllers of which the robot has no joint. If the robot "
-    "description is unknown, only a name is reported that no other file has, and of which one in several files is a "
-    "typo away, in `joint` and `joints` of YAML files of the package.",
+    effect="breaks",
+    kind="near",
+    sometimes=("misbehaves", Reason.FROM_SOURCE, Reason.OTHER_VERSION, Reason.UNSEEN, Reason.INTENDED),
+    what="Checks for a joint in the parameters of a controller that the launch loads and that the robot description "
+    "does not have. Without a description, a name of no other file is checked that is a typo of one in several files.",
     why="The controller cannot be configured or activated, because no hardware has interfaces of that joint. The robot "
     "does not move.",
     example="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_whel_joint]",

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from collections.abc import Set as AbstractSet
 
 from preflight_analysis.evaluation.meanings import items_of
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.controllers import Controller, controllers_of, place_of, robot_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
@@ -46,12 +48,12 @@ def _by_full_name(
             joint, _, interface = value.partition("/")
             known = commands.get(joint, set()) | states.get(joint, set())
             if joint in commands and interface and interface not in known:
-                yield rule.finding(
+                yield rule.claim(
                     f"joint '{joint}' has no interface '{interface}', which parameter '{param.name}' of "
                     f"'{controller.name}' ({controller.type}) names; it has {quoted(sorted(known))}",
                     place_of(context, param, value),
-                    severity="warning",
-                    confidence="likely",
+                    subject=Subject("interface", value),
+                    doubts=doubts(LIBRARY=True),
                 )
 
 
@@ -73,24 +75,24 @@ def _of_controller(
             if known is None or interface in known:
                 continue
             has = f"it has {quoted(sorted(known))}" if known else f"it has no {kind} interface"
-            yield rule.finding(
+            yield rule.claim(
                 f"joint '{claim.joint}' has no {kind} interface '{interface}', which '{controller.name}' "
                 f"({controller.type}) claims; {has}",
                 place_of(context, claim.param, claim.joint),
-                severity="info" if is_bare else controller.severity,
-                confidence="possible" if is_bare else controller.confidence,
+                subject=Subject("interface", f"{claim.joint}/{interface}"),
+                doubts=(*controller.doubts, *doubts(INTENDED=is_bare)),
             )
 
 
 RULE = Rule(
     id="CTL002",
     name="missing-interface",
-    severity="error",
+    effect="breaks",
+    kind="absent",
+    sometimes=(Reason.LIBRARY, Reason.FROM_SOURCE, Reason.OTHER_VERSION, Reason.INTENDED),
     what="Checks for a command or state interface that a controller claims and that `<ros2_control>` in the robot "
-    "description does not give to the joint. The controller is one of ros2_controllers, and the launch spawns it. A "
-    "parameter of any controller whose name ends in `_interface` or `_interfaces` is checked if its value is "
-    "`joint/interface`, which is a warning. For a joint without any interface of that kind the finding is information, "
-    "because the plugin of the hardware may make them. Those of mock components and Gazebo do not.",
+    "description does not give to the joint. So it does for `joint/interface` in parameters whose names end in "
+    "`_interface` or `_interfaces`.",
     why="The controller manager refuses to activate the controller. The robot does not move.",
     example='<joint name="left_wheel_joint">\n  <command_interface name="position"/>\n</joint>',
     instead='<joint name="left_wheel_joint">\n  <command_interface name="velocity"/>\n</joint>',

@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.controllers import Claim, Controller, controllers_of, place_of
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
@@ -40,10 +42,10 @@ def _of_both_sides(rule: Rule, context: Context, controller: str, params: Mappin
         others = items_of(params[right].value)
         for joint in items_of(params[left].value):
             if joint in others:
-                yield rule.finding(
+                yield rule.claim(
                     f"joint '{joint}' is in '{left}' and in '{right}' of controller '{controller}'",
                     place_of(context, params[left], joint),
-                    confidence="certain",
+                    subject=Subject("joint", joint),
                     related=[Related(f"'{right}'", params[right].place)],
                 )
 
@@ -61,12 +63,12 @@ def _of_several(rule: Rule, context: Context) -> Iterator[Finding]:
             owner = owners.setdefault((each.manager, name), each)
             if owner.name == each.name or owner.spawner is None:
                 continue
-            yield rule.finding(
+            yield rule.claim(
                 f"command interface '{name}' is claimed by '{owner.name}' and by '{each.name}': only one of them can "
                 "be active",
                 spawner.location,
-                severity="info" if undecided else each.severity,
-                confidence=each.confidence,
+                subject=Subject("interface", name),
+                doubts=(*each.doubts, *doubts(PARTLY_READ=undecided)),
                 related=(
                     Related(f"'{each.name}' has the joint here", claim.param.place),
                     Related(f"'{owner.name}' is spawned here", owner.spawner.location),
@@ -84,11 +86,12 @@ def _commanded(controller: Controller) -> Iterator[tuple[Claim, str]]:
 RULE = Rule(
     id="CTL003",
     name="interface-claimed-twice",
-    severity="warning",
-    what="Checks for two controllers that spawners of the launch activate in one controller manager and that claim the "
-    "same command interface of a joint. A controller that is spawned with `--inactive` claims nothing, and there is no "
-    "finding where the launch also starts an unspawner. If a condition of the launch is not known, it is information. "
-    "A joint that a drive controller has on the left and on the right is a finding, too, also in ROS 1.",
+    effect="breaks",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.FROM_SOURCE, Reason.OTHER_VERSION, Reason.PARTLY_READ),
+    what="Checks for two controllers that spawners activate in one controller manager and that claim the same command "
+    "interface. It also checks for a joint that a drive controller has on the left and on the right.",
     why="The controller manager activates the first controller and refuses the second one. Which one is first depends "
     "on the order in which the spawners reach it.",
     example='<node pkg="controller_manager" exec="spawner" args="position_controller"/>\n'

@@ -12,6 +12,8 @@ from preflight_analysis.evaluation.moveit import MOVE_GROUP
 from preflight_analysis.evaluation.ros1.spawners import asked_of as asked_of_script
 from preflight_analysis.evaluation.ros2.spawners import PACKAGE, asked_of, is_hardware_spawner, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.robot.of_launch import DESCRIPTION, robots_of, unread_of
 from preflight_analysis.rules.controllers import (
@@ -108,11 +110,12 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _finding(rule: Rule, context: Context, spawner: LaunchNode, manager: str, there: list[str]) -> Finding:
-    return rule.finding(
-        f"controller manager '{manager}' is not in this launch: {spawner.name} waits for it; the launch has "
-        f"{quoted(there)}",
+    said = "controller manager '{manager}' is not in this launch: {node} waits for it; the launch has {there}"
+    return rule.claim(
+        say(said, manager=manager, node=spawner.name, there=quoted(there)),
         attribute_location(context, spawner, "args"),
-        confidence="likely",
+        subject=Subject("node", manager),
+        candidates=there,
         related=include_chain(spawner.origin),
     )
 
@@ -146,14 +149,11 @@ def _may_have_manager(context: Context, namespace: str) -> bool:
 RULE = Rule(
     id="CTL004",
     name="controller-manager-not-found",
-    severity="warning",
-    what="Checks for a spawner of controllers or hardware that asks for a controller manager which the launch does not "
-    "start, while the launch starts another one, for example in a namespace. The manager of a simulated robot counts: "
-    "the plugin of the robot description has its name and namespace. There is no finding if not all of the launch is "
-    "known, or if another program in that namespace gets a robot description and may have a manager in it. The manager "
-    "of the launch must have the types of the controllers, unless the spawner brings them, or the hardware. In ROS 1 "
-    "the rule compares the namespace of the spawner with `<robotNamespace>` of the plugin `gazebo_ros_control`, where "
-    "the launch spawns one robot and has no other program in the namespace of the spawner.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.LIBRARY,),
+    what="Checks for a spawner of controllers or hardware whose controller manager the launch does not start, while "
+    "it starts another one. The manager of a simulated robot counts. Other programs in the namespace may have one.",
     why="The spawner waits for the services of that manager until its timeout. No controller is loaded.",
     example='<node pkg="controller_manager" exec="ros2_control_node" name="controller_manager" namespace="robot"/>\n'
     '<node pkg="controller_manager" exec="spawner" args="base -c /controller_manager"/>',

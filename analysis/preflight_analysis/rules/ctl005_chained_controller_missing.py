@@ -7,12 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.controllers import controllers_of, place_of, robot_of
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
+
+_SAID = "chained controller '{controller}' does not exist: '{name}' claims '{joint}'"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -30,12 +34,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             near = nearest(controller, others)
             place = place_of(context, claim.param, claim.joint)
-            yield rule.finding(
-                f"chained controller '{controller}' does not exist: '{each.name}' claims '{claim.joint}'"
-                + (did_you_mean(near) if near is not None else f"; {each.manager} has {quoted(sorted(others))}"),
+            said = say(_SAID, controller=controller, name=each.name, joint=claim.joint)
+            yield rule.claim(
+                said.followed_by("{near}", near=did_you_mean(near))
+                if near is not None
+                else said.followed_by("; {node} has {others}", node=each.manager, others=quoted(sorted(others))),
                 place,
-                severity=each.severity if near is not None or context.tree.complete else "info",
-                confidence=each.confidence,
+                subject=Subject("controller", controller),
+                kind="absent" if near is None else "near",
+                doubts=(*each.doubts, *doubts(PARTLY_READ=near is None and not context.tree.complete)),
+                candidates=(near,),
                 fixes=rename(context, place, controller, near) if near is not None else (),
             )
 
@@ -43,9 +51,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="CTL005",
     name="chained-controller-missing",
-    severity="warning",
-    what="Checks for a joint of a controller that is named as an interface of another controller, with a slash, where "
-    "the controller manager has no controller of that name.",
+    effect="breaks",
+    kind="near",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.FROM_SOURCE, Reason.OTHER_VERSION, Reason.PARTLY_READ),
+    what="Checks for a joint of a controller that is named as an interface of another one, with a slash. The "
+    "controller manager has no controller of that name.",
     why="The interface is never there, so the controller manager refuses to activate the controller.",
     example="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_pd/left_wheel_joint]",
     instead="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_pid/left_wheel_joint]",

@@ -11,6 +11,8 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import Robot
@@ -56,10 +58,11 @@ def _of_controller(
     joint, has = wrong[0]
     what = f"interface '{has}'" if has else "no transmission"
     place, _ = written(context, robot, "joint", "name", joint, "transmission")
-    yield rule.finding(
+    yield rule.claim(
         f"joint '{joint}' has {what}: '{controller}' ({type_.value}) asks for '{asked}'",
         type_.place,
-        confidence="likely",
+        subject=Subject("joint", joint),
+        kind="conflict" if has else "absent",
         related=(
             Related("the transmission of the joint" if has else "robot_description of this launch", place),
             Related(f"'{controller}' is loaded here", spawner.location),
@@ -79,11 +82,11 @@ def _interfaces(description: Description) -> dict[str, str]:
 RULE = Rule(
     id="CTL006",
     name="other-hardware-interface",
-    severity="warning",
+    effect="breaks",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
     what="Checks for a controller of ROS 1 whose joint has another hardware interface in Gazebo than the controller "
-    "asks for, or none. The robot description has the plugin `gazebo_ros_control` with its default simulation, which "
-    "takes the interface from the `<transmission>` of the joint. Controllers of `effort_controllers`, "
-    "`position_controllers`, `velocity_controllers` and `diff_drive_controller` are checked.",
+    "asks for, or none. The plugin `gazebo_ros_control` takes it from the `<transmission>` of the joint.",
     why="The controller manager does not load the controller: `Could not find resource 'x' in "
     "'hardware_interface::EffortJointInterface'`.",
     example='<joint name="elbow">\n'

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.ros2.spawners import asked_of, is_hardware_spawner
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.controllers import managers_of, robot_of_manager
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
@@ -29,10 +31,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             near = nearest(component, components)
             hint = f"did you mean '{near}'?" if near is not None else f"the robot has {quoted(components)}"
-            yield rule.finding(
+            yield rule.claim(
                 f"hardware component '{component}' does not exist; {hint}",
                 attribute_location(context, node, "args"),
-                confidence="likely",
+                subject=Subject("component", component),
+                kind="absent" if near is None else "near",
+                candidates=(near,),
                 related=include_chain(node.origin),
             )
 
@@ -40,10 +44,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="CTL007",
     name="unknown-hardware-component",
-    severity="warning",
+    effect="breaks",
+    kind="near",
+    always=(Reason.LIBRARY,),
     what="Checks for a name in the arguments of the `hardware_spawner` of ros2_control that no `<ros2_control>` "
-    "element of the robot description has. The description is the one that the controller manager gets, or the one "
-    "published in its namespace.",
+    "element of the robot description has.",
     why="The spawner reports that the component does not exist and exits. The component is not activated.",
     example='<node pkg="controller_manager" exec="hardware_spawner" args="whels --activate"/>',
     instead='<node pkg="controller_manager" exec="hardware_spawner" args="wheels --activate"/>',

@@ -7,10 +7,12 @@ compared with those of the robot since Jazzy.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Effect, Subject
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.robot.model import ControlJoint, ControlSystem, Description
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
@@ -24,11 +26,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for robot in robots(context):
         for system in robot.description.misplaced:
             message = f"{_tag(system)} is inside <{system.around}>: ros2_control reads only elements below <robot>"
-            yield _at_system(rule, context, robot, system, message)
+            yield _at_system(rule, context, robot, system, message, effect="breaks")
         for system in robot.description.systems:
             if not system.plugin:
                 message = f"{_tag(system)} has no <hardware> with a <plugin>"
-                yield _at_system(rule, context, robot, system, message, None if is_run else "info")
+                yield _at_system(rule, context, robot, system, message, doubts(INTENDED=not is_run))
             for message in _of_system(system):
                 yield _at_system(rule, context, robot, system, message)
             yield from _of_joints(rule, context, robot, system)
@@ -39,10 +41,17 @@ def _tag(system: ControlSystem) -> str:
 
 
 def _at_system(
-    rule: Rule, context: Context, robot: Robot, system: ControlSystem, message: str, severity: Severity | None = None
+    rule: Rule,
+    context: Context,
+    robot: Robot,
+    system: ControlSystem,
+    message: str,
+    why: Iterable[Doubt] = (),
+    effect: Effect | None = None,
 ) -> Finding:
     place, related = written(context, robot, "ros2_control", "name", system.name)
-    return rule.finding(message, place, severity=severity, related=related)
+    about = Subject("component", system.name)
+    return rule.claim(message, place, subject=about, effect=effect, doubts=why, related=related)
 
 
 def _of_system(system: ControlSystem) -> Iterator[str]:
@@ -60,7 +69,6 @@ def _of_joints(rule: Rule, context: Context, robot: Robot, system: ControlSystem
     distro = context.environment.distro
     if distro in LENIENT_ROS2_CONTROL:
         return
-    severity: Severity | None = "info" if distro is None else None
     since = "ros2_control of Jazzy and newer refuses" if distro is None else "ros2_control refuses"
     for joint in system.joints:
         wrong = _wrong(robot.description, system, joint)
@@ -68,7 +76,8 @@ def _of_joints(rule: Rule, context: Context, robot: Robot, system: ControlSystem
             place, related = written(context, robot, "joint", "name", joint.name, "ros2_control")
             if not related:
                 place, related = written(context, robot, "ros2_control", "name", system.name)
-            yield rule.finding(f"{wrong}, which {since}", place, severity=severity, related=related)
+            about, why = Subject("joint", joint.name), doubts(OTHER_VERSION=distro is None)
+            yield rule.claim(f"{wrong}, which {since}", place, subject=about, doubts=why, related=related)
 
 
 def _wrong(description: Description, system: ControlSystem, joint: ControlJoint) -> str | None:
@@ -89,14 +98,12 @@ def _wrong(description: Description, system: ControlSystem, joint: ControlJoint)
 RULE = Rule(
     id="CTL008",
     name="hardware-refused",
-    severity="error",
-    what="Checks for a `<ros2_control>` element of the robot description that ros2_control refuses: without a "
-    "`<plugin>` in `<hardware>`, with an unknown element, or with a `<transmission>` for a joint that it does not "
-    "have. Without the plugin it is information where the launch runs no `ros2_control_node`. One that is not directly "
-    "below `<robot>` is not read at all. ros2_control of Jazzy and newer also refuses a fixed joint, and a joint with "
-    "`<mimic>` that has a command interface or follows a joint of another element. The "
-    'attribute `mimic="false"` allows the interface. If the distribution is unknown, this is information. It is not '
-    "reported for older distributions.",
+    effect="stops-node",
+    kind="invalid",
+    sometimes=("breaks", Reason.INTENDED, Reason.OTHER_VERSION),
+    what="Checks for a `<ros2_control>` element that ros2_control refuses, or that is not directly below `<robot>`. "
+    "It lacks a `<plugin>`, or has an unknown element or joint. Fixed joints and those with `<mimic>` are refused "
+    "since Jazzy.",
     why="The controller manager ends with an exception, or has no hardware. No controller runs.",
     example='<gazebo>\n  <ros2_control name="arm" type="system">...</ros2_control>\n</gazebo>',
     instead='<ros2_control name="arm" type="system">...</ros2_control>',

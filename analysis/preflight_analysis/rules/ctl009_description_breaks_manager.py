@@ -11,6 +11,8 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.robot.sources import files_of
@@ -37,10 +39,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         line = _line(robot.text.strip(), found.start())
         place = _written(context, robot, line)
         sign = f"'{found[0]} '" if found[0] == ":" else f"' {found[0]}'"
-        yield rule.finding(
+        yield rule.claim(
             f"gazebo_ros2_control cannot pass on a description with {sign} in it: '{line}'",
             place or robot.param.place,
-            confidence="likely",
+            subject=Subject("text", line),
             related=() if place is None else include_chain(robot.param.origin),
         )
 
@@ -65,10 +67,11 @@ def _written(context: Context, robot: Robot, line: str) -> Location | None:
 RULE = Rule(
     id="CTL009",
     name="description-breaks-manager",
-    severity="warning",
-    what="Checks for a robot description with the plugin `gazebo_ros2_control` that has a colon with a blank behind "
-    "it, or a `#` with a blank before it, for example in a comment. In Humble and Iron the plugin passes the "
-    "description as a parameter on a command line, where it is read as YAML. Other distributions are not affected.",
+    effect="breaks",
+    kind="invalid",
+    always=(Reason.LIBRARY,),
+    what="Checks for a robot description with the plugin `gazebo_ros2_control` that has `: ` or ` #` in it. Humble "
+    "and Iron read it as YAML.",
     why="The plugin reports `Couldn't parse parameter override rule` and starts no controller manager. Spawners wait "
     "for `/controller_manager`.",
     example="<!-- TODO: measure the mass -->",

@@ -12,6 +12,8 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.spawners import asked_of
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.controllers import Controller, controllers_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
@@ -46,10 +48,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         apart = None if own.intersection(needed) else _apart(context, manager, each, missing[0])
         reason = f"; section '{apart[0]}' sets it for another node" if apart is not None else ""
-        yield rule.finding(
+        yield rule.claim(
             f"controller '{each.name}' has no parameter {quoted(missing)}, which {each.type} requires{reason}",
             each.spawner.location,
-            confidence="likely",
+            subject=Subject("controller", each.name),
+            kind="absent",
             related=(*((apart[1],) if apart is not None else ()), *include_chain(each.spawner.origin)),
         )
 
@@ -79,12 +82,11 @@ def _apart(context: Context, manager: LaunchNode, controller: Controller, name: 
 RULE = Rule(
     id="CTL010",
     name="controller-parameter-missing",
-    severity="warning",
-    what="Checks for a controller that a spawner of the launch configures and that lacks a parameter which its type "
-    "requires: `command_interfaces` and `state_interfaces` of the joint trajectory controller, `joints` and "
-    "`interface_name` of command controllers, the wheels of the differential drive. A section with another name than "
-    "that of the controller, or in another namespace, is the usual cause. All files of the manager and of the spawner "
-    "must be known.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.LIBRARY,),
+    what="Checks for a controller that a spawner configures and that lacks a parameter which its type requires, such "
+    "as `command_interfaces`. A section of another name is the usual cause.",
     why="The controller refuses to be configured: `'command_interfaces' parameter is empty`. The spawner exits.",
     example="controller_manager:\n  ros__parameters:\n    arm: {type: joint_trajectory_controller/"
     "JointTrajectoryController}\narm_controller:\n  ros__parameters:\n    command_interfaces: [position]",

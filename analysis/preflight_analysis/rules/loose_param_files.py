@@ -17,6 +17,8 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast,
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
@@ -108,11 +110,12 @@ def _unknown_joints(context: Context, document: Document) -> Iterator[Finding]:
         for node in nodes:
             meant = meant_around(context, node.value, beside)
             if meant is not None:
-                yield ctl001.RULE.finding(
+                yield ctl001.RULE.claim(
                     ctl001.IN_NO_OTHER_FILE.format(node.value, *meant),
                     document.location(span_of(node)),
-                    severity="warning",
-                    confidence="possible",
+                    subject=Subject("joint", node.value),
+                    doubts=doubts(UNSEEN=True),
+                    candidates=(meant[0],),
                 )
 
 
