@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.xml import XmlWriter
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.robot.model import Malformed
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of, semantics_of
@@ -29,9 +30,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         elif description.kind == "xacro":
             yield _raw(rule, context, robot)
         elif description.kind and description.kind not in _KINDS:
-            yield rule.finding(
+            yield rule.claim(
                 f"root element of '{robot.param.name}' is <{description.kind}>, not <robot>",
                 robot.param.place,
+                subject=Subject("parameter", robot.param.name),
                 related=include_chain(robot.param.origin),
             )
     for semantic in semantics_of(context.tree):
@@ -41,11 +43,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _malformed(rule: Rule, context: Context, robot: Described, malformed: Malformed) -> Finding:
     place: Location = robot.param.place
-    where = f"line {malformed.line}"
+    where, about = f"line {malformed.line}", Subject("parameter", robot.param.name)
     if not robot.text.lstrip().startswith("<"):
-        return rule.finding(
+        return rule.claim(
             f"parameter '{robot.param.name}' is not XML: it does not begin with '<'",
             place,
+            subject=about,
             related=include_chain(robot.param.origin),
         )
     file = next(iter(files_of(robot, context.disk, context.environment)), None)
@@ -53,7 +56,8 @@ def _malformed(rule: Rule, context: Context, robot: Described, malformed: Malfor
         lines = file.document.lines
         place = file.document.location(lines.line_span(min(malformed.line, len(lines)) - 1))
         where = shown(file.document.path, context)
-    return rule.finding(f"parameter '{robot.param.name}' is not well-formed XML: {malformed.message} ({where})", place)
+    message = f"parameter '{robot.param.name}' is not well-formed XML: {malformed.message} ({where})"
+    return rule.claim(message, place, subject=about)
 
 
 def _raw(rule: Rule, context: Context, robot: Robot) -> Finding:
@@ -66,10 +70,11 @@ def _raw(rule: Rule, context: Context, robot: Robot) -> Finding:
     if file is not None and "'" not in file.value.text and isinstance(writer, XmlWriter):
         edits = writer.replace_attribute(file, "command", f"xacro '{file.value.text}'")
         fixes = fix("Process it with xacro", edits, preferred=True)
-    return rule.finding(
+    return rule.claim(
         f"parameter '{robot.param.name}' is raw xacro: no command processes it",
         place,
-        severity="warning",
+        subject=Subject("parameter", robot.param.name),
+        effect="misbehaves",
         related=include_chain(robot.param.origin),
         fixes=fixes,
     )
@@ -78,13 +83,11 @@ def _raw(rule: Rule, context: Context, robot: Robot) -> Finding:
 RULE = Rule(
     id="URD001",
     name="malformed-description",
-    severity="error",
-    what="Checks for a parameter `robot_description` that is not well-formed XML, or whose root element is not "
-    "`<robot>`, `<sdf>` or `<COLLADA>`. The rule reads the value that the nodes get: the output of xacro, or the text "
-    "of the file. "
-    "The semantic description (SRDF) must be well-formed, too. "
-    "A description that xacro has yet to process is a warning, and the other rules do not read it. A value that is a "
-    "name is not checked: some nodes get the name of the parameter with the description.",
+    effect="stops-node",
+    kind="invalid",
+    sometimes=("misbehaves",),
+    what="Checks for a parameter `robot_description` that is not well-formed XML, has another root element than "
+    "`<robot>`, `<sdf>` or `<COLLADA>`, or is raw xacro. The semantic description (SRDF) must be well-formed, too.",
     why="`robot_state_publisher` ends with an error and publishes no frame. Controller managers and planners wait for "
     "a description or end too.",
     example='<param name="robot_description" textfile="$(find arm)/urdf/arm.yaml"/>',

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import URDF_JOINT
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -21,15 +22,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     continue
                 if not link:
                     place, related = written(context, robot, "joint", "name", joint.name)
-                    yield rule.finding(f"joint '{joint.name}' has no {end} link", place, related=related)
+                    message, about = f"joint '{joint.name}' has no {end} link", Subject("joint", joint.name)
+                    yield rule.claim(message, place, subject=about, kind="absent", related=related)
                     continue
                 near = nearest(link, links)
                 place, related = written(context, robot, end, "link", link)
                 if not related:
                     place, related = written(context, robot, "joint", "name", joint.name)
-                yield rule.finding(
+                yield rule.claim(
                     f"link '{link}' does not exist: it is the {end} of joint '{joint.name}'{did_you_mean(near)}",
                     place,
+                    subject=Subject("link", link),
+                    kind="absent" if near is None else "near",
+                    candidates=(near,),
                     related=related,
                     fixes=rename(context, place, link, near) if near is not None else (),
                 )
@@ -38,9 +43,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="URD002",
     name="unknown-link",
-    severity="error",
-    what="Checks for a joint of the robot description whose parent or child is not a link of it. The finding is in "
-    "the URDF or xacro file if the place is unambiguous, else at the parameter of the launch file.",
+    effect="stops-node",
+    kind="near",
+    what="Checks for a joint of the robot description whose parent or child is not a link of it.",
     why="`robot_state_publisher` refuses the description and ends, so the robot has no frames.",
     example='<joint name="lidar_joint" type="fixed">\n  <parent link="base_lnk"/>\n  <child link="lidar_link"/>\n'
     "</joint>",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import URDF
 from preflight_analysis.rules.problems import quoted
@@ -30,13 +31,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             roots_ = "is also a root" if len(others) == 1 else "are also roots"
             message = f"link '{about}' is not the child of any joint; {some} {roots_}"
         place, related = written(context, robot, "link", "name", about)
-        yield rule.finding(message, place, related=related)
+        yield rule.claim(message, place, subject=Subject("link", about), related=related)
 
 
 RULE = Rule(
     id="URD003",
     name="no-single-root",
-    severity="error",
+    effect="stops-node",
+    kind="invalid",
     what="Checks that exactly one link of the robot description is not the child of a joint.",
     why="`robot_state_publisher` refuses a description with two roots, or with a cycle, and ends.",
     example='<link name="base_link"/>\n<link name="lidar_link"/>',

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from typing import Literal
 
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.robot.sources import places_of
@@ -20,7 +22,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield from _repeated(rule, context, robot, "joint", [joint.name for joint in description.joints])
 
 
-def _repeated(rule: Rule, context: Context, robot: Robot, tag: str, names: Sequence[str]) -> Iterator[Finding]:
+def _repeated(
+    rule: Rule, context: Context, robot: Robot, tag: Literal["link", "joint"], names: Sequence[str]
+) -> Iterator[Finding]:
     if len(frozenset(names)) == len(names):
         return
     for name, count in Counter(names).items():
@@ -28,17 +32,17 @@ def _repeated(rule: Rule, context: Context, robot: Robot, tag: str, names: Seque
             continue
         places = places_of(robot, context.disk, context.environment, tag, "name", name)
         message = f"duplicate {tag} '{name}': the robot description has {count} of this name"
+        place, related = written(context, robot, tag, "name", name)
         if len(places) > 1:
-            yield rule.finding(message, places[1], related=[Related(f"the first {tag}", places[0])])
-        else:
-            place, related = written(context, robot, tag, "name", name)
-            yield rule.finding(message, place, related=related)
+            place, related = places[1], (Related(f"the first {tag}", places[0]),)
+        yield rule.claim(message, place, subject=Subject(tag, name), related=related)
 
 
 RULE = Rule(
     id="URD004",
     name="duplicate-element",
-    severity="error",
+    effect="stops-node",
+    kind="duplicate",
     what="Checks for two links, or two joints, of the robot description with the same name. A macro of xacro that is "
     "called twice without another prefix makes them.",
     why="`robot_state_publisher` refuses the description and ends: `link 'wheel_link' is not unique`.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import URDF_JOINT
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -22,9 +23,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             place, related = written(context, robot, "mimic", "joint", joint.mimic)
             if not related:
                 place, related = written(context, robot, "joint", "name", joint.name)
-            yield rule.finding(
+            yield rule.claim(
                 f"joint '{joint.mimic}' does not exist: joint '{joint.name}' mimics it{did_you_mean(near)}",
                 place,
+                subject=Subject("joint", joint.mimic),
+                kind="absent" if near is None else "near",
+                candidates=(near,),
                 related=related,
                 fixes=rename(context, place, joint.mimic, near) if near is not None else (),
             )
@@ -33,7 +37,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="URD005",
     name="unknown-mimic-joint",
-    severity="warning",
+    effect="misbehaves",
+    kind="near",
     what="Checks for a joint with `<mimic>` of a joint that the robot description does not have.",
     why="`robot_state_publisher` never publishes the frame of the joint, and ros2_control refuses the description.",
     example='<mimic joint="finger_jont"/>',

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.installed_paths import located
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.files import nearest_file
 from preflight_analysis.rules.further_reading import URDF_LINK
 from preflight_analysis.rules.installed import lack_of_made, near_package
@@ -24,20 +27,40 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         said = set[str]()  # a folder that is missing is of many meshes
         for mesh in robot.description.meshes:
             found = _missing(context, mesh)
-            if found is None or found[0] in said:
+            if found is None or found.message in said:
                 continue
-            said.add(found[0])
-            message, old, near, severity = found
+            said.add(found.message)
             place, related = written(context, robot, "mesh", "filename", mesh)
             path = mesh.removeprefix(_FILE)
             lack = lack_of_made(context, path) if mesh.startswith(_FILE) else None
-            fixes: tuple[Fix, ...] = rename(context, place, old, near) if near else ()
-            yield rule.finding(message, place, severity=severity, related=related, fixes=fixes, lack=lack)
+            fixes: tuple[Fix, ...] = rename(context, place, found.old, found.new) if found.new else ()
+            yield rule.claim(
+                found.message,
+                place,
+                subject=found.about,
+                kind="absent" if found.meant is None else "near",
+                doubts=doubts(MADE_ELSEWHERE=found.is_ignored),
+                candidates=(found.meant,),
+                related=related,
+                fixes=fixes,
+                lack=lack,
+            )
 
 
-def _missing(context: Context, mesh: str) -> tuple[str, str, str, Severity | None] | None:
-    """What is wrong with the name of a mesh, what in it to replace by what, and another severity than the usual one.
-    None for a file that is there, and for one of a package or folder that this machine does not have."""
+class _Missing(NamedTuple):
+    """What is wrong with the name of a mesh: what was meant, and what in it to replace by what. `is_ignored`: git
+    ignores the file."""
+
+    message: str
+    about: Subject
+    meant: str | None = None
+    old: str = ""
+    new: str = ""
+    is_ignored: bool = False
+
+
+def _missing(context: Context, mesh: str) -> _Missing | None:
+    """None for a file that is there, and for one of a package or folder that this machine does not have."""
     packages = context.environment.packages
     if mesh.startswith(_PACKAGE):
         name, slash, below = mesh.removeprefix(_PACKAGE).partition("/")
@@ -48,7 +71,8 @@ def _missing(context: Context, mesh: str) -> tuple[str, str, str, Severity | Non
             near = near_package(context, name)
             if near is None:
                 return None
-            return f"package '{name}' of a mesh does not exist; did you mean '{near}'?", name, near, None
+            message = f"package '{name}' of a mesh does not exist; did you mean '{near}'?"
+            return _Missing(message, Subject("package", name), near, name, near)
         path = os.path.join(package.share, below.lstrip("/"))
     else:
         path = mesh.removeprefix(_FILE) if mesh.startswith(_FILE) else ""
@@ -56,27 +80,28 @@ def _missing(context: Context, mesh: str) -> tuple[str, str, str, Severity | Non
             return None
     if context.disk.exists(located(context.disk, context.environment, path)):
         return None
-    message = f"mesh '{shown(path, context)}' does not exist"
+    message, about = f"mesh '{shown(path, context)}' does not exist", Subject("file", path)
     if is_ignored(context.disk, path):
-        return f"{message}; git ignores it, so each machine may create it", "", "", "info"
+        return _Missing(f"{message}; git ignores it, so each machine may create it", about, is_ignored=True)
     near_path = nearest_file(context.disk, path, context.environment)
     if near_path is None:
         folder = os.path.dirname(path)
         if not context.disk.exists(located(context.disk, context.environment, folder)):
-            message = f"folder '{shown(folder, context)}' of a mesh does not exist"
-        return message, "", "", None
+            message, about = f"folder '{shown(folder, context)}' of a mesh does not exist", Subject("file", folder)
+        return _Missing(message, about)
     same_folder = os.path.dirname(near_path) == os.path.dirname(path)
     old, new = (os.path.basename(path), os.path.basename(near_path)) if same_folder else ("", "")
-    return f"{message}; did you mean '{shown(near_path, context)}'?", old, new, None
+    return _Missing(f"{message}; did you mean '{shown(near_path, context)}'?", about, near_path, old, new)
 
 
 RULE = Rule(
     id="URD006",
     name="mesh-not-found",
-    severity="warning",
-    what="Checks for a mesh of the robot description whose file does not exist: `package://` of a package of the "
-    "workspace or an installed one, `file://` below such a package. A package that is not installed here is not "
-    "reported. A file that git ignores is information.",
+    effect="misbehaves",
+    kind="absent",
+    sometimes=(Reason.MADE_ELSEWHERE, Reason.NOT_HERE),
+    what="Checks for a mesh of the robot description whose file does not exist: `package://`, or `file://` below a "
+    "package. Packages that are not installed here are not checked.",
     why="RViz and the simulator show the robot without the part, and a missing collision mesh makes planners ignore "
     "it.",
     example='<mesh filename="package://arm_description/meshes/elbow.stl"/>  <!-- the file is elbow.STL -->',

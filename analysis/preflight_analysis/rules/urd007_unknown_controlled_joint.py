@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Effect, Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import rename
@@ -50,37 +52,37 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             place, related = written(context, robot, "joint", "name", joint, tag)
             if not related:
                 place, related = written(context, robot, tag, "name", owner)
-            yield rule.finding(
+            # One without may be an actuator; a description without joints is for the controller manager alone.
+            has_interfaces = bool(joints) and (owner, joint) in with_interfaces
+            yield rule.claim(
                 f"joint '{joint}' and {more} more do not exist: <{tag} name=\"{owner}\"> and others use them"
                 if more >= _MANY
                 else f"joint '{joint}' does not exist: <{tag} name=\"{owner}\"> uses it{did_you_mean(near)}",
                 place,
-                severity=_severity(
-                    context, tag, refused, has_interfaces=bool(joints) and (owner, joint) in with_interfaces
-                ),
+                subject=Subject("joint", joint),
+                kind="absent" if near is None else "near",
+                effect=_effect(context, tag, refused),
+                doubts=doubts(INTENDED=tag != "transmission" and not refused and not has_interfaces),
+                candidates=(near,),
                 related=related,
                 fixes=rename(context, place, joint, near) if near is not None else (),
             )
 
 
-def _severity(context: Context, tag: str, refused: bool, *, has_interfaces: bool) -> Severity | None:
-    """In ROS 2 only ros2_control reads transmissions, and only those within its own element. A joint without interfaces
-    may be an actuator that the hardware knows, and a description without joints is for the controller manager alone."""
+def _effect(context: Context, tag: str, refused: bool) -> Effect | None:
+    """In ROS 2 only ros2_control reads transmissions, and only those within its own element."""
     if tag == "transmission":
-        return "info" if context.tree.ros.ament else None
-    if refused:
-        return "error"
-    return None if has_interfaces else "info"
+        return "note" if context.tree.ros.ament else None
+    return "breaks" if refused else None
 
 
 RULE = Rule(
     id="URD007",
     name="unknown-controlled-joint",
-    severity="warning",
-    what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have. It is "
-    "an error with ros2_control of Jazzy and newer, which refuses such a description. A `<transmission>` in ROS 2 is "
-    "information, because nothing reads it there. So is a joint without interfaces for its motion, which may stand for "
-    "something else of the hardware, and one of a description that has no joints at all.",
+    effect="misbehaves",
+    kind="near",
+    sometimes=("breaks", "note", Reason.INTENDED),
+    what="Checks for a joint in `<ros2_control>` or `<transmission>` that the robot description does not have.",
     why="The joint is not moved: the simulator skips it, and controllers that claim it report positions of no joint. "
     "ros2_control of Jazzy and newer does not load the hardware at all.",
     example='<ros2_control name="arm" type="system">\n  <joint name="sholder_joint"/>\n</ros2_control>',

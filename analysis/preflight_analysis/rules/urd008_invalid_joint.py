@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.xml import XmlWriter
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import URDF_JOINT
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -40,13 +41,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if near is not None and isinstance(writer, XmlWriter):
                 edits = writer.replace_beside(place.span, "type", joint.type, near)
             fixes = fix(f"Replace '{joint.type}' with '{near}'", edits, preferred=True)
-            yield rule.finding(message, place, related=related, fixes=fixes)
+            about = Subject("joint", joint.name)
+            yield rule.claim(message, place, subject=about, candidates=(near,), related=related, fixes=fixes)
 
 
 RULE = Rule(
     id="URD008",
     name="invalid-joint",
-    severity="error",
+    effect="stops-node",
+    kind="invalid",
     what="Checks for a joint of the robot description without a type that URDF has, and for a revolute or prismatic "
     "joint without `<limit>`.",
     why="`robot_state_publisher` refuses the description and ends.",

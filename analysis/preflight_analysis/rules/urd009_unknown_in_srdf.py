@@ -7,8 +7,10 @@ srdfdom says so for each: an error for what it then leaves out, a warning for pa
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Literal
 
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.robot.of_launch import SemanticRobot, given_robot, semantics_of
 from preflight_analysis.robot.semantic import Named
 from preflight_analysis.rules.further_reading import MOVEIT_SRDF
@@ -39,7 +41,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _unknown(
-    rule: Rule, context: Context, semantic: SemanticRobot, kind: str, named: Sequence[Named], there: Sequence[str]
+    rule: Rule,
+    context: Context,
+    semantic: SemanticRobot,
+    kind: Literal["link", "joint", "group"],
+    named: Sequence[Named],
+    there: Sequence[str],
 ) -> Iterator[Finding]:
     known, reported = frozenset(there), set[tuple[str, bool]]()
     for each in named:
@@ -49,12 +56,14 @@ def _unknown(
         reported.add((each.value, harmless))
         near = nearest(each.value, known)
         place, related = written(context, semantic, each.tag, each.attribute, each.value, each.within)
-        severity: Severity | None = "info" if harmless else None
-        yield rule.finding(
+        yield rule.claim(
             f"{kind} '{each.value}' does not exist: <{each.owner}{_name(each)}> of the SRDF uses it"
             f"{did_you_mean(near)}",
             place,
-            severity=severity,
+            subject=Subject("name" if kind == "group" else kind, each.value),
+            kind="absent" if near is None else "near",
+            effect="note" if harmless else None,
+            candidates=(near,),
             related=related,
             fixes=rename(context, place, each.value, near) if near is not None else (),
         )
@@ -67,10 +76,11 @@ def _name(named: Named) -> str:
 RULE = Rule(
     id="URD009",
     name="unknown-in-srdf",
-    severity="warning",
+    effect="no-effect",
+    kind="near",
+    sometimes=("note",),
     what="Checks for links, joints and groups that the SRDF of a launch uses and that do not exist. Links and joints "
-    "are those of the robot description that the same node gets. For a link in `<disable_collisions>` the finding is "
-    "information.",
+    "are those of the robot description that the same node gets.",
     why="MoveIt reports an error and leaves the element out: the group lacks the joint, or the end effector is not "
     "there.",
     example='<group name="arm">\n  <chain base_link="base" tip_link="tol0"/>\n</group>',

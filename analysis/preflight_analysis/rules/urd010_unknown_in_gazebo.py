@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import URDF_GAZEBO
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
@@ -34,12 +35,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue  # said with the first one: they have one cause
             near = nearest(reference.name, known)
             place, related = written(context, robot, "gazebo", "reference", reference.name)
-            yield rule.finding(
+            yield rule.claim(
                 f"links or joints '{reference.name}' and {more} more do not exist: <gazebo> refers to them"
                 if more >= _MANY
                 else f"link or joint '{reference.name}' does not exist: <gazebo> refers to it{did_you_mean(near)}",
                 place,
-                severity=None if reference.adds or (near and is_slip(reference.name, near)) else "info",
+                subject=Subject("link", reference.name),
+                kind="absent" if near is None else "near",
+                effect=None if reference.adds or (near and is_slip(reference.name, near)) else "note",
+                candidates=(near,),
                 related=related,
                 fixes=rename(context, place, reference.name, near) if near is not None else (),
             )
@@ -49,11 +53,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     continue
                 near = nearest(joint, joints)
                 place, related = written(context, robot, "plugin", "filename", plugin.filename, "gazebo")
-                yield rule.finding(
+                yield rule.claim(
                     f"joint '{joint}' does not exist: <{tag}> of the plugin '{plugin.filename}' names it"
                     f"{did_you_mean(near)}",
                     place,
-                    severity="info" if _WITHOUT_JOINTS in plugin.filename else None,
+                    subject=Subject("joint", joint),
+                    kind="absent" if near is None else "near",
+                    effect="note" if _WITHOUT_JOINTS in plugin.filename else "misbehaves",
+                    candidates=(near,),
                     related=related,
                 )
 
@@ -61,10 +68,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="URD010",
     name="unknown-in-gazebo",
-    severity="warning",
-    what="Checks for a link or joint that `<gazebo>` elements of the robot description name and that the robot does "
-    "not have: in `reference`, and in elements of plugins whose name ends in `joint`. A reference without a sensor, a "
-    "plugin or a similar name is information.",
+    effect="no-effect",
+    kind="near",
+    sometimes=("misbehaves", "note"),
+    what="Checks for a link or joint that `<gazebo>` elements name and that the robot does not have. They name it in "
+    "`reference`, or in elements of plugins whose name ends in `joint`.",
     why="Gazebo leaves the element out, so the sensor or the material is not there. A drive plugin does not find its "
     "joint, and the robot does not move.",
     example='<gazebo reference="lidar_lnk">\n  <sensor name="lidar" type="gpu_lidar"/>\n</gazebo>',
