@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import replace
 
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
 from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.findings.policy import doubted
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
@@ -53,10 +54,7 @@ def robots_by_catalogue(context: Context) -> bool | None:
 
 def as_known(finding: Finding, *, likely: bool) -> Finding:
     """A finding that rests on the catalogue: of another distribution it is information."""
-    if likely:
-        return replace(finding, confidence="likely") if finding.confidence == "certain" else finding
-    severity: Severity = "info" if finding.severity in ("error", "warning") else finding.severity
-    return replace(finding, severity=severity, confidence="possible")
+    return doubted(finding, Doubt(Reason.CATALOGUE if likely else Reason.OTHER_VERSION))
 
 
 def slips(rule: Rule, context: Context, node: LaunchNode, kind: str, attribute: str) -> Iterator[Finding]:
