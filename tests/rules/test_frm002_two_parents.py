@@ -77,7 +77,7 @@ def test_one_tag_for_two_robots() -> None:
         <package><name>robot_localization</name></package>
     """
     (found,) = check(text)
-    assert found.confidence == "possible"
+    assert found.confidence == "likely"
 
 
 def test_a_joint_that_moves_and_a_static_transform() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.evaluation.value_places import value_place
@@ -18,6 +20,13 @@ def frames_of(context: Context) -> Frames:
 
 def _frames(context: Context) -> Frames:
     return build_frames(context.tree, context.graph, context.known, context.disk, context.kept)
+
+
+def in_words(use: Use) -> Mapping[str, str]:
+    """What a node does with a frame, as the values of a text with `{node}{does}`; the node is "" where the robot
+    description has the frame."""
+    node = use.node.name if use.robot is None or not use.of_sensor else ""
+    return {"node": node, "does": use.does.removeprefix(node)}
 
 
 def place_of_edge(context: Context, edge: Edge) -> Location:

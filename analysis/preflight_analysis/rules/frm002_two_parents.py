@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
-from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
+from preflight_analysis.findings.claim import Subject, Text, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.frames.model import Edge, Frames
 from preflight_analysis.rules.frames import frames_of, place_of_edge
 from preflight_analysis.rules.further_reading import FRAMES, TF2
@@ -25,15 +27,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # A joint is where it belongs; what contradicts it is told.
         first, *others = sorted(edges, key=lambda edge: edge.how != "urdf")
         for other in others:
-            judged = _judged(first, other)
-            if judged is None:
+            why = _doubts(first, other)
+            if why is None:
                 continue
-            severity, confidence = judged
-            yield rule.finding(
-                _message(child, first, other),
+            # Two that do not move hardly differ.
+            alike = first.parent == other.parent
+            yield rule.claim(
+                _said(child, first, other),
                 place_of_edge(context, other),
-                severity=severity,
-                confidence=confidence,
+                subject=Subject("frame", child),
+                kind="duplicate" if alike else "conflict",
+                effect="note" if alike and _is_still(first) and _is_still(other) else None,
+                doubts=why,
                 related=(Related(f"'{child}' below '{first.parent}'", place_of_edge(context, first)),),
             )
             break
@@ -43,21 +48,19 @@ def _is_in_ros(edge: Edge, frames: Frames) -> bool:
     return edge.how != "gazebo" or (frames.simulated and _SYSTEM not in edge.detail)
 
 
-def _judged(first: Edge, other: Edge) -> tuple[Severity, Confidence] | None:
-    """Severity and confidence; None where it does no harm."""
+def _doubts(first: Edge, other: Edge) -> tuple[Doubt, ...] | None:
+    """None where it does no harm."""
     if first.node is None or other.node is None or (first.node is other.node and first.how == other.how != "urdf"):
         return None
     sure = first.sure and other.sure
     if first.parent == other.parent:
         if first.node is other.node or (first.how == other.how == "urdf"):
             return None
-        if not sure or first.node.location == other.node.location:
-            return "info", "possible"  # one tag makes a node for each robot, which may have a master of its own
-        if first.how == "urdf" and not first.static:
-            return "info", "possible"  # it is published where somebody publishes the state of the joint
-        # Two that do not move hardly differ.
-        return ("info" if _is_still(first) and _is_still(other) else "warning"), "likely"
-    return ("warning", "likely") if sure else ("info", "possible")
+        # One tag makes a node for each robot, which may have a master of its own.
+        shared = first.node.location == other.node.location
+        # It is published where somebody publishes the state of the joint.
+        return doubts(SHARED=shared, ASSUMED=not sure or (first.how == "urdf" and not first.static))
+    return doubts(ASSUMED=not sure)
 
 
 def _is_still(edge: Edge) -> bool:
@@ -65,19 +68,23 @@ def _is_still(edge: Edge) -> bool:
     return edge.static or edge.how == "arguments"
 
 
-def _message(child: str, first: Edge, other: Edge) -> str:
+def _said(child: str, first: Edge, other: Edge) -> Text:
+    node = first.node.name if first.node is not None else ""
+    said = "frame '{child}' has two parents: '{parent}' from {node}{by}, '{other}' from {by_other}"
     if first.parent == other.parent:
-        return f"frame '{child}' has two publishers: {first.by} and {other.by}"
-    return f"frame '{child}' has two parents: '{first.parent}' from {first.by}, '{other.parent}' from {other.by}"
+        said = "frame '{child}' has two publishers: {node}{by} and {by_other}"
+    parents = {"parent": first.parent, "other": other.parent}
+    return say(said, child=child, node=node, by=first.by.removeprefix(node), by_other=other.by, **parents)
 
 
 RULE = Rule(
     id="FRM002",
     name="two-parents",
-    severity="warning",
-    what="Checks for a frame with two different parents, or with two nodes that publish it below the same parent. "
-    "Two static transforms between the same frames are information, and so is what is only possibly published, such as "
-    "a joint that moves.",
+    effect="misbehaves",
+    kind="conflict",
+    always=(Reason.FROM_SOURCE,),
+    sometimes=("note", Reason.ASSUMED, Reason.SHARED),
+    what="Checks for a frame with two different parents, or with two nodes that publish it below the same parent.",
     why="A frame has one parent. The later message replaces the earlier one, so the robot jumps between two places, or "
     "parts of the tree are disconnected.",
     example="# the URDF has base_footprint -> base_link\nekf:\n  ros__parameters:\n    base_link_frame: base_link",

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.frames import place_of_edge, place_of_use
 from preflight_analysis.rules.further_reading import FRAMES, TF2
@@ -18,22 +20,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if edge is None or use.of_sensor:
             continue
         if edge.space != use.space:
-            message = (
-                f"frame '{use.frame}' is published on '{edge.space}/tf', and {use.node.name} listens to "
-                f"'{use.space}/tf' ({use.what})"
-            )
+            told = "published on '{published}/tf', and {node} listens to '{space}/tf' ({what})"
+            published = edge.space
         else:
             ends = (edge.child, edge.parent)
             published = next(end for end in ends if end.endswith(use.frame) or _ends_with(use.frame, end))
-            message = f"frame '{use.frame}' is published as '{published}': {use.node.name} uses it ({use.what})"
+            told = "published as '{published}': {node} uses it ({what})"
             if len(published) == len(use.frame) - 1:
-                message += "; 'frame_prefix' lacks the '/' at its end"
-        known = use.sure and not use.call
-        yield rule.finding(
-            message,
+                told += "; 'frame_prefix' lacks the '/' at its end"
+        values = {"frame": use.frame, "node": use.node.name, "space": use.space, "what": use.what}
+        yield rule.claim(
+            say("frame '{frame}' is " + told, published=published, **values),
             place_of_use(context, use),
-            confidence="likely" if known else "possible",
-            severity=None if known else "info",
+            subject=Subject("frame", use.frame),
+            doubts=doubts(ASSUMED=not use.sure or bool(use.call)),
             related=(
                 Related(f"published by {edge.by}", place_of_edge(context, edge)),
                 *(include_chain(use.node.origin) if use.param is None else ()),
@@ -49,11 +49,12 @@ def _ends_with(frame: str, end: str) -> bool:
 RULE = Rule(
     id="FRM003",
     name="frame-prefix",
-    severity="warning",
+    effect="breaks",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.ASSUMED,),
     what="Checks for a frame that a node looks up without the prefix under which it is published, or with one: "
-    "`frame_prefix` of `robot_state_publisher` in ROS 2, `tf_prefix` in ROS 1. It also checks for a frame that is "
-    "published in another namespace of `/tf`, by a remap of `/tf` to `tf`. `frame_prefix` needs a slash at its end: "
-    "with `robot1` instead of `robot1/` the link is `robot1base_link`.",
+    "`frame_prefix` or `tf_prefix`. So it does for a frame in another namespace of `/tf`.",
     why="`base_link` and `robot1/base_link` are different frames, and `/tf` and `/robot1/tf` are different topics. The "
     "node finds no transform.",
     example="# robot_state_publisher has frame_prefix: robot1/\namcl:\n  ros__parameters:\n"

@@ -9,7 +9,9 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.frames import frames_of, place_of_mention, place_of_param, place_of_use
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.problems import include_chain, rename
@@ -26,6 +28,7 @@ _STRIP = frozenset(("MessageFilter", "setTargetFrame", "setTargetFrames"))
 """What takes the slash off itself (`tf2_ros::MessageFilter::stripSlash`)."""
 
 
+_SAID = "frame '{frame}' begins with '/', which tf2 refuses: {node} {does}"
 _OF_COSTMAPS = ("global_frame", "robot_base_frame")
 
 
@@ -37,8 +40,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
     """ROS 1: costmaps of other nodes than move_base."""
     nodes = {node.name for node in context.tree.nodes if node.package != _REFUSE_ROS1[0]}
-    severity = _severity_of_costmaps(context)
-    for param in context.tree.all_params if severity != "hint" else ():
+    asked = _ask_tf2(context)
+    for param in context.tree.all_params if asked is not False else ():
         above, _, leaf = param.name.rpartition("/")
         written = param.value
         if leaf not in _OF_COSTMAPS or not isinstance(written, str) or not written.startswith("/"):
@@ -47,23 +50,22 @@ def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
         if "costmap" not in costmap or not written.strip("/") or owner.rstrip("/") not in nodes:
             continue
         place = place_of_param(context, param)
-        yield rule.finding(
+        yield rule.claim(
             f"frame '{written}' begins with '/', which tf2 refuses: '{param.name}' has it",
             place,
-            severity=severity,
-            confidence="possible",
+            subject=Subject("frame", written),
+            doubts=doubts(OTHER_VERSION=asked is None, NOT_ANALYSED=owner),
             related=include_chain(param.origin),
             fixes=rename(context, place, written, written.lstrip("/")),
         )
 
 
-def _severity_of_costmaps(context: Context) -> Severity:
-    """A hint where they do not ask tf2. Where the distribution is not known, the project itself may tell."""
+def _ask_tf2(context: Context) -> bool | None:
+    """Whether costmaps of ROS 1 ask tf2; None where neither the distribution nor the project itself tells."""
     environment = context.environment
     if environment.distro is not None:
-        return "warning" if environment.distro in _REFUSE_ROS1[1] else "hint"
-    asks = any(name.startswith("tf2") for each in environment.own_packages for name in each.dependencies)
-    return "warning" if asks else "info"
+        return environment.distro in _REFUSE_ROS1[1]
+    return any(name.startswith("tf2") for each in environment.own_packages for name in each.dependencies) or None
 
 
 def _of_mentions(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -73,12 +75,12 @@ def _of_mentions(rule: Rule, context: Context) -> Iterator[Finding]:
         # Who gets what a node broadcasts takes it off (`BufferCore::setTransform`).
         if written.startswith("/") and mention.node.package != "tf2_ros":
             place = place_of_mention(context, mention)
-            yield rule.finding(
-                f"frame '{written}' begins with '/', which tf2 refuses: {mention.node.name} gets it as "
-                f"'{mention.parameter}'",
+            name = mention.node.name
+            yield rule.claim(
+                say(_SAID, frame=written, node=name, does=f"gets it as '{mention.parameter}'"),
                 place,
-                severity="info" if mention.node.name in broadcasters else None,
-                confidence="possible",
+                subject=Subject("frame", written),
+                doubts=doubts(ASSUMED=name in broadcasters, NOT_ANALYSED=name),
                 fixes=rename(context, place, written, mention.frame),
             )
 
@@ -99,21 +101,22 @@ def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
         is_sure = (use.param is not None and context.tree.ros.own_parameters) or (
             use.sure and (use.looked_up or not use.call)
         )
-        severity: Severity | None = None if is_sure else "info"
+        asked: bool | None = True
         if not context.tree.ros.own_parameters:
             of_package = use.node.package == _REFUSE_ROS1[0] and not use.call
             if not use.looked_up or not (of_package or _REFUSE.match(use.call)):
                 continue  # tf takes it off
-            severity = _severity_of_costmaps(context) if of_package else severity
-            if severity == "hint":
+            if of_package and (asked := _ask_tf2(context)) is False:
                 continue
+            is_sure = is_sure or of_package
         told.add((id(use.node), use.written))
         place = place_of_use(context, use)
-        yield rule.finding(
-            f"frame '{use.written}' begins with '/', which tf2 refuses: {use.node.name} uses it ({use.what})",
+        name = use.node.name
+        yield rule.claim(
+            say(_SAID, frame=use.written, node=name, does=f"uses it ({use.what})"),
             place,
-            severity=severity,
-            confidence="likely" if use.sure else "possible",
+            subject=Subject("frame", use.written),
+            doubts=doubts(ASSUMED=not is_sure, OTHER_VERSION=asked is None, NOT_ANALYSED=name if not use.sure else ""),
             related=include_chain(use.node.origin) if use.param is None else (),
             fixes=rename(context, place, use.written, use.frame) if use.param is not None else (),
         )
@@ -122,12 +125,12 @@ def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="FRM004",
     name="leading-slash",
-    severity="warning",
-    what="Checks for a frame that begins with `/` in the parameters of a ROS 2 node, in a transform that it looks "
-    "up, or in the configuration of RViz. Of nodes of ROS 1 it checks what their source asks of tf2, and "
-    "`global_frame` and `robot_base_frame` of costmaps: a warning in Melodic and Noetic. Where the distribution is "
-    "unknown, it is information if no package of the workspace depends on tf2. So is a parameter of a node that "
-    "broadcasts transforms, if the use of the frame is not known.",
+    effect="breaks",
+    kind="invalid",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.OTHER_VERSION, Reason.NOT_ANALYSED, Reason.ASSUMED),
+    what="Checks for a frame that begins with `/`. It may be in a parameter, in a transform that a node looks up, or "
+    "in the configuration of RViz. In ROS 1 it checks what asks tf2, such as costmaps.",
     why="tf2 refuses the frame: `Invalid frame ID: frame_ids cannot start with a '/'`. The tf library of ROS 1 removed "
     "the slash.",
     example="slam_toolbox:\n  ros__parameters:\n    base_frame: /base_link",

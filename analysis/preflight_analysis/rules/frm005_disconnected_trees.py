@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.frames.model import Frames, Use
 from preflight_analysis.frames.uses import OF_LOCALIZATION
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_use
+from preflight_analysis.rules.frames import frames_of, in_words, place_of_edge, place_of_use
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.missing_frames import is_base_beside
 from preflight_analysis.rules.problems import include_chain
@@ -18,6 +20,10 @@ from preflight_analysis.rules.rule import Context, Rule
 _MOST = 20
 """Frames that a node uses; whoever has more of them names them in lists of all frames."""
 _SENSORS = ("sensor_msgs/",)
+_OF_BASES = (
+    "frames '{child}' and '{root}' are in trees that nothing joins: {node}{by} publishes the former below "
+    "'{parent}', the robot description begins with '{root}'{aside}"
+)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -37,11 +43,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             told.add(ends)
             whole = any(_is_whole(frames, one.space, tree) for tree in ends)
-            yield rule.finding(
-                f"frames '{one.frame}' and '{other.frame}' are in trees that nothing joins: {one.does}; {other.does}",
+            said = "frames '{one}' and '{other}' are in trees that nothing joins: {node}{does}; {does_other}"
+            values = {"one": one.frame, "other": other.frame, "does_other": other.does, **in_words(one)}
+            yield rule.claim(
+                say(said, **values),
                 place_of_use(context, other),
-                severity="warning" if whole else "info",
-                confidence="likely" if whole else "possible",
+                subject=Subject("frame", other.frame),
+                doubts=doubts(OUTSIDE=not whole),
                 related=(
                     *(
                         Related(f"'{use.frame}' below '{path[-1].parent}'", place_of_edge(context, path[0]))
@@ -63,13 +71,13 @@ def _of_bases(rule: Rule, context: Context) -> Iterator[Finding]:
         trees = frames.trees(edge.space)
         if edge.parent.rpartition("/")[2] not in OF_LOCALIZATION or trees[edge.child] == trees[root]:
             continue
-        gaps = f"; {frames.gaps[0]}" if frames.gaps else ""
-        yield rule.finding(
-            f"frames '{edge.child}' and '{root}' are in trees that nothing joins: {edge.by} publishes the former below "
-            f"'{edge.parent}', the robot description begins with '{root}'{gaps}",
+        node = edge.node.name if edge.node is not None else ""
+        values = {"node": node, "by": edge.by.removeprefix(node), "child": edge.child, "parent": edge.parent}
+        yield rule.claim(
+            say(_OF_BASES, root=root, aside=f"; {frames.gaps[0]}" if frames.gaps else "", **values),
             place_of_edge(context, edge),
-            severity="info" if frames.gaps else "warning",
-            confidence="possible" if frames.gaps else "likely",
+            subject=Subject("frame", edge.child),
+            doubts=doubts(PARTLY_READ=not frames.complete, NOT_ANALYSED=not frames.complete),
         )
 
 
@@ -115,13 +123,12 @@ def _is_whole(frames: Frames, space: str, tree: str) -> bool:
 RULE = Rule(
     id="FRM005",
     name="disconnected-trees",
-    severity="info",
-    what="Checks for frames that a node uses together and that are in two trees which no transform joins: those of one "
-    "`lookupTransform`, those that the parameters of a node name, and those of the sensors whose topics it subscribes "
-    "to. There is a finding if all nodes of the launch are known. It is a warning if one of the trees has the robot "
-    "and its odometry, and information otherwise, as another launch may join the trees. A `base_footprint`, "
-    "`base_link` or `base` that localization publishes and that the robot description does not have is a warning, or "
-    "information if not all nodes are known.",
+    effect="breaks",
+    kind="unreachable",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED, Reason.PARTLY_READ),
+    what="Checks for frames that a node uses together and that are in two trees which no transform joins. So it does "
+    "for a base that localization publishes and that the robot description does not have.",
     why="The node waits for the transform, or repeats `Could not find a connection between ...`.",
     example='<!-- robot_state_publisher has base_link -> mast; the driver of the lidar writes "laser" -->\n'
     '<node pkg="tf2_ros" exec="static_transform_publisher" args="0 0 0 0 0 0 lidar_mount laser"/>',

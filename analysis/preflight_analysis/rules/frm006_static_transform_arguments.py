@@ -11,7 +11,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Effect, Subject, say
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.tf_frames import begins_with_number, static_transform_words
 from preflight_analysis.rules.further_reading import FRAMES, TF2
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -41,7 +42,7 @@ class _Fault(NamedTuple):
 
     why: str
     word: str = ""
-    severity: Severity = "error"
+    effect: Effect = "stops-node"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -54,12 +55,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         else:
             fault = _of_ros2(words, context.environment.distro) if node.package == "tf2_ros" else None
         if fault is not None:
-            yield rule.finding(
-                f"{node.name} {fault.why}",
+            yield rule.claim(
+                say("{node} {why}", node=node.name, why=fault.why),
                 argument_location(context, node, fault.word)
                 if fault.word
                 else attribute_location(context, node, "args"),
-                severity=fault.severity,
+                subject=Subject("node", node.name),
+                effect=fault.effect,
                 related=include_chain(node.origin),
             )
 
@@ -74,6 +76,7 @@ def _of_tf(words: Sequence[str]) -> _Fault | None:
         return _Fault(
             f"publishes the frame '{child}' below '{parent}': the period in milliseconds is missing behind '{period}'",
             period,
+            "breaks",
         )
     return _of_numbers(numbers) or _of_frames(parent, child)
 
@@ -91,6 +94,7 @@ def _of_tf2(words: Sequence[str]) -> _Fault | None:
             f"publishes the frame '{child}' below '{parent}': tf2 has no period, so it takes '{words[6]}' for a number "
             "of a quaternion",
             child,
+            "breaks",
         )
     return _of_numbers(numbers) or _of_frames(parent, child)
 
@@ -99,9 +103,9 @@ def _of_numbers(numbers: Sequence[str]) -> _Fault | None:
     """ROS 1 takes what is no number for 0, and as much as it can read of the rest."""
     for word in numbers:
         if not begins_with_number(word):
-            return _Fault(f"uses 0 for '{word}', which is not a number", word, "warning")
+            return _Fault(f"uses 0 for '{word}', which is not a number", word, "misbehaves")
         if (cut := _CUT_OFF.match(word)) is not None:
-            return _Fault(f"uses {cut[1]} for '{word}', which is not a number", word, "warning")
+            return _Fault(f"uses {cut[1]} for '{word}', which is not a number", word, "misbehaves")
     return _of_quaternion(numbers[3:]) if len(numbers) == 7 else None
 
 
@@ -111,13 +115,14 @@ def _of_quaternion(words: Sequence[str]) -> _Fault | None:
     square = sum(float(word) ** 2 for word in words)
     if abs(square - 1) <= _TOLERANCE:
         return None
-    shown = " ".join(words)
-    return _Fault(f"publishes a transform that tf2 ignores: the length of the quaternion '{shown}' is not 1", words[0])
+    why = f"publishes a transform that tf2 ignores: the length of the quaternion '{' '.join(words)}' is not 1"
+    return _Fault(why, words[0], "breaks")
 
 
 def _of_frames(parent: str, child: str) -> _Fault | None:
     same = parent == child and bool(parent)
-    return _Fault(f"publishes nothing: '{parent}' is both the parent and the child frame", parent) if same else None
+    why = f"publishes nothing: '{parent}' is both the parent and the child frame"
+    return _Fault(why, parent, "breaks") if same else None
 
 
 def _of_ros2(words: Sequence[str], distro: str | None) -> _Fault | None:
@@ -192,11 +197,11 @@ def _of_same(parent: str, child: str) -> _Fault | None:
 RULE = Rule(
     id="FRM006",
     name="static-transform-arguments",
-    severity="error",
+    effect="stops-node",
+    kind="invalid",
+    sometimes=("breaks", "misbehaves"),
     what="Checks for arguments of `static_transform_publisher` that it refuses, or that make it publish another "
-    "transform: their number, a period that only tf of ROS 1 has, unknown options, a value that is not a number, a "
-    "quaternion whose length is not 1, and two frames with the same name. Options exist since ROS 2 Humble. Lyrical "
-    "and Rolling have nothing else.",
+    "transform. These are their number, options, values, the length of a quaternion, or two frames with the same name.",
     why="The process exits, or a frame such as '100' is published, and nothing publishes the intended frame.",
     example='<node pkg="tf2_ros" type="static_transform_publisher" name="mount"\n'
     '      args="0 0 1 0 0 0 base_link laser 100"/>',
