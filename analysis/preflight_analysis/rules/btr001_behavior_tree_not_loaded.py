@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.value_places import value_place
-from preflight_analysis.findings.finding import Confidence, Finding
+from preflight_analysis.findings.claim import Kind, Subject, say
+from preflight_analysis.findings.doubt import Reason
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.behavior_trees import FOLDERS, Loaded, folder_of, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
 from preflight_analysis.rules.nearest import did_you_mean, nearest
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS
 
 _WITH_FOLDERS = frozenset({"lyrical", "rolling"})
 """Where bt_navigator takes trees from the other files of a folder, too (`bt_search_directories`)."""
@@ -22,17 +24,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _of_folders(rule, context)
     seen = set[tuple[str, int]]()
     for loaded in context.once(trees_of):
-        for path, message, span, fix in _wrong(context, loaded):
-            if (path, span.start) in seen:
+        for path, wrong in _wrong(context, loaded):
+            if (path, wrong.span.start) in seen:
                 continue
-            seen.add((path, span.start))
-            place = context.location(path, span)
-            yield rule.finding(
-                message,
+            seen.add((path, wrong.span.start))
+            place, near = context.location(path, wrong.span), wrong.near
+            yield rule.claim(
+                wrong.message,
                 place,
-                confidence=_confidence(context, fix),
+                subject=wrong.about,
+                kind=wrong.kind,
+                candidates=(near,),
                 related=loaded.related,
-                fixes=rename(context, place, *fix) if fix is not None else (),
+                fixes=rename(context, place, wrong.about.name, near) if near is not None else (),
             )
 
 
@@ -44,21 +48,36 @@ def _of_folders(rule: Rule, context: Context) -> Iterator[Finding]:
             if folder is None or context.disk.is_folder(folder):
                 continue
             place = value_place(param.place, str(listed), context.documents.get(param.place.file)) or param.place
-            message = f"folder '{listed}' in '{FOLDERS}' of {node.name} does not exist, so no tree is loaded from it"
-            yield rule.finding(message, place, confidence="likely", related=include_chain(node.origin))
+            said = "folder '{folder}' in '{param}' of {node} does not exist, so no tree is loaded from it"
+            yield rule.claim(
+                say(said, folder=listed, param=FOLDERS, node=node.name),
+                place,
+                subject=Subject("file", folder),
+                kind="absent",
+                related=include_chain(node.origin),
+            )
 
 
-_Wrong = tuple[str, str, Span, tuple[str, str] | None]
-"""The file, the message, its place, and what is written there with what was meant."""
+class _Wrong(NamedTuple):
+    """What is wrong in a file, and what was meant."""
+
+    message: str
+    span: Span
+    about: Subject
+    kind: Kind = "absent"
+    near: str | None = None
 
 
-def _wrong(context: Context, loaded: Loaded) -> Iterator[_Wrong]:
+def _wrong(context: Context, loaded: Loaded) -> Iterator[tuple[str, _Wrong]]:
+    """Each with the path of its file."""
     for part in loaded.parts:
         main = loaded.file.main_problems if part is loaded.parts[0] and loaded.is_navigator else ()
         for problem in (*part.file.problems, *main):
-            yield part.path, f"behavior tree cannot be loaded: {problem.message}", problem.span, None
+            message = f"behavior tree cannot be loaded: {problem.message}"
+            yield part.path, _Wrong(message, problem.span, Subject("tree", problem.message), "invalid")
     for path, included, target in loaded.missing:
-        yield path, f"behavior tree cannot be loaded: '{target}' does not exist", included.span, None
+        message = f"behavior tree cannot be loaded: '{target}' does not exist"
+        yield path, _Wrong(message, included.span, Subject("file", target))
     # Others may register several files before they make a tree.
     if not loaded.is_navigator or not loaded.whole or loaded.missing or context.environment.distro in _WITH_FOLDERS:
         return
@@ -67,28 +86,24 @@ def _wrong(context: Context, loaded: Loaded) -> Iterator[_Wrong]:
     main_tree = loaded.file.main
     if not one and main_tree is not None and main_tree.name not in trees:
         message = f"behavior tree cannot be loaded: there is no tree '{main_tree.name}', its main tree"
-        yield loaded.path, message, main_tree.span, None
+        yield loaded.path, _Wrong(message, main_tree.span, Subject("tree", main_tree.name))
     for part in loaded.parts:
         for used in part.file.subtrees:
             if used.name not in trees:
                 near = nearest(used.name, trees)
                 message = f"subtree '{used.name}' does not exist in {where}" + did_you_mean(near)
-                yield part.path, message, used.span, (used.name, near) if near is not None else None
-
-
-def _confidence(context: Context, fix: object) -> Confidence:
-    return "certain" if fix is None or context.environment.distro in NAV_DISTRIBUTIONS else "likely"
+                kind: Kind = "absent" if near is None else "near"
+                yield part.path, _Wrong(message, used.span, Subject("tree", used.name), kind, near)
 
 
 RULE = Rule(
     id="BTR001",
     name="behavior-tree-not-loaded",
-    severity="warning",
-    what="Checks for a behavior tree that cannot be loaded. Tags do not match, `<root>` has no main tree, `<SubTree>` "
-    "names a tree that neither the file nor those that it includes have, or an included file does not exist. The file "
-    "is the value of `default_nav_to_pose_bt_xml` or a similar parameter of bt_navigator. Of the trees that nodes of "
-    "the workspace load, tags and included files are checked, and that the folders in `behavior_trees` of a "
-    "`TreeExecutionServer` exist.",
+    effect="breaks",
+    kind="invalid",
+    always=(Reason.LIBRARY,),
+    what="Checks for a behavior tree that a parameter names and that cannot be loaded. Its tags, its main tree, its "
+    "subtrees or the files that it includes are wrong. The folders in `behavior_trees` must exist.",
     why="bt_navigator rejects the goal or does not become active.",
     example='<root BTCPP_format="4" main_tree_to_execute="Main">\n'
     '  <BehaviorTree ID="MainTree">\n    <SubTree ID="Recovery"/>\n  </BehaviorTree>\n</root>',

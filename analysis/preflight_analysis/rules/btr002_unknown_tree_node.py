@@ -9,7 +9,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from preflight_analysis.edits.xml import XmlWriter
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
 from preflight_analysis.rules.nearest import did_you_mean, is_slip
@@ -30,8 +32,8 @@ from preflight_analysis.trees.read import SUBTREES
 
 class _Complaint(NamedTuple):
     message: str
-    severity: Severity
     near: str | None = None
+    doubts: tuple[Doubt, ...] = ()
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -50,11 +52,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             seen.add((part.path, span.start))
             edits = XmlWriter(part.document).replace(span, found.near) if found.near is not None else ()
-            yield rule.finding(
+            yield rule.claim(
                 found.message + did_you_mean(found.near),
                 context.location(part.path, span),
-                severity=found.severity,
-                confidence="likely",
+                subject=Subject("tree-node", name),
+                kind="absent" if found.near is None else "near",
+                doubts=found.doubts,
+                candidates=(found.near,),
                 related=loaded.related,
                 fixes=fix(f"Replace '{name}' with '{found.near}'", edits, preferred=True),
             )
@@ -62,41 +66,42 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _complaint(context: Context, name: str, loaded: Loaded, *, only_nav: bool) -> _Complaint | None:
     distro = context.environment.distro
-    severity: Severity = "warning" if only_nav else "info"
+    others = doubts(PARTLY_READ=not only_nav)
     node = NAV_NODES.get(name)
     if name in loaded.models or own_nodes(context.disk.db, context.environment).has(name):
         return None
     if name in BUILT_IN and distro is not None:
         version = 3 if is_version_3(distro) else 4
         message = f"'{name}' does not exist in BehaviorTree.CPP {version}, which Nav2 of {distro} uses"
-        return _Complaint(message, "warning", instead_of(name, distro))
+        return _Complaint(message, instead_of(name, distro))
     if node is None:
         near = [each for each in (*NAV_NODES, *BUILT_IN) if is_slip(name, each)]
         meant = near[0] if len(near) == 1 else None
         if meant is None and not (only_nav and loaded.whole):
             return None
         # Nav2 gets new nodes; a slip of a known one is none of them.
-        return _Complaint(f"unknown behavior tree node '{name}'", severity if meant is not None else "info", meant)
+        why = (*others, *doubts(OTHER_VERSION=meant is None))
+        return _Complaint(f"unknown behavior tree node '{name}'", meant, why)
     if distro not in NAV_DISTRIBUTIONS:
         return None
     library = node.libraries.get(distro)
     if library is None:
-        return _Complaint(f"behavior tree node '{name}' does not exist in Nav2 of {distro}", severity)
+        return _Complaint(f"behavior tree node '{name}' does not exist in Nav2 of {distro}", doubts=others)
     listed = loaded.libraries
     if loads_by_default(distro, library) or listed is None or library in listed:
         return None
-    return _Complaint(f"behavior tree node '{name}' needs '{library}' in 'plugin_lib_names'", severity)
+    return _Complaint(f"behavior tree node '{name}' needs '{library}' in 'plugin_lib_names'", doubts=others)
 
 
 RULE = Rule(
     id="BTR002",
     name="unknown-behavior-tree-node",
-    severity="warning",
-    what="Checks for a node in a behavior tree that no library of bt_navigator has: a typo, a node of another "
-    "distribution or version, or a node whose library `plugin_lib_names` does not list. "
-    "Nodes of Nav2, of BehaviorTree.CPP and of the sources of the workspace are known. The finding is information if "
-    "`plugin_lib_names` lists other libraries, or if it is not known. An unknown node is information too if no known "
-    "name is similar.",
+    effect="breaks",
+    kind="near",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.OTHER_VERSION, Reason.PARTLY_READ),
+    what="Checks for a node in a behavior tree that no library of bt_navigator has. It is a typo, a node of another "
+    "version, or one whose library `plugin_lib_names` does not list.",
     why="bt_navigator cannot create the tree. It rejects the goal or does not become active.",
     example='<RecoveryNod number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n</RecoveryNod>',
     instead='<RecoveryNode number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n</RecoveryNode>',

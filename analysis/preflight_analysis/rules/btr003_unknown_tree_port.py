@@ -9,7 +9,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location
-from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
 from preflight_analysis.rules.nearest import did_you_mean, nearest
@@ -26,7 +28,7 @@ _SHARING = {True: ("__autoremap", "__shared_blackboard"), False: ("_autoremap",)
 
 class _Ports(NamedTuple):
     names: frozenset[str]
-    severity: Severity
+    doubts: tuple[Doubt, ...]
     related: tuple[Related, ...] = ()
 
 
@@ -45,13 +47,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     seen.add((part.path, span.start))
                     near, place = nearest(name, ports.names), context.location(part.path, span)
                     elsewhere = distributions_with(used.name, name)
-                    yield rule.finding(
+                    yield rule.claim(
                         f"'{name}' is not a port of '{used.name}'"
                         + (f" in {context.environment.distro}" if elsewhere else "")
                         + did_you_mean(near),
                         place,
-                        severity=ports.severity,
-                        confidence="likely",
+                        subject=Subject("attribute", name),
+                        kind="absent" if near is None else "near",
+                        doubts=ports.doubts,
+                        candidates=(near,),
                         related=(*loaded.related, *ports.related),
                         fixes=rename(context, place, name, near) if near is not None else (),
                     )
@@ -72,11 +76,12 @@ def _of_subtrees(rule: Rule, context: Context, loaded: Loaded, seen: set[tuple[s
             seen.add((part.path, attribute.name_span.start))
             near = "__autoremap' of <SubTreePlus>" if is_old else "_autoremap'"
             version = 3 if is_old else 4
-            yield rule.finding(
+            yield rule.claim(
                 f"'{attribute.name}' of <{used.tag}> has no effect in BehaviorTree.CPP {version}, which Nav2 of "
                 f"{distro} uses; did you mean '{near}?",
                 context.location(part.path, attribute.name_span),
-                confidence="likely",
+                subject=Subject("attribute", attribute.name),
+                effect="no-effect",
                 related=loaded.related,
             )
 
@@ -86,24 +91,23 @@ def _ports(context: Context, used: Used, loaded: Loaded, *, only_nav: bool) -> _
     node = own.nodes.get(used.name)
     if node is not None:
         at = Related(f"'{used.name}' is registered here", Location.of_file(node.path))
-        return _Ports(frozenset(node.ports), "warning", (at,)) if node.ports is not None else None
+        return _Ports(frozenset(node.ports), doubts(FROM_SOURCE=True), (at,)) if node.ports is not None else None
     distro = context.environment.distro
     ports = ports_of(used.name, distro if distro in NAV_DISTRIBUTIONS else None)
     if ports is None or own.has(used.name) or not (loaded.is_navigator or used.name in BUILT_IN):
         return None
-    return _Ports(ports, "warning" if only_nav and distro in NAV_DISTRIBUTIONS else "info")
+    return _Ports(ports, doubts(OTHER_VERSION=distro not in NAV_DISTRIBUTIONS, PARTLY_READ=not only_nav))
 
 
 RULE = Rule(
     id="BTR003",
     name="unknown-behavior-tree-port",
-    severity="warning",
-    what="Checks for an attribute of a node in a behavior tree that is not one of its ports: a typo, or a port of "
-    "another distribution of Nav2. Ports of the nodes of Nav2 and BehaviorTree.CPP are known, and those of the "
-    "workspace whose `providedPorts` has all of them. It also checks for "
-    "`__autoremap` and `__shared_blackboard` of BehaviorTree.CPP 3 in version 4, and for `_autoremap` in version 3. "
-    "The finding is information if the distribution is not known, or if `plugin_lib_names` lists libraries beside "
-    "those of Nav2.",
+    effect="breaks",
+    kind="near",
+    always=(Reason.LIBRARY,),
+    sometimes=("no-effect", Reason.OTHER_VERSION, Reason.FROM_SOURCE, Reason.PARTLY_READ),
+    what="Checks for an attribute of a node in a behavior tree that is not one of its ports. So it does for "
+    "attributes of subtrees that only the other version of BehaviorTree.CPP has.",
     why="bt_navigator cannot create the tree. It rejects the goal or does not become active.",
     example='<ComputePathToPose gaol="{goal}" path="{path}" planner_id="GridBased"/>',
     instead='<ComputePathToPose goal="{goal}" path="{path}" planner_id="GridBased"/>',

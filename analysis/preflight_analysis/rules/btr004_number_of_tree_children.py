@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.behavior_trees import is_version_4, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
@@ -30,10 +32,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             seen.add((part.path, used.span.start))
             counted = f", not {used.children}" if number.most != 0 and used.children else ""
-            yield rule.finding(
+            yield rule.claim(
                 f"behavior tree node '{used.name}' {number.text}{counted}",
                 context.location(part.path, used.span),
-                confidence="likely",
+                subject=Subject("tree-node", used.name),
                 related=loaded.related,
             )
 
@@ -41,11 +43,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="BTR004",
     name="number-of-behavior-tree-children",
-    severity="warning",
-    what="Checks for a node in a behavior tree with too many or too few children. Actions and conditions have none, "
-    "decorators one. `RecoveryNode` has two, `IfThenElse` two or three. `Sequence` and `Fallback` are not empty. "
-    "Nodes of Nav2 and BehaviorTree.CPP are known, and what `<Action>`, `<Condition>`, `<Decorator>` and `<Control>` "
-    "say.",
+    effect="breaks",
+    kind="invalid",
+    always=(Reason.LIBRARY,),
+    what="Checks for a node in a behavior tree with too many or too few children. Nodes of Nav2 and BehaviorTree.CPP "
+    "are known, and what `<Action>`, `<Condition>`, `<Decorator>` and `<Control>` say.",
     why="The tree cannot be created, or it fails as soon as it runs the node.",
     example='<RecoveryNode number_of_retries="6">\n  <ComputePathToPose goal="{goal}" path="{path}"/>\n'
     '  <FollowPath path="{path}"/>\n  <ClearEntireCostmap service_name="local_costmap/clear_entirely_local_costmap"/>\n'

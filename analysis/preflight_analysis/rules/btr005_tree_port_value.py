@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.document import Attribute
 from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.behavior_trees import Loaded, is_version_4, trees_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
@@ -49,10 +51,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     continue
                 seen.add((part.path, wrong.span.start))
                 place = context.location(part.path, wrong.span)
-                yield rule.finding(
+                yield rule.claim(
                     wrong.message,
                     place,
-                    confidence="likely",
+                    subject=Subject("tree-node", used.name),
+                    candidates=wrong.fix[1:] if wrong.fix is not None else (),
                     related=loaded.related,
                     fixes=rename(context, place, *wrong.fix) if wrong.fix is not None else (),
                 )
@@ -130,11 +133,11 @@ def _types(
 RULE = Rule(
     id="BTR005",
     name="behavior-tree-port-value",
-    severity="warning",
-    what="Checks for a port of a behavior tree node with a value of another type. A number, an integer or a boolean is "
-    "not one, a path or a pose is not an entry of the blackboard (`{path}`), or one entry is used as two different "
-    "things. An output needs an entry, too. It also checks for required ports that are not set. "
-    "Nodes of Nav2 and BehaviorTree.CPP are known, and ports that sources of the workspace declare.",
+    effect="breaks",
+    kind="invalid",
+    always=(Reason.LIBRARY,),
+    what="Checks for a port of a behavior tree node with a value of another type, or with an entry of the blackboard "
+    "that is something else. Required ports must be set.",
     why="The tree cannot be created, the node fails, or it works with a value that nobody has set.",
     example='<ComputePathToPose goal="{goal}" path="path"/>\n<FollowPath path="{path}"/>',
     instead='<ComputePathToPose goal="{goal}" path="{path}"/>\n<FollowPath path="{path}"/>',

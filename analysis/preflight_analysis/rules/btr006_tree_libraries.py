@@ -12,6 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.evaluation.value_places import value_place
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.behavior_trees import LIBRARIES, has_own_nav, is_navigator, libraries_of
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
@@ -19,6 +21,8 @@ from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS, NAV_LIBRARIES, NAV_NODES, loads_by_default
+
+_LISTS = f"'{LIBRARIES}' of {{node}} lists {{what}}"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -45,15 +49,25 @@ def _twice(
     if by_default:
         nodes = sorted(each for each, node in NAV_NODES.items() if node.libraries.get(distro) == by_default[0])
         some = f"'{by_default[0]}'" if len(by_default) == 1 else f"{len(by_default)} libraries"
-        message = (
-            f"'{LIBRARIES}' of {name} lists {some} that bt_navigator of {distro} loads itself: it stops with "
-            f"'ID [{nodes[0]}] already registered'"
+        what = f"{some} that bt_navigator of {distro} loads itself: it stops with 'ID [{nodes[0]}] already registered'"
+        yield rule.claim(
+            say(_LISTS, node=name, what=what),
+            param.place,
+            subject=Subject("parameter", LIBRARIES),
+            kind="duplicate",
+            doubts=doubts(CATALOGUE=True),
+            related=related,
         )
-        yield rule.finding(message, param.place, confidence="likely", related=related)
     for library in dict.fromkeys(again):
         place = value_place(param.place, library, context.documents.get(param.place.file)) or param.place
-        message = f"'{LIBRARIES}' of {name} lists '{library}' twice: bt_navigator stops with 'already registered'"
-        yield rule.finding(message, place, confidence="likely", related=related)
+        yield rule.claim(
+            say(_LISTS, node=name, what=f"'{library}' twice: bt_navigator stops with 'already registered'"),
+            place,
+            subject=Subject("plugin", library),
+            kind="duplicate",
+            doubts=doubts(CATALOGUE=True),
+            related=related,
+        )
 
 
 def _unknown(
@@ -67,18 +81,20 @@ def _unknown(
     if library in NAV_LIBRARIES:
         same = {node.libraries[distro] for node in NAV_NODES.values() if _has(node.libraries, library, distro)}
         near = sorted(same)[:1]
-        what = f"lists '{library}', which Nav2 of {distro} does not have"
+        what = f"'{library}', which Nav2 of {distro} does not have"
     else:
         near = [each for each in known if is_slip_of_words(library, each)]
-        what = f"lists the unknown library '{library}'"
+        what = f"the unknown library '{library}'"
         if len(near) != 1:
             return
     place = value_place(param.place, library, context.documents.get(param.place.file)) or param.place
-    yield rule.finding(
-        f"'{LIBRARIES}' of {name} {what}{did_you_mean(near[0] if near else None)}",
+    yield rule.claim(
+        say(_LISTS, node=name, what=f"{what}{did_you_mean(near[0] if near else None)}"),
         place,
-        severity="warning",
-        confidence="likely",
+        subject=Subject("plugin", library),
+        kind="near" if near else "absent",
+        doubts=doubts(UNSEEN=True),
+        candidates=near,
         related=related,
         fixes=rename(context, place, library, near[0]) if near else (),
     )
@@ -96,10 +112,11 @@ def _has(libraries: Mapping[str, str], library: str, distro: str) -> bool:
 RULE = Rule(
     id="BTR006",
     name="behavior-tree-libraries",
-    severity="error",
-    what="Checks the libraries in `plugin_lib_names` of bt_navigator. Since Jazzy bt_navigator loads the libraries of "
-    "Nav2 itself, and a library that is loaded twice is an error. The rule also finds libraries that Nav2 of another "
-    "distribution has, and typos. These are warnings.",
+    effect="stops-node",
+    kind="duplicate",
+    sometimes=(Reason.CATALOGUE, Reason.UNSEEN),
+    what="Checks the libraries in `plugin_lib_names` of bt_navigator. It loads one twice, or Nav2 of the distribution "
+    "does not have it. Since Jazzy bt_navigator loads the libraries of Nav2 itself.",
     why="bt_navigator does not become active, and the lifecycle manager aborts the bringup.",
     example="bt_navigator:\n  ros__parameters:\n    plugin_lib_names:  # in Jazzy\n"
     "      - nav2_compute_path_to_pose_action_bt_node\n      - my_robot_open_door_bt_node",

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import MOVEIT_CONTROLLERS
 from preflight_analysis.rules.moveit import Known, Loaded, unserved
@@ -24,11 +26,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         known, other = each.known, each.meant
         place = place_in_yaml(context, known.controller.param, known.controller.name)
         old, new = known.controller.name, _as_moveit_names(known, other)
-        yield rule.finding(
+        yield rule.claim(
             f"MoveIt controller '{old}' has no action server '{known.action}'; did you mean '{new}', which "
             f"{each.reason}?",
             place,
-            confidence="likely",
+            subject=Subject("controller", old),
+            candidates=(new,),
             related=(
                 Related(f"'{names.leaf(other.name)}' is loaded here", other.spawner.location),
                 Related(f"{known.node.name} starts here", known.node.location),
@@ -47,11 +50,12 @@ def _other_action(rule: Rule, context: Context, known: Known) -> Iterator[Findin
     name, loaded = known.controller.name, known.loaded
     if loaded is None or loaded.action is None:
         return
-    yield rule.finding(
+    yield rule.claim(
         f"MoveIt controller '{name}' asks for action '{known.controller.action_ns}'; '{name}' ({loaded.type}) serves "
         f"'{names.leaf(loaded.action)}'",
         place_in_yaml(context, known.controller.param, name),
-        confidence="likely",
+        subject=Subject("controller", name),
+        kind="conflict",
         related=(Related(f"'{name}' is loaded here", loaded.spawner.location),),
     )
 
@@ -59,12 +63,11 @@ def _other_action(rule: Rule, context: Context, known: Known) -> Iterator[Findin
 RULE = Rule(
     id="MVT001",
     name="moveit-controller-not-offered",
-    severity="warning",
-    what="Checks for a controller in the parameters of MoveIt whose action no node of the launch serves, if the launch "
-    "loads the controller that was meant. That is one of the same name in another namespace, one that moves the same "
-    "joints, or one of a similar name. A controller that serves another action than MoveIt asks for is found, too. The "
-    "controllers are those of `moveit_simple_controller_manager`: `controller_list` in ROS 1, `controller_names` in "
-    "ROS 2.",
+    effect="breaks",
+    kind="near",
+    always=(Reason.LIBRARY,),
+    what="Checks for a controller of MoveIt whose action no node of the launch serves. The launch loads the "
+    "controller that was meant, or one that serves another action.",
     why="MoveIt waits for the action server, gives up and does not execute any trajectory: `Action client not "
     "connected`.",
     example="moveit_simple_controller_manager:\n  controller_names: [arm_controler]",

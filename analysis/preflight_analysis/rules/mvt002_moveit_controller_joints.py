@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.of_launch import given_robot, semantics_of
 from preflight_analysis.rules.further_reading import MOVEIT_CONTROLLERS
@@ -49,10 +51,12 @@ def _not_in_robot(rule: Rule, context: Context, known: Known, unknown: tuple[str
     others = {joint.name for joint in robot.description.joints} - set(known.controller.joints) if robot else set()
     for joint in unknown:
         near, place = nearest(joint, others), place_in_yaml(context, known.controller.joints_param, joint)
-        yield rule.finding(
+        yield rule.claim(
             f"joint '{joint}' does not exist: MoveIt controller '{known.controller.name}' has it{did_you_mean(near)}",
             place,
-            confidence="likely",
+            subject=Subject("joint", joint),
+            kind="absent" if near is None else "near",
+            candidates=(near,),
             related=(Related(f"{known.node.name} starts here", known.node.location),),
             fixes=rename(context, place, joint, near) if near is not None else (),
         )
@@ -83,10 +87,10 @@ def _not_in_controller(
         return
     has = f"has joint {quoted(more)}, which" if more else f"lacks joint {quoted(fewer)}, which"
     does = "does not have" if more else "has"
-    yield rule.finding(
+    yield rule.claim(
         f"MoveIt controller '{known.controller.name}' {has} the controller {does}: it refuses the trajectories",
         place_in_yaml(context, known.controller.joints_param, more[0] if more else ""),
-        confidence="likely",
+        subject=Subject("controller", known.controller.name),
         related=(
             *((Related("joints of the controller", loaded.joints_param.place),) if loaded.joints_param else ()),
             Related(f"'{known.controller.name}' is loaded here", loaded.spawner.location),
@@ -97,10 +101,11 @@ def _not_in_controller(
 RULE = Rule(
     id="MVT002",
     name="moveit-controller-joints",
-    severity="warning",
-    what="Checks the joints of a controller in the parameters of MoveIt. A joint that the robot description does not "
-    "have is a finding, unless the robot has none of the controller's joints. So is a joint that the joint trajectory "
-    "controller of that name does not have, and one that it has and MoveIt does not list.",
+    effect="breaks",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
+    what="Checks for a joint of a controller of MoveIt that the robot description does not have. It also checks "
+    "whether the joint trajectory controller of that name has the same joints.",
     why="The controller refuses trajectories for other joints than its own. MoveIt finds no controller for the joints "
     "that no controller lists, and does not execute the trajectory.",
     example="moveit_simple_controller_manager:\n  arm_controller:\n    joints: [sholder, elbow]",

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Literal
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.moveit import is_move_group, moveit_params
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.robot.of_launch import SemanticRobot, given_robot, semantics_of
 from preflight_analysis.rules.further_reading import MOVEIT_KINEMATICS
@@ -64,7 +67,7 @@ def _named(pattern: re.Pattern[str], params: Mapping[str, Param]) -> dict[str, P
 def _slips(
     rule: Rule,
     context: Context,
-    kind: str,
+    kind: Literal["group", "joint"],
     named: Mapping[str, Param],
     there: Collection[str],
     semantics: Iterable[SemanticRobot],
@@ -76,10 +79,11 @@ def _slips(
         if near is None or not is_slip(name, near):
             continue
         place = place_in_yaml(context, param)
-        yield rule.finding(
+        yield rule.claim(
             f"{kind} '{name}' does not exist: MoveIt does not read '{param.name}'{did_you_mean(near)}",
             place,
-            confidence="likely",
+            subject=Subject("name" if kind == "group" else kind, name),
+            candidates=(near,),
             related=[Related("the groups of the robot", each.param.place) for each in semantics],
             fixes=rename(context, place, name, near),
         )
@@ -88,10 +92,12 @@ def _slips(
 RULE = Rule(
     id="MVT003",
     name="moveit-unknown-group",
-    severity="warning",
-    what="Checks for a misspelled planning group in `kinematics.yaml` and in the configuration of a planning pipeline, "
-    "and for a misspelled joint in `joint_limits.yaml`. The robot has another group or joint of nearly that name for "
-    "which nothing is set.",
+    effect="no-effect",
+    kind="near",
+    always=(Reason.LIBRARY,),
+    what="Checks for a misspelled planning group in `kinematics.yaml` and in the configuration of a planning "
+    "pipeline. It also checks for a misspelled joint in `joint_limits.yaml`. Nothing is set for the one that was "
+    "meant.",
     why="MoveIt reads the parameters of the groups and joints of the robot only. The group has no kinematics "
     "solver, or the joint no limits.",
     example='manipulater:  # the SRDF has <group name="manipulator">\n'
