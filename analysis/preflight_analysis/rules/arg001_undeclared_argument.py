@@ -7,13 +7,15 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.evaluation.problems import Problem, UndeclaredArgument
-from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.model import Action
 from preflight_analysis.rules.arguments import declarations, declare, passes_all
 from preflight_analysis.rules.further_reading import LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ARG
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.parts_of_launches import is_configured_elsewhere, is_part
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_claim, problems_of, quoted, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
@@ -24,6 +26,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     part_of_another = context.once(is_part)
     for problem in problems_of(context, UndeclaredArgument):
         name, place = problem.kind.name, problem.location
+        about = Subject("argument", name)
         message = f"argument '{name}' is not declared"
         launch_file = context.launch_files.get(place.file)
         elsewhere = declarations(launch_file).get(name, ()) if launch_file is not None else ()
@@ -34,9 +37,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if launch_file is not None and launch_file.is_python:
                 where = "here: its DeclareLaunchArgument is not in the LaunchDescription, or comes after this action"
             declared = Related("declared here", context.location(place.file, elsewhere[0].head_span))
-            chosen = asked and not later and _may_be_chosen(context, elsewhere)
+            chosen = _choosing(context, elsewhere) if asked and not later else []
             message = f"{message} {where}" + ("; a command-line argument decides" if chosen else "")
-            yield problem_finding(rule, problem, message, severity="info" if chosen else None, related=(declared,))
+            undecided = doubts(NOT_SET=chosen and f"argument {quoted(chosen)}")
+            yield problem_claim(
+                rule, problem, message, subject=about, kind="unreachable", doubts=undecided, related=(declared,)
+            )
             continue
         near = nearest(name, problem.kind.declared)
         if problem.kind.not_followed is not None:
@@ -45,21 +51,33 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         fixes = (*(rename(context, place, name, near) if near else ()), *declare(context, problem.origin, name))
         if near is None and (part_of_another or is_configured_elsewhere(context, name)):
             message += "; the including launch file has to set it"
-            yield problem_finding(rule, problem, message, severity="info", confidence="possible", fixes=fixes)
+            part = doubts(SET_ASIDE=True)
+            yield problem_claim(rule, problem, message, subject=about, kind="absent", doubts=part, fixes=fixes)
             continue
-        severity: Severity = "error"
+        documented = False
         if asked and not (near is not None and is_slip(name, near)):
-            severity = "info" if _is_documented(context, place.file, name) else "error"
+            documented = _is_documented(context, place.file, name)
             message += f"; only the command line can set it ({name}:=...)"
-        yield problem_finding(rule, problem, message + did_you_mean(near), severity=severity, fixes=fixes)
+        yield problem_claim(
+            rule,
+            problem,
+            message + did_you_mean(near),
+            subject=about,
+            kind="near" if near else "absent",
+            doubts=doubts(INTENDED=documented),
+            candidates=(near,),
+            fixes=fixes,
+        )
 
 
-def _may_be_chosen(context: Context, tags: tuple[Action, ...]) -> bool:
-    """Whether the command line decides over a condition of one of the declarations, and does not yet."""
+def _choosing(context: Context, tags: tuple[Action, ...]) -> list[str]:
+    """The arguments by which the command line decides over a condition of one of the declarations, and does not yet."""
     conditions = (value.text for tag in tags for kind in ("if", "unless") if (value := tag.value(kind)) is not None)
     names = {name for condition in conditions for name in _WORD.findall(condition)}
-    args = [context.tree.args[name] for name in names & context.tree.args.keys()]
-    return any(arg.default is not None for arg in args) and all(arg.value_origin is not None for arg in args)
+    args = {name: context.tree.args[name] for name in sorted(names & context.tree.args.keys())}
+    if any(arg.value_origin is None for arg in args.values()) or all(arg.default is None for arg in args.values()):
+        return []
+    return [*args]
 
 
 def _is_documented(context: Context, file: str, name: str) -> bool:
@@ -80,12 +98,14 @@ def _unsure(
 ) -> Finding:
     """What comes before could not be evaluated, and in ROS 2 it may have set the argument."""
     name = problem.kind.name
-    return problem_finding(
+    return problem_claim(
         rule,
         problem,
         f"argument '{name}' is not declared, unless the unresolved include sets it{did_you_mean(near)}",
-        severity="warning" if near else "hint",
-        confidence="possible",
+        subject=Subject("argument", name),
+        kind="near" if near else "absent",
+        doubts=doubts(UNSEEN=True, NOT_HERE=near is None),
+        candidates=(near,),
         related=(Related("unresolved, may set it", not_followed),),
         fixes=rename(context, problem.location, name, near) if near else (),
     )
@@ -94,14 +114,11 @@ def _unsure(
 RULE = Rule(
     id="ARG001",
     name="undeclared-argument",
-    severity="error",
-    what="Checks for `$(arg name)` where the file has not declared that argument before. The finding names the "
-    "nearest declared argument. In ROS 2 an included file sets arguments for its includer, and sees those of its "
-    "includer. After an unresolved include the finding is therefore a warning if an argument of a similar name "
-    "exists, otherwise a hint. In a file that is made to be included it is information. In ROS 1 the command line "
-    "can give arguments that no file declares. The finding is information if a README, text or shell script beside "
-    "the file contains `name:=`. It is information too where an argument of the command line chooses what is "
-    "declared.",
+    effect="stops-launch",
+    kind="near",
+    sometimes=(Reason.NOT_SET, Reason.INTENDED, Reason.UNSEEN, Reason.NOT_HERE),
+    what="Checks for `$(arg name)` where the file has not declared that argument before. In ROS 2 an included file "
+    "sets arguments for its includer, and sees those of its includer.",
     why="`roslaunch` stops. An argument is visible only in the file that declares it, after its `<arg>`. An "
     "included file gets it only if the include passes it.",
     example='<arg name="camera" default="front"/>\n<node pkg="p" type="t" name="$(arg camra)"/>',

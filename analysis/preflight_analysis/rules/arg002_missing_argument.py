@@ -3,12 +3,14 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import MissingArgument
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.arguments import pass_on, passes_all, rename_passed
-from preflight_analysis.rules.catalogued import as_sure, by_catalogue
+from preflight_analysis.rules.catalogued import by_catalogue, doubts_of_file
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, shown
+from preflight_analysis.rules.problems import problem_claim, problems_of, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -19,23 +21,35 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         hint = f"; the include passes '{near}'" if near else ""
         known = by_catalogue(context, problem.kind.file)
         message = f"required argument '{name}' of '{file}' is not passed{hint}{known}"
-        severity, confidence = as_sure(context, problem.kind.file, rule.severity)
-        if passes_all(context, problem.origin):
-            severity, message = "info", f"{message}; launch with {name}:=..."
+        can_be_given = passes_all(context, problem.origin)
+        if can_be_given:
+            message += f"; launch with {name}:=..."
         fixes = (
             *(rename_passed(context, problem.location, near, name) if near else ()),
             *pass_on(context, problem.location, name),
         )
-        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("argument", name),
+            kind="near" if near else "absent",
+            doubts=(
+                *doubts_of_file(context, problem.kind.file),
+                *doubts(NOT_SET=can_be_given and f"argument '{name}'"),
+            ),
+            candidates=(near,),
+            fixes=fixes,
+        )
 
 
 RULE = Rule(
     id="ARG002",
     name="missing-argument",
-    severity="error",
-    what="Checks for an `<include>` that does not pass an argument which the included file declares without "
-    "default. If `pass_all_args` leads there from the root, the command line can give the argument, and the finding "
-    "is information.",
+    effect="stops-launch",
+    kind="absent",
+    sometimes=(Reason.NOT_SET, Reason.OTHER_DISTRIBUTION),
+    what="Checks for an `<include>` that does not pass an argument which the included file declares without default.",
     why="`roslaunch` stops with `requires the 'name' arg to be set`.",
     example='<include file="$(find camera)/launch/camera.launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch">\n  <arg name="serial" value="7cd1"/>\n</include>',

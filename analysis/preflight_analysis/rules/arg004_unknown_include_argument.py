@@ -4,12 +4,14 @@ from collections import Counter
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import UnknownIncludeArgument
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.arguments import declarations, remove_at
-from preflight_analysis.rules.catalogued import as_sure, by_catalogue
+from preflight_analysis.rules.catalogued import by_catalogue, doubts_of_file
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -28,12 +30,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not problem.fatal:
             message = f"argument '{name}' has no effect: neither '{file}' nor its includes use it"
         message += did_you_mean(near) + by_catalogue(context, problem.kind.file)
-        severity: Severity = "error" if problem.fatal else "warning"
-        severity, confidence = as_sure(context, problem.kind.file, severity)
-        if confidence == "likely" and (near is None or unknown_of[problem.origin[:-1], problem.kind.file] > 1):
-            # Nobody makes several slips in one include: it is written for another version of the package.
-            severity, confidence = "info", "possible"
-        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
+        by_file = doubts_of_file(context, problem.kind.file)
+        # Nobody makes several slips in one include: it is written for another version of the package.
+        other = bool(by_file) and (near is None or unknown_of[problem.origin[:-1], problem.kind.file] > 1)
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("argument", name),
+            kind="near" if near else "absent",
+            effect="stops-launch" if problem.fatal else "no-effect",
+            doubts=(*by_file, *doubts(OTHER_VERSION=other)),
+            candidates=(near,),
+            fixes=fixes,
+        )
 
 
 def _is_needed(context: Context, file: str, name: str) -> bool:
@@ -46,11 +56,11 @@ def _is_needed(context: Context, file: str, name: str) -> bool:
 RULE = Rule(
     id="ARG004",
     name="unknown-include-argument",
-    severity="error",
-    what="Checks for an `<arg>` in an `<include>` that the included file does not declare. The finding names the "
-    "nearest declared argument. In ROS 2 there is no finding if an include that is not taken may use the argument. "
-    "For a package that is not installed the catalogue knows the launch files of one version. An argument that is "
-    "not a typo of those is information, because another version may declare it.",
+    effect="stops-launch",
+    kind="near",
+    sometimes=("no-effect", Reason.OTHER_DISTRIBUTION),
+    what="Checks for an `<arg>` in an `<include>` that the included file does not declare. In ROS 2 there is no "
+    "finding if an include that is not taken may use the argument.",
     why="`roslaunch` stops with `unused args`. `ros2 launch` reports nothing, and the included file uses its default.",
     example='<include file="camera.launch">\n  <arg name="frame" value="front"/>\n</include>',
     instead='<include file="camera.launch">\n  <arg name="frame_id" value="front"/>\n</include>',

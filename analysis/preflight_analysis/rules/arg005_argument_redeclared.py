@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import RedeclaredArgument
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import remove_at
 from preflight_analysis.rules.further_reading import ROSLAUNCH_ARG
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import problem_claim, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -15,15 +16,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         name, done = problem.kind.name, "passed" if problem.kind.passed else "declared"
         related = (Related(f"{done} here", problem.kind.first),)
         fixes = remove_at(context, problem.location, f'Remove the second <arg name="{name}">')
-        yield problem_finding(
-            rule, problem, f"duplicate argument '{name}': it is {done} twice", related=related, fixes=fixes
+        yield problem_claim(
+            rule,
+            problem,
+            f"duplicate argument '{name}': it is {done} twice",
+            subject=Subject("argument", name),
+            related=related,
+            fixes=fixes,
         )
 
 
 RULE = Rule(
     id="ARG005",
     name="argument-redeclared",
-    severity="error",
+    effect="stops-launch",
+    kind="duplicate",
     what="Checks for a second `<arg>` of the same name in one file or in one `<include>`.",
     why="`roslaunch` stops. Two declarations under conditions of which only one is true are valid.",
     example='<arg name="rate" default="10"/>\n<arg name="rate" default="20"/>',

@@ -10,6 +10,8 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import ArgumentNeeded, UndeclaredArgument
 from preflight_analysis.evaluation.tree import Include
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
@@ -73,27 +75,30 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             files = _passed_around(context, path)[name]
             if files and not any(tag.value("value") is not None for tag in tags):
-                yield rule.finding(
+                yield rule.claim(
                     f"argument '{name}' is never used in this file, but {_who_passes(files)}",
                     location,
-                    severity="info" if _is_left_out(context, path, name) else "warning",
+                    subject=Subject("argument", name),
+                    effect="no-effect",
+                    doubts=doubts(INTENDED=_is_left_out(context, path, name)),
                 )
                 continue
             remove = _removal(context, path, name, tags)
             below = _declared_below(context, path, name)
             if below is None:
                 message = f"unused argument '{name}': no tag of this file uses it"
-                yield rule.finding(message, location, fixes=remove)
+                yield rule.claim(message, location, subject=Subject("argument", name), fixes=remove)
             else:
                 included, its_declaration = below
                 # A value that no includer may give is for what this file does, whatever is called like it below.
                 own = any(tag.value("value") is not None for tag in tags)
                 passed = () if own else pass_on(context, included.origin[-1], name)
-                yield rule.finding(
+                yield rule.claim(
                     f"argument '{name}' has no effect: the include does not pass it to "
                     f"'{shown(str(included.path), context)}', which declares it too",
                     location,
-                    severity="warning",
+                    subject=Subject("argument", name),
+                    effect="no-effect",
                     related=(
                         Related("included here", included.file_location),
                         Related("declared here", its_declaration),
@@ -117,11 +122,13 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
             where = shown(str(include.path), context)
             left_out = _is_left_out(context, declared.file, name)
             in_common = len(_files_given(includer).get(name, ())) > 1
-            yield rule.finding(
+            yield rule.claim(
                 f"argument '{name}' has no effect: '{where}' "
                 + ("uses it only in a comment" if left_out else "declares it but never uses it"),
                 context.location(include.origin[-1].file, value.span),
-                severity="info" if left_out or in_common else "warning",
+                subject=Subject("argument", name),
+                effect="no-effect",
+                doubts=doubts(INTENDED=left_out, SHARED=in_common),
                 related=(Related("declared here", declared),),
             )
 
@@ -224,9 +231,10 @@ def _check_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         value = tags[0].value("name")
         if name in used or quoted != 1 or value is None or not value.is_literal:
             continue
-        yield rule.finding(
+        yield rule.claim(
             f"unused argument '{name}': nothing in this launch uses it",
             context.location(path, value.span),
+            subject=Subject("argument", name),
             fixes=_removal(context, path, name, tags),
         )
 
@@ -333,14 +341,11 @@ def _is_false(value: Value | None) -> bool:
 RULE = Rule(
     id="ARG008",
     name="argument-never-used",
-    severity="hint",
-    what="Checks for an `<arg>` that its own file does not use. A use is `$(arg ...)`, `$(eval ...)`, a text or "
-    'file with `subst_value="true"`, or an include with `pass_all_args`. Conditions make no difference. An '
-    "argument that an include passes is not reported, because the include fails without the declaration. In ROS 2 "
-    "included files see the argument, so only a launch of a single file is checked. An include that passes an "
-    "argument which the included file declares and never uses is a warning. If that include is in another launch of "
-    "the package, the finding is at the declaration. It is information if a comment of the file mentions the "
-    "argument, or if the includer passes the argument to several files.",
+    effect="style",
+    kind="unused",
+    sometimes=("no-effect", Reason.INTENDED, Reason.SHARED),
+    what="Checks for an `<arg>` that its own file does not use, whatever the conditions, and for an include that "
+    "passes such an argument. In ROS 2 included files see the argument: only what no file names is reported.",
     why="The argument has no effect when it is set on the command line. An argument is visible only in the file "
     "that declares it. An included file gets it only if the include passes it.",
     example='<arg name="rate" default="10"/>\n<include file="$(find camera)/launch/camera.launch"/>',

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchTree, Use
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, LAUNCH_DESIGN
 from preflight_analysis.rules.rule import Context, Rule
@@ -34,10 +35,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             passed, what = setter.file in below.get(file, set()), "an included file sets it"
         if passed:
             said.add(use.location)
-            yield rule.finding(
+            yield rule.claim(
                 f"argument '{use.name}' is overwritten with '{use.value}' (was '{own[key]}'): {what}, and it stays "
                 "set after the include; put the <include> into a <group>",
                 use.location,
+                subject=Subject("argument", use.name),
                 related=(Related("set here", setter),),
             )
 
@@ -61,9 +63,9 @@ def _below(tree: LaunchTree) -> Mapping[str, set[str]]:
 RULE = Rule(
     id="ARG010",
     name="overwritten-by-include",
-    severity="warning",
-    what="Checks for `$(var name)` where an earlier include has changed the value that this file gave the argument. "
-    "The include was passed a value for an argument of that name, or the included file sets it.",
+    effect="misbehaves",
+    kind="conflict",
+    what="Checks for `$(var name)` where an earlier include has changed the value that this file gave the argument.",
     why="In ROS 2 an included file shares the launch configurations of its includer. A value that is passed or set "
     "there stays set after the include. Only a `<group>` around the include restores the old values.",
     example='<arg name="name" default="robot"/>\n'

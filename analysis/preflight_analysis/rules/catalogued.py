@@ -1,4 +1,4 @@
-"""How sure findings are that rest on the catalogue: a package may be another on the robot."""
+"""Findings that rest on the catalogue: a package may be another on the robot."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
 from preflight_analysis.catalogue.renamed import other_names
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.doubt import Doubt, Reason
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
-from preflight_analysis.findings.policy import doubted
+from preflight_analysis.findings.claim import Subject, SubjectKind
+from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.rules.places import attribute_location
@@ -25,13 +25,16 @@ def is_of_distribution(context: Context, distro: str) -> bool:
     return context.environment.distro == distro
 
 
-def as_sure(context: Context, path: str, severity: Severity) -> tuple[Severity, Confidence]:
-    """Severity and confidence of what is otherwise certain and follows from what the file says: what the catalogue
-    says of another distribution is no more than a hint."""
+def catalogue_doubts(context: Context, distro: str) -> tuple[Doubt, ...]:
+    """Those about what the catalogue has of a distribution."""
+    same = is_of_distribution(context, distro)
+    return doubts(CATALOGUE=same, OTHER_DISTRIBUTION=not same)
+
+
+def doubts_of_file(context: Context, path: str) -> tuple[Doubt, ...]:
+    """Those about what follows from what a file says: none where it is here."""
     file = catalogued_file(path)
-    if file is None:
-        return severity, "certain"
-    return (severity, "likely") if is_of_distribution(context, file.distro) else ("hint", "possible")
+    return catalogue_doubts(context, file.distro) if file is not None else ()
 
 
 def by_catalogue(context: Context, path: str) -> str:
@@ -52,11 +55,6 @@ def robots_by_catalogue(context: Context) -> bool | None:
     return all(is_of_distribution(context, distro) for distro in distros) if distros else None
 
 
-def as_known(finding: Finding, *, likely: bool) -> Finding:
-    """A finding that rests on the catalogue: of another distribution it is information."""
-    return doubted(finding, Doubt(Reason.CATALOGUE if likely else Reason.OTHER_VERSION))
-
-
 def slips(rule: Rule, context: Context, node: LaunchNode, kind: str, attribute: str) -> Iterator[Finding]:
     """What is said of a node whose package is not here, and has none of that name but one of which it is a slip. `kind`
     is `executables` or `components`; `attribute` names it. Without a near one it may be of another version."""
@@ -68,13 +66,15 @@ def slips(rule: Rule, context: Context, node: LaunchNode, kind: str, attribute: 
     near = nearest(name, known)
     if near is None or not is_slip(name, near):
         return
-    same = is_of_distribution(context, distro)
     location = attribute_location(context, node, attribute)
-    yield rule.finding(
-        f"package '{node.package}' of {distro} has no {kind.removesuffix('s')} '{name}'{did_you_mean(near)}",
+    what: SubjectKind = "component" if kind == "components" else "executable"
+    yield rule.claim(
+        f"package '{node.package}' of {distro} has no {what} '{name}'{did_you_mean(near)}",
         location,
-        severity="warning" if same else "hint",
-        confidence="likely" if same else "possible",
+        subject=Subject(what, name),
+        kind="near",
+        doubts=(*catalogue_doubts(context, distro), *doubts(UNSEEN=True)),
+        candidates=(near,),
         related=include_chain(node.origin),
-        fixes=rename(context, location, name, near, preferred=same),
+        fixes=rename(context, location, name, near, preferred=is_of_distribution(context, distro)),
     )

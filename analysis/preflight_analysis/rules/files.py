@@ -13,8 +13,10 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
-from preflight_analysis.evaluation.problems import ParameterFileNotFound, UnreadablePath
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.evaluation.problems import ParameterFileNotFound, Problem, UnreadablePath
+from preflight_analysis.findings.claim import Effect, Subject
+from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.elsewhere import (
     absent_folder_of_others,
@@ -24,7 +26,7 @@ from preflight_analysis.rules.elsewhere import (
 )
 from preflight_analysis.rules.installed import lack_of_file, lack_of_made
 from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, replacement, shown
+from preflight_analysis.rules.problems import problem_claim, problems_of, quoted, rename, replacement, shown
 from preflight_analysis.rules.rule import Check, Context, Rule
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
@@ -55,31 +57,51 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 message += f"; did you mean '{shown(near, context)}'?"
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
-            severity: Severity | None = None if problem.fatal else "warning"
+            effect: Effect = "stops-launch" if problem.fatal else "misbehaves"
+            found: tuple[Doubt, ...] = ()
             if (other := in_namesake(context, path)) is not None:
-                severity, message = "warning", f"{message}; another package of that name has it in '{other}'"
-            elif says_not_set(path):
-                severity, message = "info", f"{message}; a part of the path has to be set"
-            elif near is None and is_ignored(context.disk, path):
-                severity, message = "info", f"{message}; git ignores it, so each machine may create it"
-            elif empty := _empty_arguments(context, path, problem.location, near):
-                severity, message = "info", f"{message}; set {empty}"
-            elif (absent := _absent_top(context, path)) is not None:
-                severity, message = "info", f"{message}; this machine has no '{absent}'"
-            elif is_below_own_home(context, path, problem.location.file):
-                severity, message = "info", f"{message}; it is looked for in the home folder"
-            elif _is_beside(context, problem.kind, problem.location) or (
-                near is None and depends_on_working_folder(context, problem.location)
-            ):
-                severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
-            elif depends_on_build(context, path, problem.location.file):
-                severity, message = "info", f"{message}; the path depends on where the package is installed"
-            elif near is None and (maker := _maker_of(context, path, problem.location)) is not None:
-                severity, message = "info", f"{message}; '{maker}' gets this launch file and may create it"
+                # Which of the two packages is found depends on the package path.
+                effect, message = "misbehaves", f"{message}; another package of that name has it in '{other}'"
+            else:
+                found, why = _doubts(context, problem, near)
+                message += why
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
-            yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
+            yield problem_claim(
+                rule,
+                problem,
+                message,
+                subject=Subject("file", path),
+                kind="near" if near is not None else "absent",
+                effect=effect,
+                doubts=found,
+                candidates=(near,),
+                fixes=fixes,
+                lack=lack,
+            )
 
     return check
+
+
+def _doubts(context: Context, problem: Problem[UnreadablePath], near: str | None) -> tuple[tuple[Doubt, ...], str]:
+    """Those about a file that is not there, and what the message says of them."""
+    path, place = problem.kind.path, problem.location
+    if says_not_set(path):
+        return doubts(NOT_SET=True), "; a part of the path has to be set"
+    if near is None and is_ignored(context.disk, path):
+        return doubts(MADE_ELSEWHERE=True), "; git ignores it, so each machine may create it"
+    if empty := _empty_arguments(context, path, place, near):
+        return doubts(NOT_SET=empty), f"; set {empty}"
+    if (absent := _absent_top(context, path)) is not None:
+        return doubts(ON_ROBOT=absent), f"; this machine has no '{absent}'"
+    if is_below_own_home(context, path, place.file):
+        return doubts(ON_ROBOT=True), "; it is looked for in the home folder"
+    if _is_beside(context, problem.kind, place) or (near is None and depends_on_working_folder(context, place)):
+        return doubts(WHERE_STARTED=True), "; the path depends on the folder where the launch is started"
+    if depends_on_build(context, path, place.file):
+        return doubts(PARTLY_READ=True), "; the path depends on where the package is installed"
+    if near is None and (maker := _maker_of(context, path, place)) is not None:
+        return doubts(MADE_ELSEWHERE=maker), f"; '{maker}' gets this launch file and may create it"
+    return (), ""
 
 
 def is_below_own_home(context: Context, path: str, file: str) -> bool:
@@ -184,11 +206,18 @@ def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for problem in problems_of(context, kind):
             path, reason = shown(problem.kind.path, context), problem.kind.reason
-            # ros2 launch warns of the file of a node and goes on: an argument may stay empty that users give one by.
-            severity: Severity | None = None if problem.fatal else "warning" if path else "info"
+            # ros2 launch warns of the file of a node and goes on.
+            effect: Effect = "stops-launch" if problem.fatal else "misbehaves"
             # The reason of a file goes on from its name, that of a path without one is a sentence.
             told = f"'{path}' {reason}" if path else f"'' cannot be read: {reason}"
-            yield problem_finding(rule, problem, f"{what} {told}", severity=severity)
+            yield problem_claim(
+                rule,
+                problem,
+                f"{what} {told}",
+                subject=Subject("file", problem.kind.path),
+                effect=effect,
+                doubts=doubts(NOT_SET=not problem.fatal and not path),
+            )
 
     return check
 

@@ -1,6 +1,7 @@
 """LCH003: the document element is not <launch>."""
 
 from preflight_analysis.evaluation.problems import NoLaunchElement
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.problems import check_problems
 from preflight_analysis.rules.rule import Rule
@@ -16,7 +17,8 @@ def _message(root: NoLaunchElement) -> str:
 RULE = Rule(
     id="LCH003",
     name="no-launch-element",
-    severity="error",
+    effect="stops-launch",
+    kind="invalid",
     what="Checks for a launch file without a `<launch>` element around its content, or with several.",
     why="`roslaunch` stops with `No root <launch> tag`.",
     example='<node pkg="camera" type="driver" name="camera"/>',
@@ -25,6 +27,6 @@ RULE = Rule(
         ROSLAUNCH,
         LAUNCH_XML_DESIGN,
     ),
-    check=check_problems(_message, NoLaunchElement),
+    check=check_problems(_message, lambda root: Subject("element", root.tag or ""), NoLaunchElement),
     problems=(NoLaunchElement,),
 )

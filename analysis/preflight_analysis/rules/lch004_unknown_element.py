@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import UnknownElement
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.installed import has_ros
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import fix, problem_finding, problems_of
+from preflight_analysis.rules.problems import fix, problem_claim, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -39,19 +41,27 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         launcher = _OF_OTHERS.get(name)
         if launcher is not None:
             message += f"; {launcher} reads it"
-        severity: Severity | None = (
-            "hint" if launcher is not None else "error" if problem.fatal and near is not None else None
+        # Another package may extend launch.
+        unseen = problem.fatal and near is None
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("element", name),
+            kind="near" if near is not None else "invalid",
+            effect="style" if launcher is not None else None,
+            doubts=doubts(UNSEEN=unseen, NOT_HERE="ROS" if unseen and not has_ros(context) else ""),
+            candidates=(near,),
+            fixes=fixes,
         )
-        confidence: Confidence = "certain"
-        if problem.fatal and near is None and not has_ros(context):
-            severity, confidence = "hint", "possible"
-        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
 
 
 RULE = Rule(
     id="LCH004",
     name="unknown-element",
-    severity="warning",
+    effect="no-effect",
+    kind="near",
+    sometimes=("stops-launch", "style", Reason.UNSEEN, Reason.NOT_HERE),
     what="Checks for an element that is not valid in its parent. The finding names the nearest valid element.",
     why="`roslaunch` prints one line among many others and skips the element with its content. The parameter is not "
     "set, or the node is not started. `ros2 launch` stops and starts nothing from the file. A package with the entry "

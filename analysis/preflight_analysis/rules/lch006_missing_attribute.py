@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import MissingAttribute
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.misspelt_attributes import misspelt
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -20,12 +21,22 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         needed = problem.kind.names
         message = _message(problem.kind)
         fixes: tuple[Fix, ...] = ()
+        candidates: tuple[str, ...] = ()
         if tag is not None:
             mistaken = misspelt(context, tag, problem.location.file, needed)
             if mistaken is not None:
+                candidates = (mistaken.meant,)
                 message += f"; did you mean it by '{mistaken.name}'?"
                 fixes = rename(context, mistaken.location, mistaken.name, mistaken.meant)
-        yield problem_finding(rule, problem, message, fixes=fixes)
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("attribute", needed[0]),
+            kind="near" if candidates else "absent",
+            candidates=candidates,
+            fixes=fixes,
+        )
 
 
 def _message(missing: MissingAttribute) -> str:
@@ -38,7 +49,8 @@ def _message(missing: MissingAttribute) -> str:
 RULE = Rule(
     id="LCH006",
     name="missing-attribute",
-    severity="error",
+    effect="stops-launch",
+    kind="absent",
     what="Checks for an element without a required attribute.",
     why="The launcher stops and starts nothing.",
     example='<node pkg="camera" name="camera"/>',

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import Problem
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.rules.further_reading import ROSLAUNCH, ROSLAUNCH_PARAM
-from preflight_analysis.rules.problems import all_of, fix, problem_finding, problems_of, quoted
+from preflight_analysis.rules.problems import all_of, fix, problem_claim, problems_of, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -17,7 +18,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
     for problem in problems_of(context, ConflictingAttributes):
         message = f"conflicting attributes {quoted(problem.kind.names)} of <{problem.kind.tag}>: only one is allowed"
-        yield problem_finding(rule, problem, message, fixes=_fixes(context, tags, problem))
+        about = Subject("attribute", problem.kind.names[0])
+        yield problem_claim(rule, problem, message, subject=about, fixes=_fixes(context, tags, problem))
 
 
 def _fixes(context: Context, tags: Tags, problem: Problem[ConflictingAttributes]) -> Iterator[Fix]:
@@ -35,7 +37,8 @@ def _fixes(context: Context, tags: Tags, problem: Problem[ConflictingAttributes]
 RULE = Rule(
     id="LCH007",
     name="conflicting-attributes",
-    severity="error",
+    effect="stops-launch",
+    kind="conflict",
     what="Checks for attributes of one element that exclude each other.",
     why="`roslaunch` does not choose between them. It stops.",
     example='<param name="rate" value="30" textfile="rate.txt"/>',

@@ -5,13 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, quoted, rename, shortened
+from preflight_analysis.rules.problems import problem_claim, problems_of, quoted, rename, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _TRUTH = {
@@ -34,8 +36,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message += f"; set argument {quoted(empty)}" if empty else did_you_mean(near)
         lack = lack_of_asked(context, problem.location.file) if not bad.value else None
         message += f"; environment variable '{lack.name}' is not set" if lack is not None else ""
-        severity: Severity | None = "info" if empty else None
-        yield problem_finding(rule, problem, message, severity=severity, fixes=fixes, lack=lack)
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("attribute", bad.attribute),
+            kind="near" if near and not empty else "invalid",
+            doubts=doubts(NOT_SET=empty and f"argument {quoted(empty)}"),
+            candidates=() if empty else (near,),
+            fixes=fixes,
+            lack=lack,
+        )
 
 
 def _meant(bad: BadValue) -> str | None:
@@ -51,10 +62,11 @@ def _meant(bad: BadValue) -> str | None:
 RULE = Rule(
     id="LCH008",
     name="bad-value",
-    severity="error",
-    what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is neither true "
-    "nor false, or an unknown choice. A value that is empty because an argument is empty makes the finding "
-    "information. One that is empty because an environment variable is not set counts as missing on this machine.",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=(Reason.NOT_SET, Reason.NOT_HERE),
+    what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is no truth "
+    "value, or an unknown choice.",
     why="The launcher stops and starts nothing. The value is checked after its substitutions are resolved.",
     example='<node pkg="camera" type="driver" name="camera" output="scren"/>',
     instead='<node pkg="camera" type="driver" name="camera" output="screen"/>',

@@ -7,12 +7,14 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import InvalidName, Problem
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.arguments import empty_arguments
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.problems import all_of, as_written, fix, problem_finding, problems_of, quoted, replacement
+from preflight_analysis.rules.problems import all_of, as_written, fix, problem_claim, problems_of, quoted, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -26,18 +28,27 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in first.values():
         invalid = problem.kind
         message = f"invalid {invalid.what} name '{as_written(invalid.name)}': {invalid.reason}"
-        severity: Severity | None = None if problem.fatal else "warning"
-        if empty := empty_arguments(context, problem.location):
-            severity, message = "info", f"{message}; set argument {quoted(empty)}"
-        yield problem_finding(rule, problem, message, severity=severity, fixes=_fixes(context, tags, problem))
+        empty = empty_arguments(context, problem.location)
+        if empty:
+            message += f"; set argument {quoted(empty)}"
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("name", as_written(invalid.name)),
+            effect="stops-launch" if problem.fatal else "misbehaves",
+            doubts=doubts(NOT_SET=empty and f"argument {quoted(empty)}"),
+            fixes=_fixes(context, tags, problem),
+        )
     # In ROS 1 roslaunch stops at such an argument.
     for path, launch_file in context.launch_files.items() if context.tree.ros.shared_configurations else ():
         for value in _with_blanks(launch_file):
             place, name = context.location(path, value.span), value.text.strip()
-            yield rule.finding(
+            yield rule.claim(
                 f"blanks around the argument name '{name}': launch takes them as a part of it, so '{name}' is not set",
                 place,
-                severity="warning",
+                subject=Subject("argument", name),
+                effect="misbehaves",
                 fixes=replacement(context, place, name, f"Replace '{value.text}' with '{name}'"),
             )
 
@@ -87,10 +98,11 @@ def _legal(written: str) -> str:
 RULE = Rule(
     id="LCH009",
     name="invalid-name",
-    severity="error",
-    what="Checks for the name of a node, argument, remap or parameter that ROS does not allow. If "
-    "the name has an argument in it that is empty, the finding is information. In ROS 2, blanks around the name of an "
-    "argument are a warning.",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=("misbehaves", Reason.NOT_SET),
+    what="Checks for the name of a node, argument, remap or parameter that ROS does not allow. In ROS 2 it checks "
+    "for blanks around an argument's name.",
     why="`roslaunch` stops. For other characters in a node's name it only warns, but other tools fail. Names start "
     "with a letter, or with `/` or `~` for a graph resource. They continue with letters, digits, `_` and `/`. The "
     "name of a node has no `/`: its namespace is the attribute `ns`.",

@@ -3,11 +3,13 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import AssumedVariable, UnsetVariable
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.installed import lack_of_variable, near_variable, unset_variable
 from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -15,27 +17,34 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, UnsetVariable):
         name, lack = problem.kind.name, lack_of_variable(context, problem.kind.name)
         near = near_variable(context, name) if lack is None else None
-        yield problem_finding(
+        yield problem_claim(
             rule,
             problem,
             f"environment variable '{name}' is not set{did_you_mean(near)}",
+            subject=Subject("variable", name),
+            kind="near" if near is not None else "absent",
+            candidates=(near,),
             fixes=rename(context, problem.location, name, near) if near is not None else (),
             lack=lack,
         )
     for assumed in problems_of(context, AssumedVariable):
         name = assumed.kind.name
         message = f"environment variable '{name}' is not set; '{assumed.kind.value}' is assumed"
-        yield problem_finding(rule, assumed, message, lack=unset_variable(context, name))
+        lack = unset_variable(context, name)
+        yield problem_claim(
+            rule, assumed, message, subject=Subject("variable", name), kind="absent", effect="misbehaves", lack=lack
+        )
 
 
 RULE = Rule(
     id="LCH012",
     name="environment-variable-unset",
-    severity="warning",
+    effect="stops-launch",
+    kind="near",
+    always=(Reason.UNSEEN,),
+    sometimes=("misbehaves", Reason.NOT_HERE),
     what="Checks for `$(env NAME)`, or `os.environ['NAME']` in a Python launch file, of a variable that is not set. "
-    "Its name is similar to one that is set. Any other variable may be set on the robot: this is a hint, listed with "
-    "what is missing on this machine. The value of `ROS_DISTRO` that a Python launch file gets without a sourced or "
-    "installed distribution is such a hint too.",
+    "Variables without a near name are listed with what is missing on this machine.",
     why="The launcher stops if the variable is not set.",
     example='<param name="map" value="$(env HOEM)/maps/office.yaml"/>',
     instead='<param name="map" value="$(env HOME)/maps/office.yaml"/>',

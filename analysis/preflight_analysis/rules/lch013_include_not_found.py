@@ -5,12 +5,14 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.catalogue.launches import launch_files_of
 from preflight_analysis.evaluation.problems import IncludeNotCatalogued, IncludeNotFound, LaunchedFileNotFound
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
-from preflight_analysis.rules.catalogued import is_of_distribution
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.rules.catalogued import catalogue_doubts, is_of_distribution
 from preflight_analysis.rules.files import check_missing_files
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _check_here = check_missing_files({IncludeNotFound: "included file", LaunchedFileNotFound: "launched file"})
@@ -28,11 +30,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if near is None:
             continue  # it may have been added, or taken away, by another version
         same = is_of_distribution(context, file.distro)
-        severity: Severity = "warning" if same else "hint"
-        confidence: Confidence = "likely" if same else "possible"
         fixes: tuple[Fix, ...] = rename(context, problem.location, name, near, preferred=same)
         message = f"package '{file.package}' of {file.distro} has no launch file '{file.below}'; did you mean '{near}'?"
-        yield problem_finding(rule, problem, message, severity=severity, confidence=confidence, fixes=fixes)
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("file", f"{file.package}/{file.below}"),
+            kind="near",
+            doubts=(*catalogue_doubts(context, file.distro), *doubts(UNSEEN=True)),
+            candidates=(near,),
+            fixes=fixes,
+        )
 
 
 def _near(name: str, others: Sequence[str]) -> str | None:
@@ -51,15 +60,21 @@ def _stem(name: str) -> str:
 RULE = Rule(
     id="LCH013",
     name="include-not-found",
-    severity="error",
-    what="Checks for an `<include>` of a file that does not exist. The finding names the nearest file of the folder "
-    "or package. If a process launches the file (`ros2 launch PACKAGE FILE`), the finding is a warning, because the "
-    "rest of the launch goes on. For a common package that is not installed, the catalogue knows its launch files. "
-    "A typo of those is a warning if the catalogue has the distribution in use, otherwise a hint. A file in a top "
-    "folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder where "
-    "the launch is started (`$(env PWD)`), and one that a node creates from the launch file, with its name in front. "
-    "The same applies to a path that a Python launch file makes by the place of an installed package, if the workspace "
-    "is not built.",
+    effect="stops-launch",
+    kind="absent",
+    sometimes=(
+        "misbehaves",
+        Reason.NOT_HERE,
+        Reason.NOT_SET,
+        Reason.MADE_ELSEWHERE,
+        Reason.ON_ROBOT,
+        Reason.WHERE_STARTED,
+        Reason.PARTLY_READ,
+        Reason.OTHER_DISTRIBUTION,
+        Reason.UNSEEN,
+    ),
+    what="Checks for an `<include>` of a file that does not exist, and for a process that launches one (`ros2 launch "
+    "PACKAGE FILE`). The catalogue knows the launch files of common packages that are not installed.",
     why="`roslaunch` stops and starts nothing, at any depth of includes. A relative path starts at the folder in "
     "which `roslaunch` runs, not at the folder of the file.",
     example='<include file="$(find camera)/launch/camrea.launch"/>',

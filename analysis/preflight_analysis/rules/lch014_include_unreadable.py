@@ -1,6 +1,7 @@
 """LCH014: an include of a file that cannot be read as a launch file."""
 
 from preflight_analysis.evaluation.problems import UnreadableInclude
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.rules.files import check_unreadable_files
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.rule import Rule
@@ -8,9 +9,11 @@ from preflight_analysis.rules.rule import Rule
 RULE = Rule(
     id="LCH014",
     name="include-unreadable",
-    severity="error",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=("misbehaves", Reason.NOT_SET),
     what="Checks for an `<include>` of a file that exists but cannot be used: a folder, binary, too large, without "
-    "permission, or no launch file. For a launch of ROS 1, a file of a ROS 2 package in the language of ROS 2 is none.",
+    "permission, or no launch file.",
     why="The launcher stops and starts nothing.",
     example='<include file="$(find camera)/launch"/>',
     instead='<include file="$(find camera)/launch/camera.launch"/>',

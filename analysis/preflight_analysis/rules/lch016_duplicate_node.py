@@ -9,10 +9,12 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.ros2.spawners import is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.rules.catalogued import as_sure
+from preflight_analysis.rules.catalogued import doubts_of_file
 from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, NAMES, NODES
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, rename, shortened
+from preflight_analysis.rules.problems import include_chain, problem_claim, problems_of, rename, shortened
 from preflight_analysis.rules.python_branches import made_twice
 from preflight_analysis.rules.python_description import always_twice
 from preflight_analysis.rules.rule import Context, Rule
@@ -23,16 +25,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, DuplicateNode):
         name, first = problem.kind.name, problem.kind.first
         if first is None:
-            yield problem_finding(rule, problem, f"duplicate node name '{name}': roslaunch's own node has this name")
+            message = f"duplicate node name '{name}': roslaunch's own node has this name"
+            yield problem_claim(rule, problem, message, subject=Subject("node", name))
             continue
         location = problem.location
         twice = first.file == location.file and first.span.start <= location.span.start < first.span.end
         how = ": this file is included twice; give each include its own namespace" if twice else ""
-        yield problem_finding(
+        yield problem_claim(
             rule,
             problem,
             f"duplicate node name '{name}'{how}",
-            severity=None if problem.fatal else as_sure(context, first.file, "warning")[0],
+            subject=Subject("node", name),
+            effect="stops-launch" if problem.fatal else "misbehaves",
+            doubts=() if problem.fatal else doubts_of_file(context, first.file),
             related=(Related("the first node", first),),
             fixes=() if twice else _fixes(context, name, location, taken),
         )
@@ -52,10 +57,11 @@ def _unrun(rule: Rule, context: Context, taken: set[str]) -> Iterator[Finding]:
             places = [
                 context.location(path, node.tag.span_of("name") or node.action.kind_span) for node in (first, second)
             ]
-            yield rule.finding(
+            yield rule.claim(
                 f"duplicate node name '{second.name}'",
                 places[1],
-                severity="warning",
+                subject=Subject("node", second.name),
+                effect="misbehaves",
                 related=(Related("the first node", places[0]), *include_chain(second.origin)),
                 fixes=_fixes(context, second.name, places[1], taken),
             )
@@ -76,21 +82,27 @@ def _of_own_names(rule: Rule, context: Context) -> Iterator[Finding]:
         simulated = next((each for each in (node, other) if each.kind == "simulated"), None)
         if simulated is not None and other is not node:
             started = other if simulated is node else node
-            yield rule.finding(
+            yield rule.claim(
                 f"duplicate node name '{node.name}': the simulator creates it for the robot, and this launch starts it",
                 context.location(started.location.file, started.action.kind_span),
-                severity="warning",
-                confidence="likely",
+                subject=Subject("node", node.name),
+                effect="misbehaves",
+                doubts=doubts(LIBRARY=True),
                 related=(Related("the robot is spawned here", simulated.location), *include_chain(started.origin)),
             )
         elif node.name_from_code and other is not node:
-            # A spawner ends when the controller is there.
-            brief = is_spawner(node) or is_spawner(other)
-            yield rule.finding(
+            yield rule.claim(
                 f"duplicate node name '{node.name}': {_why(node)}",
                 context.location(node.location.file, node.action.kind_span),
-                severity="info" if node.name_inferred or brief else "warning",
-                confidence="possible" if node.name_inferred or other.name_inferred else "likely",
+                subject=Subject("node", node.name),
+                effect="misbehaves",
+                doubts=doubts(
+                    ASSUMED=node.name_inferred,
+                    NOT_ANALYSED=other.name if other.name_inferred else "",
+                    # A spawner ends when the controller is there.
+                    INTENDED=is_spawner(node) or is_spawner(other),
+                    FROM_SOURCE=True,
+                ),
                 related=(Related("the first node", other.location), *include_chain(node.origin)),
             )
 
@@ -102,11 +114,12 @@ def _in_branches(rule: Rule, context: Context) -> Iterator[Finding]:
         for twice in made_twice(launch_file) if launch_file.is_python else ():
             first, second = context.location(path, twice.first), context.location(path, twice.second)
             if said.isdisjoint((first, second)):
-                yield rule.finding(
+                yield rule.claim(
                     f"duplicate node name if `{shortened(twice.test)}`",
                     second,
-                    severity="info",
-                    confidence="possible",
+                    subject=Subject("node"),
+                    effect="misbehaves",
+                    doubts=doubts(OTHER_ARGUMENTS=True),
                     related=(Related("the other node", first),),
                 )
 
@@ -130,11 +143,19 @@ def _fixes(context: Context, full: str, location: Location, taken: set[str]) -> 
 RULE = Rule(
     id="LCH016",
     name="duplicate-node",
-    severity="error",
+    effect="stops-launch",
+    kind="duplicate",
+    sometimes=(
+        "misbehaves",
+        Reason.OTHER_DISTRIBUTION,
+        Reason.LIBRARY,
+        Reason.ASSUMED,
+        Reason.NOT_ANALYSED,
+        Reason.INTENDED,
+        Reason.FROM_SOURCE,
+    ),
     what="Checks for a second node with the same full name, in this file or an included file. In a Python launch "
-    "file it also checks nodes that are made in one branch of an `if`. Those findings are information. So is a spawner "
-    "that has the name of its controller, because it ends. A controller manager that the launch starts beside that of "
-    "the simulator is a warning.",
+    "file it also checks nodes that are made in one branch of an `if`.",
     why="`roslaunch` stops, because names are unique in the graph: a second node shuts the first one down. `ros2 "
     "launch` only warns. Both nodes run, and a request to one of them by its name may reach the other. `ros2 "
     "launch` does not notice duplicate names of nodes without a `name`.",

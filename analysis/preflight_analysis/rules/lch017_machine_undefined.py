@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import UndefinedMachine
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ROSLAUNCH_MACHINE
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 
@@ -15,15 +16,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         name = problem.kind.name
         near = nearest(name, problem.kind.declared)
         fixes = rename(context, problem.location, name, near) if near else ()
-        yield problem_finding(rule, problem, f"machine '{name}' is not declared{did_you_mean(near)}", fixes=fixes)
+        yield problem_claim(
+            rule,
+            problem,
+            f"machine '{name}' is not declared{did_you_mean(near)}",
+            subject=Subject("machine", name),
+            kind="near" if near else "absent",
+            candidates=(near,),
+            fixes=fixes,
+        )
 
 
 RULE = Rule(
     id="LCH017",
     name="machine-undefined",
-    severity="error",
-    what="Checks for a `machine` attribute that names no earlier `<machine>`. The finding names the nearest "
-    "declared machine.",
+    effect="stops-launch",
+    kind="near",
+    what="Checks for a `machine` attribute that names no earlier `<machine>`. The finding names the nearest declared "
+    "machine.",
     why="`roslaunch` stops and starts nothing.",
     example='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="bse"/>',
     instead='<machine name="base" address="10.0.0.2"/>\n<node pkg="p" type="t" name="n" machine="base"/>',

@@ -10,9 +10,10 @@ from preflight_analysis.evaluation.problems import (
     UnexpandedEntity,
     ValueTooLong,
 )
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Effect, Subject
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, RUNS, SECURITY
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import problem_claim, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 _KINDS = (CommandNotRun, LaunchFileNotRun, EvalNotAllowed, UnexpandedEntity, NestedTooDeeply, ValueTooLong)
@@ -20,34 +21,39 @@ _KINDS = (CommandNotRun, LaunchFileNotRun, EvalNotAllowed, UnexpandedEntity, Nes
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, *_KINDS):
-        severity: Severity | None = None
+        effect: Effect = "note"
         match problem.kind:
             case CommandNotRun(reason):
                 # Every robot description is made by a command: said, but quietly.
-                severity = "hint"
+                effect, about = "style", Subject("command")
                 message = f"command not run, its value is unresolved: {reason}"
             case LaunchFileNotRun(name, reason):
-                severity = "hint"
+                effect, about = "style", Subject("file")
                 message = f"{name} is not run, read statically; results may be incomplete: {reason}"
             case EvalNotAllowed(expression, reason):
+                about = Subject("expression")
                 message = f"$(eval {expression}) is not evaluated: {reason}"
             case UnexpandedEntity(name):
+                about = Subject("text", name)
                 message = f"entity '&{name};' is not expanded; values that use it are unresolved"
             case NestedTooDeeply(limit):
+                about = Subject("element")
                 message = f"more than {limit} of groups and includes; the rest is not evaluated"
             case ValueTooLong(limit):
+                about = Subject("text")
                 message = f"value of more than {limit}; it is unresolved"
-        yield problem_finding(rule, problem, message, severity=severity)
+        yield problem_claim(rule, problem, message, subject=about, effect=effect)
 
 
 RULE = Rule(
     id="LCH018",
     name="not-evaluated",
-    severity="info",
-    what="Checks for parts of a launch file that are valid but not evaluated here. These are the `command` of a "
-    "parameter that was not run, and an `$(eval ...)` that needs Python itself. Others are a Python launch file "
-    "that was not run, an entity of a DOCTYPE, and endless includes and groups. A command that was not run is a "
-    "hint. Commands run in the sandbox if the workspace is trusted.",
+    effect="note",
+    kind="invalid",
+    sometimes=("style",),
+    what="Checks for parts of a launch file that are valid but not evaluated here: commands, expressions of Python, "
+    "Python launch files, entities, and endless includes. Commands run in the sandbox if the workspace is "
+    "trusted.",
     why="Values that depend on it are unresolved, and nodes that need them are not run. Findings that need the "
     "values are missing. It is not an error of the file.",
     example='<param name="letters" value="$(eval [letter for letter in name])"/>',

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import compress
 
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import annotated_groups, read_annotation
 from preflight_analysis.graph.bare_types import KINDS, full_types, is_bare
@@ -21,7 +22,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in compress(nodes, context.kept.each(_is_malformed, nodes)):
         for problem in read_annotation(node.action)[1]:
             location = context.location(node.location.file, problem.span)
-            yield rule.finding(problem.message, location, related=include_chain(node.origin))
+            about = Subject("annotation")
+            yield rule.claim(problem.message, location, subject=about, related=include_chain(node.origin))
     for node in compress(nodes, context.kept.each(_has_bare_types, nodes)):
         yield from _bare_types(rule, node, context)
 
@@ -34,10 +36,12 @@ def _bare_types(rule: Rule, node: LaunchNode, context: Context) -> Iterator[Find
                 continue
             full = full_types(context.disk, context.environment, context.tree.generation, KINDS[what.role], what.type)
             place = context.location(node.location.file, item.values["type"])
-            yield rule.finding(
+            yield rule.claim(
                 f"type '{what.type}' has no package; {_meant(full)}",
                 place,
-                severity="info",
+                subject=Subject("type", what.type),
+                effect="note",
+                candidates=full,
                 related=include_chain(node.origin),
                 fixes=[
                     fix for each in full[:_MOST] for fix in rename(context, place, what.type, each, preferred=False)
@@ -66,11 +70,11 @@ def _is_malformed(node: LaunchNode) -> bool:
 RULE = Rule(
     id="LCH020",
     name="malformed-annotation",
-    severity="warning",
-    what=(
-        "Checks for invalid `<topics>`, `<services>`, `<params>` and `<actions>` in the annotations of a node. A type "
-        "without a package is information: the type of the one known package that has it is used, or any type."
-    ),
+    effect="no-effect",
+    kind="invalid",
+    sometimes=("note",),
+    what="Checks for invalid `<topics>`, `<services>`, `<params>` and `<actions>` in the annotations of a node, and "
+    "for types without a package.",
     why="The invalid item is ignored. Findings that depend on the annotation are missing or wrong.",
     example='<!-- <topics><topic name="chatter" type="std_msgs/String" class="publish"/></topics> -->',
     instead='<!-- <topics><topic name="chatter" type="std_msgs/String" class="pub"/></topics> -->',

@@ -13,7 +13,7 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.writer import replaced
 from preflight_analysis.evaluation.problems import Problem
-from preflight_analysis.findings.claim import Effect, Kind, Subject, Text
+from preflight_analysis.findings.claim import Effect, Kind, Subject, Text, say
 from preflight_analysis.findings.doubt import Doubt
 from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
 from preflight_analysis.findings.lack import Lack
@@ -103,13 +103,16 @@ def problem_claim(
     )
 
 
-def check_problems(message: Callable[[K], str], *kinds: type[K], quotes: bool = False) -> Check:
+def check_problems(
+    said: Callable[[K], str], subject: Callable[[K], Subject], *kinds: type[K], quotes: bool = False
+) -> Check:
     """The check of a rule that has nothing to do but to word its problems, or what a parser says of them (`quotes`)."""
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for problem in problems_of(context, *kinds):
-            said = message(problem.kind)
-            yield problem_finding(rule, problem, said, quoted=said if quotes else "")
+            words = said(problem.kind)
+            text = say("{quoted}", quoted=words) if quotes else words
+            yield problem_claim(rule, problem, text, subject=subject(problem.kind))
 
     return check
 

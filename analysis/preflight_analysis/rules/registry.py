@@ -29,7 +29,7 @@ from preflight_analysis.findings.instances import together, with_others
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
-from preflight_analysis.rules.catalogued import as_known, robots_by_catalogue
+from preflight_analysis.rules.catalogued import robots_by_catalogue
 from preflight_analysis.rules.problems import include_chain, numbered_problems
 from preflight_analysis.rules.rule import Context, Rule, in_root
 
@@ -134,7 +134,8 @@ def _found(context: Context, rules: Iterable[Rule], failures: list[Failure] | No
         ran.append(rule.id)
         said = _in_order(rule, found, context) if rule.problems else found
         if rule.of_robot and by_catalogue is not None:
-            said = [as_known(each, likely=by_catalogue) for each in said]
+            of_catalogue = Doubt(Reason.CATALOGUE if by_catalogue else Reason.OTHER_VERSION)
+            said = [doubted(each, of_catalogue) for each in said]
         findings += filter(None, map(partial(_outside, rule), said)) if catalogued else said
     return findings, ran
 
