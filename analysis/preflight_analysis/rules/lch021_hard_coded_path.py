@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Effect, Subject
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.rules.files import in_named_package
@@ -36,11 +37,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             in_package = _in_package(text, context)
             fixes = replacement(context, location, in_package, f"Replace with '{in_package}'") if in_package else ()
             instead = f"; use '{in_package}'" if in_package else ""
-            yield rule.finding(
+            yield rule.claim(
                 f"hard-coded path '{text}': {what}{instead}",
                 location,
-                severity=_severity(context, text, in_package),
-                confidence="certain" if in_package else "likely",
+                subject=Subject("file", text),
+                effect=_effect(context, text, in_package),
+                candidates=(in_package,),
                 fixes=fixes,
             )
 
@@ -89,11 +91,11 @@ def _what(text: str, context: Context) -> str | None:
     return None
 
 
-def _severity(context: Context, text: str, in_package: str | None) -> Severity | None:
+def _effect(context: Context, text: str, in_package: str | None) -> Effect:
     """A path that leads nowhere, to a file that is here under another path, is more than a matter of style."""
     if in_package and not context.disk.exists(text):
-        return "warning"
-    return "hint" if _ROS.match(text) else None
+        return "misbehaves"
+    return "style" if _ROS.match(text) else "note"
 
 
 def _in_package(text: str, context: Context) -> str | None:
@@ -111,10 +113,11 @@ def _in_package(text: str, context: Context) -> str | None:
 RULE = Rule(
     id="LCH021",
     name="hard-coded-path",
-    severity="info",
-    what="Checks for absolute paths in the values of attributes: below `/home/...`, `/Users/...`, `/root`, `~user` "
-    "and `/opt/ros/...`, or into the workspace. If the file belongs to a known package, the finding gives the path "
-    "with `$(find ...)` (ROS 2: `$(find-pkg-share ...)`). `<machine>` is not checked.",
+    effect="note",
+    kind="invalid",
+    sometimes=("misbehaves", "style"),
+    what="Checks for absolute paths in attributes: below `/home/...`, `/Users/...`, `/root`, `~user` and "
+    "`/opt/ros/...`, or into the workspace. `<machine>` is not checked.",
     why="The launch file works only for its author. For other users, on the robot, or after an upgrade of ROS the "
     "path does not exist.",
     example='<param name="model" value="/home/bob/catkin_ws/src/vision/models/net.pt"/>',

@@ -11,7 +11,9 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import Value
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, NAMES
 from preflight_analysis.rules.places import attribute_location
@@ -30,7 +32,8 @@ class _Reference:
     written: str
     what: str
     origin: Origin
-    confidence: Confidence = "likely"
+    may_be_text: bool = False
+    """Whether it need not be a name at all."""
     arguments_of: LaunchNode | None = None
     """The node in whose arguments it is: `origin` ends at that node's tag then, until it is `_placed`."""
 
@@ -57,11 +60,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         seen.add(reference.origin[-1])
         plain = _plain_name(node) or ""
-        yield rule.finding(
+        yield rule.claim(
             f"{reference.what} '{reference.written}' has no effect: the name of node '{plain}' is $(anon ...), which "
             "differs at every launch",
             reference.origin[-1],
-            confidence=reference.confidence,
+            subject=Subject("node", plain),
+            doubts=doubts(DEPENDS=reference.may_be_text),
             related=(
                 Related("the anonymous name", attribute_location(context, node, "name")),
                 *include_chain(reference.origin),
@@ -111,7 +115,7 @@ def _references_of_node(node: LaunchNode, hit: re.Pattern[str]) -> tuple[_Refere
                 found.append(_Reference(names.resolve(side, node.name), side, "the name", origin))
     if node.args and hit.search(node.args):
         for name in _GRAPH_NAME.findall(node.args):
-            found.append(_Reference(name, name, "in the arguments,", node.origin, "possible", node))
+            found.append(_Reference(name, name, "in the arguments,", node.origin, may_be_text=True, arguments_of=node))
     return tuple(found)
 
 
@@ -123,7 +127,7 @@ def _references_of_param(param: Param, hit: re.Pattern[str]) -> tuple[_Reference
         found.append(_Reference(param.name, param.name, "parameter", (*param.origin[:-1], place)))
     value = param.value
     if isinstance(value, str) and value.startswith("/") and hit.search(value) and names.is_legal(value):
-        found.append(_Reference(value, value, "the name", param.origin, "possible"))
+        found.append(_Reference(value, value, "the name", param.origin, may_be_text=True))
     return tuple(found)
 
 
@@ -138,7 +142,9 @@ def _fixes(context: Context, node: LaunchNode, reference: _Reference, plain: str
 RULE = Rule(
     id="LCH022",
     name="anonymous-name-referred-to",
-    severity="warning",
+    effect="no-effect",
+    kind="absent",
+    sometimes=(Reason.DEPENDS,),
     what="Checks for a remap, parameter or argument that refers to a node by the name inside its `$(anon name)`.",
     why="`$(anon talker)` is not `talker`. roslaunch appends the host name, the process id and a random number. A "
     "reference to `/talker` never reaches this node.",

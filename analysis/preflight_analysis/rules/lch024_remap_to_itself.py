@@ -7,6 +7,7 @@ from itertools import chain
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.idle_remaps import idle_remaps
@@ -26,9 +27,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for location, remaps in reached.items():
         remap = remaps[0]
         if location not in explained and all(map(_idle, remaps)) and _literal(context, remap):
-            yield rule.finding(
+            yield rule.claim(
                 f"remap of '{remap.source}' to itself has no effect",
                 location,
+                subject=Subject("remap", remap.source),
                 related=include_chain(remap.origin),
                 fixes=removal(context, tags, location, "Remove this remap"),
             )
@@ -52,9 +54,10 @@ def _literal(context: Context, remap: Remap) -> bool:
 RULE = Rule(
     id="LCH024",
     name="remap-to-itself",
-    severity="hint",
-    what="Checks for a `<remap>` with the same name on both sides. A remap that undoes an outer remap has an "
-    "effect, and is not reported. A remap whose names come from arguments is not reported either.",
+    effect="style",
+    kind="unused",
+    what="Checks for a `<remap>` with the same name on both sides. A remap that undoes an outer remap, or whose "
+    "names come from arguments, is not reported.",
     why="The remap has no effect. Either it is left over, or one of the names is wrong.",
     example='<remap from="scan" to="scan"/>',
     instead='<remap from="scan" to="front/scan"/>',

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Use
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import ROSLAUNCH_ARCHITECTURE, ROSLAUNCH_GROUP
 from preflight_analysis.rules.problems import include_chain, quoted
@@ -28,9 +29,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         below = [param for param in tree.all_params if param.name.startswith(namespace)]
         if not below and not _lives(tree, namespace):
             if tree.complete:
-                yield rule.finding(
+                yield rule.claim(
                     f"clear_params has no effect: this launch has no node or parameter below '{namespace}'",
                     use.location,
+                    subject=Subject("name", namespace),
                     related=include_chain(use.origin),
                 )
             continue
@@ -59,9 +61,10 @@ def _set_before(context: Context, origin: Origin, use: Use, tag: Tag) -> bool:
 def _kept(rule: Rule, use: Use, namespace: str, kept: list[Param]) -> Finding:
     shown = quoted(param.name for param in kept[:3])
     more = f" and {len(kept) - 3} more" if len(kept) > 3 else ""
-    return rule.finding(
+    return rule.claim(
         f"clear_params does not clear {shown}{more}: roslaunch deletes '{namespace}' before it sets any parameter",
         use.location,
+        subject=Subject("name", namespace),
         related=(*(Related(f"'{p.name}' is set here", p.origin[-1]) for p in kept[:3]), *include_chain(use.origin)),
     )
 
@@ -69,9 +72,10 @@ def _kept(rule: Rule, use: Use, namespace: str, kept: list[Param]) -> Finding:
 RULE = Rule(
     id="LCH026",
     name="dead-clear-params",
-    severity="hint",
-    what="Checks for `clear_params` of a group or include whose namespace has neither a node nor a parameter in the "
-    "launch. It also checks for a namespace in which an earlier tag of the same launch sets parameters: those stay.",
+    effect="style",
+    kind="unused",
+    what="Checks for `clear_params` of a group or include whose namespace has neither a node nor a parameter. It "
+    "also checks for a namespace in which an earlier tag of the launch sets parameters: those stay.",
     why="`roslaunch` deletes the namespaces first, whatever the order of the tags, and sets parameters afterwards. "
     "It deletes only what an earlier launch has left behind.",
     example='<param name="/arm/rate" value="10"/>\n<group ns="arm" clear_params="true">\n'

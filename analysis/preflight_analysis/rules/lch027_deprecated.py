@@ -8,7 +8,9 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
@@ -33,12 +35,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for tag in old.masters:
             fixes = fix("Remove <master>", document.once(writer_of).remove(tag), preferred=True)
             message = "<master> is removed since ROS Fuerte; roslaunch ignores it"
-            yield rule.finding(message, context.location(path, tag.head_span), severity="info", fixes=fixes)
+            place = context.location(path, tag.head_span)
+            yield rule.claim(message, place, subject=Subject("element"), effect="note", fixes=fixes)
         if context.environment.distro not in _OLDER_THAN_MELODIC:
             for span in old.in_order:
                 place = context.location(path, span)
                 message = "'--inorder' has no effect: xacro processes in order since ROS Melodic"
-                yield rule.finding(message, place, fixes=replacement(context, place, "", "Remove --inorder"))
+                fixes = replacement(context, place, "", "Remove --inorder")
+                yield rule.claim(message, place, subject=Subject("command", "--inorder"), fixes=fixes)
 
 
 def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -49,19 +53,26 @@ def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
         if included is not None and deprecated is not None and deprecated.text:
             message = f"'{shown(included.path, context)}' is deprecated: {deprecated.text}"
             place = (*include.origin[:-1], include.file_location)
-            yield rule.finding(message, include.file_location, severity="warning", related=include_chain(place))
+            yield rule.claim(
+                message,
+                include.file_location,
+                subject=Subject("file", included.path),
+                effect="misbehaves",
+                related=include_chain(place),
+            )
 
 
 def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in filter(None, context.kept.each(_of_retired_package, context.tree.nodes)):
         for each in retired(context, node):
-            missing: Severity = "error" if has_ros(context) else "warning"
-            severity: Severity | None = missing if each.removed else None
             attribute = "type" if each.executable is not None else "pkg"
-            yield rule.finding(
+            yield rule.claim(
                 each.message,
                 attribute_location(context, node, attribute),
-                severity=severity,
+                subject=Subject("executable", f"{each.package}/{each.executable or ''}"),
+                kind="absent" if each.removed else None,
+                effect="stops-node" if each.removed else None,
+                doubts=doubts(UNSEEN=each.removed and not has_ros(context)),
                 related=include_chain(node.origin),
                 fixes=_fixes(context, each, node),
             )
@@ -97,11 +108,12 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
             param = context.tree.params.get(name)
             if param is None:
                 continue
-            yield rule.finding(
+            yield rule.claim(
                 "parameter 'use_gui' of joint_state_publisher is removed since ROS Noetic; for the window run "
                 "joint_state_publisher_gui of the package of that name",
                 param.place,
-                severity="warning" if param.value is True else None,
+                subject=Subject("parameter", param.name),
+                effect="no-effect" if param.value is True else None,
                 related=include_chain(param.origin),
             )
 
@@ -138,11 +150,11 @@ def _xacro_commands(action: Action) -> tuple[Value, ...]:
 RULE = Rule(
     id="LCH027",
     name="deprecated",
-    severity="hint",
-    what="Checks for what is deprecated or removed: an include of a file with `<launch deprecated=...>`, the "
-    "defunct `<master>`, and nodes, parameters and options of older releases of ROS. These are `state_publisher`, "
-    "the package `gazebo`, `static_transform_publisher` of tf, `robot_pose_ekf`, `use_gui` of "
-    "`joint_state_publisher`, and `--inorder` of xacro.",
+    effect="style",
+    kind="invalid",
+    sometimes=("stops-node", "misbehaves", "no-effect", "note", Reason.UNSEEN),
+    what="Checks for what is deprecated or removed: files with `<launch deprecated=...>`, `<master>`, and nodes, "
+    "parameters and options of older releases of ROS.",
     why="A deprecated part disappears with an upgrade. A removed node does not start.",
     example='<node pkg="robot_state_publisher" type="state_publisher" name="state_publisher"/>',
     instead='<node pkg="robot_state_publisher" type="robot_state_publisher" name="state_publisher"/>',

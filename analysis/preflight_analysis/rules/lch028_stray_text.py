@@ -7,11 +7,12 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.xml import XmlWriter
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XML_STANDARD
-from preflight_analysis.rules.problems import fix, problem_finding, problems_of, shortened
+from preflight_analysis.rules.problems import fix, problem_claim, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 
 _TAG = re.compile(rf"(?:{'|'.join(TAGS)})(?=\s+[\w-]+\s*=)")
@@ -28,9 +29,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         lost = not put and _TAG.match(text) is not None
         hint = "; insert the missing '<'" if lost else ""
         message = f"stray text '{shortened(text)}' in <{problem.kind.tag}>: roslaunch ignores it{hint}"
-        severity: Severity | None = "hint" if put or _REMARK.match(text) else None
         fixes = _fixes(context, location, text, lost)
-        yield problem_finding(rule, problem, message, severity=severity, fixes=fixes)
+        yield problem_claim(
+            rule,
+            problem,
+            message,
+            subject=Subject("text", text),
+            effect="style" if put or _REMARK.match(text) else None,
+            fixes=fixes,
+        )
 
 
 def _fixes(context: Context, place: Location, text: str, lost: bool) -> Iterator[Fix]:
@@ -47,9 +54,10 @@ def _fixes(context: Context, place: Location, text: str, lost: bool) -> Iterator
 RULE = Rule(
     id="LCH028",
     name="stray-text",
-    severity="warning",
-    what="Checks for text between the tags of a launch file, outside of `<rosparam>`. A remark, or the content of a "
-    "`CDATA` section, is a hint.",
+    effect="no-effect",
+    kind="invalid",
+    sometimes=("style",),
+    what="Checks for text between the tags of a launch file, outside of `<rosparam>`.",
     why="XML allows such text and `roslaunch` ignores it. It may be a tag that has lost its `<`, so that a "
     "node is never started. It may also be a comment without its marks.",
     example='<launch>\n  node pkg="rospy_tutorials" type="talker" name="talker"/>\n</launch>',

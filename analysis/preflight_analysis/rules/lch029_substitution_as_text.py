@@ -14,6 +14,8 @@ from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
@@ -22,7 +24,7 @@ from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.rules.arguments import declarations
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import fix, include_chain, problem_finding, problems_of, replacement
+from preflight_analysis.rules.problems import fix, include_chain, problem_claim, problems_of, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tags
 
@@ -48,7 +50,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         exact = context.text(place) == text
         fixes = replacement(context, place, meant, f"Replace with '{meant}'") if exact else ()
         message = f"'{text}' is not a substitution; roslaunch treats it as literal text; did you mean '{meant}'?"
-        yield problem_finding(rule, problem, message, fixes=fixes)
+        yield problem_claim(
+            rule, problem, message, subject=Subject("substitution", text), candidates=(meant,), fixes=fixes
+        )
     of_tree = context.kept.each(_left_in, context.tree.all_params)
     of_nodes = context.kept.each(_left_in_node, context.tree.nodes)
     tags = Tags(context.launch_files)
@@ -103,13 +107,13 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     own = None if idle or ament else _program_that_replaces(context, param)
     handed_on = not ament and _is_for_a_program_outside(context, param)
     related = (Related("the file is loaded here", where),) if place.file != where.file else ()
-    yield rule.finding(
+    yield rule.claim(
         f"'{text}' is treated as literal text; substitutions in YAML need {needed}"
         + ("; the launch file does not declare the argument" if unknown else "")
         + (f"; '{own}' of the package looks for such text itself" if own is not None else ""),
         place,
-        severity="info" if idle or own is not None or handed_on else None,
-        confidence="likely",
+        subject=Subject("substitution", text),
+        doubts=doubts(SHARED=idle, INTENDED=own is not None or handed_on, FROM_SOURCE=True),
         related=(*related, *include_chain((*param.origin[:-1], place))),
         fixes=fixes,
     )
@@ -167,12 +171,11 @@ def _place(context: Context, param: Param, text: str) -> Location:
 RULE = Rule(
     id="LCH029",
     name="substitution-as-text",
-    severity="warning",
-    what="Checks for text that looks like a substitution and is none, because of a missing end or other brackets. "
-    "It also checks substitutions in the YAML of a `<rosparam>` without `subst_value` (ROS 1). In ROS 2 it checks "
-    "those in a parameter file of a node without `allow_substs`. In the section of a controller that no node of the "
-    "launch starts, the finding is information. It is so too if a source of the node's package looks for `$(find ...)` "
-    "itself.",
+    effect="misbehaves",
+    kind="invalid",
+    sometimes=(Reason.SHARED, Reason.INTENDED, Reason.FROM_SOURCE),
+    what="Checks for text that looks like a substitution and is none. It also checks substitutions in YAML without "
+    "`subst_value` (ROS 1), and in parameter files without `allow_substs` (ROS 2).",
     why="`roslaunch` replaces only the form `$(arg name)` and treats everything else as literal text. The topic or "
     "file is then named `$(arg name`. In YAML both launchers replace substitutions only on request.",
     example='<param name="port" value="${arg port}"/>\n<rosparam>rate: $(arg rate)</rosparam>',

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import CLOCK
 from preflight_analysis.rules.problems import include_chain
@@ -49,12 +51,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     # Beside it another launch of the project runs the simulator, or plays a recording.
     beside = in_workspace(context, _OF_TIME)
-    yield rule.finding(
+    yield rule.claim(
         "'/use_sim_time' is true, but '/clock' has no publisher in this launch; time does not advance without a "
         "simulator or `rosbag play --clock`",
         param.place,
-        severity="info" if beside else None,
-        confidence="likely" if graph.complete else "possible",
+        subject=Subject("topic", "/clock"),
+        doubts=doubts(OUTSIDE=beside, NOT_ANALYSED=not graph.complete),
         related=include_chain(param.origin),
     )
 
@@ -68,10 +70,12 @@ def publishes_clock(node: LaunchNode) -> bool:
 RULE = Rule(
     id="LCH030",
     name="use-sim-time-without-clock",
-    severity="warning",
+    effect="misbehaves",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED),
     what="Checks for `/use_sim_time` set to true in a launch where all nodes are known and none publishes `/clock`. "
-    "Simulators, `rosbag play --clock` and `/clock` among `external.topics` count as publishers. The finding is "
-    "information if another launch file of the workspace starts a simulator or plays a recording with its time.",
+    "Simulators, `rosbag play --clock` and `/clock` among `external.topics` count as publishers.",
     why="Timers, rates and timeouts wait for the first message on `/clock`. The nodes start and do nothing, without "
     "an error.",
     example='<param name="/use_sim_time" value="true"/>\n<node pkg="amcl" type="amcl" name="amcl"/>',

@@ -9,6 +9,8 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.rules.containers_elsewhere import called_elsewhere
@@ -73,11 +75,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         fixes = rename(context, location, load.written, near[0]) if near else ()
         if elsewhere is not None:
             fixes = rename(context, location, names.leaf(load.written), elsewhere)
-        yield rule.finding(
+        yield rule.claim(
             message + did_you_mean(near[0] if near else None),
             location,
-            severity="warning" if near and tree.complete and not given else "info" if elsewhere else "hint",
-            confidence="likely" if near else "possible",
+            subject=Subject("container", full),
+            kind="near" if near or elsewhere else "absent",
+            doubts=doubts(
+                OUTSIDE=elsewhere is not None,
+                OTHER_LAUNCH=elsewhere is None and not (near and tree.complete and not given),
+            ),
+            candidates=near or (elsewhere,),
             related=(*related, *include_chain(load.node.origin)),
             fixes=fixes,
         )
@@ -85,10 +92,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _into_a_nodelet(rule: Rule, context: Context, load: _Load, taken: LaunchNode) -> Finding:
     manager = _words(taken)[2]
-    return rule.finding(
+    return rule.claim(
         f"'{load.full}' is a nodelet, not a manager, and loads nothing{did_you_mean(manager)}",
         load.location,
-        confidence="likely",
+        subject=Subject("container", load.full),
+        kind="near",
+        candidates=(manager,),
         related=(Related("the nodelet of that name", taken.location), *include_chain(load.node.origin)),
         fixes=rename(context, load.location, load.written, manager),
     )
@@ -166,13 +175,12 @@ def _may_load(node: LaunchNode) -> bool:
 RULE = Rule(
     id="LCH034",
     name="container-not-found",
-    severity="warning",
-    what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is not a node of the launch (ROS "
-    "2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager. The finding is a warning in four "
-    "cases: a container of that name is in another namespace, a container has a similar name, a single container has "
-    "no components, or the target is a nodelet itself. It is information if two or more other launch files of the "
-    "package load into a container of a similar name. Otherwise it is a hint, because another launch may start the "
-    "container.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OUTSIDE, Reason.OTHER_LAUNCH),
+    what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is not a node of the launch "
+    "(ROS 2). In ROS 1 it checks for a nodelet whose manager is no nodelet manager.",
     why="The loader waits for the service of the container without end, and loads nothing.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'

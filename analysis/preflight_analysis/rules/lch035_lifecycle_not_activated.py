@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import LIFECYCLE, LIFECYCLE_MANAGER
 from preflight_analysis.rules.lifecycle import inactive_nodes
@@ -20,11 +22,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, lacking in waiting:
         who = f"the lifecycle managers manage {quoted(list(managed)[:3])}" if managed else "no lifecycle manager"
         what = "never activated" if lacking == "configure" else "configured, but never activated"
-        yield rule.finding(
-            f"lifecycle node {node.name} is {what} by this launch ({who}); it does nothing until it is active",
+        yield rule.claim(
+            say(
+                "lifecycle node {node} is {what} by this launch ({who}); it does nothing until it is active",
+                node=node.name,
+                what=what,
+                who=who,
+            ),
             attribute_location(context, node, "exec"),
-            severity="warning" if beside and known else None,
-            confidence="likely" if context.tree.complete else "possible",
+            subject=Subject("node", node.name),
+            doubts=doubts(OUTSIDE=not known, INTENDED=not beside),
             related=include_chain(node.origin),
         )
 
@@ -37,12 +44,11 @@ def _is_known(interface: Interface) -> bool:
 RULE = Rule(
     id="LCH035",
     name="lifecycle-not-activated",
-    severity="info",
-    what="Checks for a lifecycle node, such as a server of Nav2, that no `lifecycle_manager` of the launch has in "
-    "its `node_names`, and that neither its own code nor an event of the launch (`ChangeState`, `LifecycleTransition`) "
-    "nor `ros2 lifecycle set` activates. A node that is only configured is reported, too. The finding is a warning if "
-    "all nodes are known and none can activate another. Other commands and functions of the launch file may activate "
-    "the node: then there is no finding.",
+    effect="misbehaves",
+    kind="unreachable",
+    sometimes=(Reason.OUTSIDE, Reason.INTENDED),
+    what="Checks for a lifecycle node that no `lifecycle_manager` of the launch has in its `node_names`. Neither its "
+    "own code, nor an event of the launch, nor `ros2 lifecycle set` activates it.",
     why="A lifecycle node starts unconfigured. It publishes nothing and serves only its state changes until another "
     "node configures and activates it.",
     example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>',

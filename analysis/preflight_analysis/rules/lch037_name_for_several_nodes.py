@@ -4,6 +4,8 @@ from collections.abc import Iterable, Iterator
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.further_reading import COMMAND_LINE, REMAPPING_DESIGN
 from preflight_analysis.rules.problems import all_of, fix, include_chain, quoted
@@ -27,12 +29,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         same = len(spaces) < len(renamed)
         what = f"duplicate node name '{node.name}'" if same and len(spaces) == 1 else f"each is '{leaf}'"
         seen = interface.source == "trace" and not interface.stand_ins
-        yield rule.finding(
+        yield rule.claim(
             f"'name' renames all nodes of this process ({quoted(given)}): {what}; to rename one, remap "
             f"'{given[0]}:__node' to '{leaf}' instead",
             context.location(node.location.file, span),
-            severity=None if same and not inferred else "info",
-            confidence="possible" if inferred else "certain" if seen else "likely",
+            subject=Subject("node", node.name),
+            effect=None if same else "note",
+            doubts=doubts(ASSUMED=inferred, FROM_SOURCE=not seen),
             related=include_chain(node.origin),
             fixes=_renamed_alone(context, node, given, leaf),
         )
@@ -51,9 +54,11 @@ def _renamed_alone(context: Context, node: LaunchNode, given: Iterable[str], nam
 RULE = Rule(
     id="LCH037",
     name="name-for-several-nodes",
-    severity="warning",
+    effect="misbehaves",
+    kind="duplicate",
+    sometimes=("note", Reason.ASSUMED, Reason.FROM_SOURCE),
     what="Checks for a `name` in the tag of a process with several nodes, if a run or the source shows that they "
-    "take it. Nodes that always choose their own name are not counted.",
+    "take it.",
     why="launch passes `-r __node:=name` to the process, which renames each of its nodes. They share one name, and "
     "their parameters, services and lifecycles collide. Sections of parameter files with their original names apply "
     "to none of them.",

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.python import PythonWriter
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
@@ -30,10 +32,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for first, span, parts in _glued(launch_file) if launch_file.is_python else ():
             edits = PythonWriter(launch_file.document).insert_comma(first)
-            yield rule.finding(
+            yield rule.claim(
                 f"missing comma: {quoted(parts)} are one string '{shortened(''.join(parts))}'",
                 context.location(path, span),
-                confidence="likely",
+                subject=Subject("text", "".join(parts)),
                 fixes=fix("Insert ','", edits, preferred=True),
             )
     if not context.tree.ros.own_parameters:
@@ -49,10 +51,10 @@ def _in_parameters(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         kind = _BOOLEAN if any(isinstance(item, bool) for item in value) else _NUMBER
         if all(len(text.split()) > 1 and all(map(kind.fullmatch, text.split())) for text in texts):
-            yield rule.finding(
+            yield rule.claim(
                 f"{quoted(texts[0].split())} are one text in '{param.name}': the comma between them is missing",
                 param.place,
-                confidence="likely",
+                subject=Subject("parameter", param.name),
                 related=include_chain(param.origin),
             )
 
@@ -107,11 +109,11 @@ def _strings(text: str) -> list[tuple[int, str]]:
 RULE = Rule(
     id="LCH039",
     name="glued-strings",
-    severity="warning",
-    what="Checks for two strings in a list of a Python launch file without a comma between them: Python joins them "
-    "to one string. Lists of texts with blanks, and strings that are split at a `/` or another sign, are not "
-    "reported. In ROS 1 it checks lists of parameter files, if one text consists of values like the others (`true "
-    "false`).",
+    effect="misbehaves",
+    kind="invalid",
+    always=(Reason.FROM_SOURCE,),
+    what="Checks for two strings in a list of a Python launch file without a comma between them. In ROS 1 it checks "
+    "lists of parameter files, if one text consists of values like the others (`true false`).",
     why="The list contains neither of the two. An argument refuses a value that seems to be among its choices, or a "
     "node gets one word instead of two.",
     example='choices=["diff_drive" "mecanum", "tricycle"]',

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
@@ -26,7 +27,7 @@ _TAKE_LISTS = {
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for span, message in _no_lists(launch_file) if launch_file.is_python else ():
-            yield rule.finding(message, context.location(path, span))
+            yield rule.claim(message, context.location(path, span), subject=Subject("keyword", message))
 
 
 @memoize_by_file
@@ -57,7 +58,8 @@ def _problem(given: ast.expr) -> str | None:
 RULE = Rule(
     id="LCH041",
     name="arguments-no-list",
-    severity="error",
+    effect="stops-node",
+    kind="invalid",
     what="Checks for `arguments=` of a node, or `cmd=` of a process, that is a single text or a set instead of a list.",
     why="launch iterates over the value. Each character of a text becomes one argument. The items of a set come in "
     "another order at each launch, so options lose their values.",

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from preflight_analysis.documents.span import Span
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
@@ -36,11 +38,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for lost in _lost(launch_file) if launch_file.is_python else ():
             message = f"'{lost.name}' is assigned again before its first use: this {lost.kind} is never launched"
-            yield rule.finding(
+            yield rule.claim(
                 f"{message}, the next one is the same" if lost.same else message,
                 context.location(path, lost.span),
-                severity="hint" if lost.same else None,
-                confidence="likely",
+                subject=Subject("variable", lost.name),
+                kind="duplicate" if lost.same else None,
+                effect="style" if lost.same else None,
                 related=(Related("assigned again here", context.location(path, lost.again)),),
             )
 
@@ -83,9 +86,12 @@ def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) ->
 RULE = Rule(
     id="LCH042",
     name="action-lost",
-    severity="warning",
-    what="Checks for an action in a Python launch file that is assigned to a variable and never used. The same "
-    "block assigns another action to that variable before. If both are the same, the finding is a hint.",
+    effect="no-effect",
+    kind="unreachable",
+    always=(Reason.FROM_SOURCE,),
+    sometimes=("style",),
+    what="Checks for an action in a Python launch file that is assigned to a variable which gets another action "
+    "before its first use.",
     why="The name was copied with the line. The first node, process or include is never launched, and no tool "
     "reports it.",
     example='front = Node(package="camera", executable="front")\nfront = Node(package="camera", executable="rear")',

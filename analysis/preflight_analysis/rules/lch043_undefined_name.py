@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.evaluation.problems import PythonException
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
@@ -35,11 +37,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for name, near, span, called in _undefined(launch_file) if launch_file.is_python and path not in raised else ():
             edits = PythonWriter(launch_file.document).rename_names(name, near) if near is not None else ()
-            yield rule.finding(
+            yield rule.claim(
                 f"undefined name '{name}'; this line raises a NameError{did_you_mean(near)}",
                 context.location(path, span),
-                severity="error" if called else "info",
-                confidence="likely",
+                subject=Subject("name", name),
+                kind="absent" if near is None else "near",
+                effect=None if called else "note",
+                candidates=(near,),
                 fixes=fix(f"Replace '{name}' with '{near}'", edits, preferred=True),
             )
 
@@ -128,11 +132,12 @@ def _notes(node: ast.AST) -> Iterator[ast.AST]:
 RULE = Rule(
     id="LCH043",
     name="undefined-name",
-    severity="error",
+    effect="stops-launch",
+    kind="absent",
+    always=(Reason.FROM_SOURCE,),
+    sometimes=("note",),
     what="Checks for a name in a Python launch file that the file does not define, import or take as an argument. "
-    "Branches that this launch does not take are checked too. Files that import `*` or create names at run time are "
-    "not checked, nor are annotations. In a function that the file does not use, or under "
-    "`if __name__ == '__main__'`, the finding is information.",
+    "Files that import `*` or create names at run time are not checked.",
     why="Python raises a NameError only when it executes the line. The launch fails for users who set the argument "
     "that leads there.",
     example="def setup(context):\n    gz_paused = LaunchConfiguration('paused').perform(context)\n"
