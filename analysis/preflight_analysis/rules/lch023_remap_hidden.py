@@ -9,7 +9,8 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
-from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
@@ -64,10 +65,15 @@ def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:
             if place in seen:
                 continue
             seen.add(place)
-            yield rule.finding(
-                f"overridden: '{winner.source}' is already remapped to '{winner.target}', and the first remap "
-                f"applies to {node.name}",
+            yield rule.claim(
+                say(
+                    "overridden: '{source}' is already remapped to '{target}', and the first remap applies to {node}",
+                    source=winner.source,
+                    target=winner.target,
+                    node=node.name,
+                ),
                 place,
+                subject=Subject("remap", remap.source),
                 related=(Related("the remap that applies", winner.origin[-1]), *include_chain(remap.origin)),
             )
 
@@ -99,10 +105,12 @@ def _hidden(rule: Rule, context: Context, tags: Tags, old: Remap, winner: Remap)
         message = f"duplicate remap of '{old.source}' to '{old.target}'"
     else:
         message = f"overridden: '{old.source}' is remapped again to '{winner.target}' below"
-    yield rule.finding(
+    yield rule.claim(
         message,
         old.origin[-1],
-        severity="hint" if same else None,
+        subject=Subject("remap", old.source),
+        kind="duplicate" if same else None,
+        effect="style" if same else None,
         related=(Related("the remap that applies", winner.origin[-1]), *include_chain(old.origin)),
         fixes=removal(context, tags, old.origin[-1], "Remove this remap"),
     )
@@ -118,12 +126,20 @@ def _same_name(rule: Rule, node: LaunchNode) -> Iterator[Finding]:
     for name, remaps in by_name.items():
         for first, second in pairwise(remaps):
             targets = {names.resolve(remap.target, node.name) for remap in (first, second)}
-            severity: Severity | None = "hint" if len(targets) == 1 else None
-            outcome = "" if len(targets) == 1 else "; the client library decides which one applies"
-            yield rule.finding(
-                f"duplicate remap: '{first.source}' and '{second.source}' are both '{name}' for {node.name}{outcome}",
+            same = len(targets) == 1
+            yield rule.claim(
+                say(
+                    "duplicate remap: '{first}' and '{second}' are both '{name}' for {node}{outcome}",
+                    first=first.source,
+                    second=second.source,
+                    name=name,
+                    node=node.name,
+                    outcome="" if same else "; the client library decides which one applies",
+                ),
                 second.source_location,
-                severity=severity,
+                subject=Subject("remap", name),
+                kind="duplicate" if same else None,
+                effect="style" if same else None,
                 related=(
                     Related(f"'{first.source}' is remapped here", first.source_location),
                     *include_chain(second.origin),
@@ -134,12 +150,11 @@ def _same_name(rule: Rule, node: LaunchNode) -> Iterator[Finding]:
 RULE = Rule(
     id="LCH023",
     name="remap-hidden",
-    severity="warning",
-    what="Checks for a remap that another remap of the same name overrides. In ROS 1 a later remap in the same "
-    "scope overrides an earlier one. Two remaps of a node that resolve to the same name (`scan` and `/scan` in the "
-    "root namespace) are reported too. A remap around a node that the node's own remap overrides is a default, and "
-    "is not reported. Remaps under a condition are not reported. In ROS 2 the first remap applies, and "
-    "`<set_remap>` comes before those of the node.",
+    effect="no-effect",
+    kind="conflict",
+    sometimes=("style",),
+    what="Checks for a remap that another remap of the same name overrides: in ROS 1 a later one, in ROS 2 an "
+    "earlier one. Remaps under a condition, and defaults that a node's own remap overrides, are not reported.",
     why="Only one of several remaps of a name applies, and the launcher does not report the others. `roslaunch` "
     "uses the last one. It passes remaps that are written differently to the node, and its client library chooses "
     "one. ROS 2 uses the first one.",

@@ -10,6 +10,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import expression, values
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
@@ -63,10 +64,11 @@ def _constant(
     if result == (attribute.name == "if"):
         return
     because = f", because argument '{used[0]}' is '{fixed[used[0]].value}'" if used else ""
-    yield rule.finding(
+    yield rule.claim(
         f"<{action.kind}> is never evaluated: '{attribute.name}' is always {str(result).lower()}{because}",
         launch_file.document.location(value.span),
-        severity="hint",
+        subject=Subject("condition", used[0] if used else ""),
+        effect="style",
         related=(Related(f"'{name}' is fixed here", fixed[name].location) for name in used),
     )
 
@@ -156,10 +158,11 @@ def _unequal(rule: Rule, launch_file: LaunchFile, value: Value) -> Iterator[Find
         kind = "a boolean" if isinstance(converted, bool) else "a number"
         written = ast.get_source_segment(source, constant) or ""
         plain = str(converted).lower() if isinstance(converted, bool) else str(converted)
-        yield rule.finding(
+        yield rule.claim(
             f"'{ast.get_source_segment(source, node)}' is {outcome} true: $(eval) converts argument '{name}' to {kind} "
             f"before the comparison; compare with {plain}",
             launch_file.document.location(value.span),
+            subject=Subject("condition", name),
             fixes=_compare_with(launch_file, value, written, plain),
         )
 
@@ -186,11 +189,11 @@ def _compare_with(launch_file: LaunchFile, value: Value, written: str, plain: st
 RULE = Rule(
     id="LCH025",
     name="condition-never-true",
-    severity="warning",
-    what="Checks for a comparison in the `$(eval ...)` of a condition that has the same result for all arguments. "
-    "This is an argument that is compared with the text `'true'` or `'1'`. A tag that is never evaluated for "
-    'another reason is a hint, because it is often used to disable a tag. Such reasons are a literal `if="false"` '
-    "and an argument that the file fixes.",
+    effect="misbehaves",
+    kind="unreachable",
+    sometimes=("style",),
+    what="Checks for a comparison in the `$(eval ...)` of a condition that has the same result for all arguments. It "
+    "also checks for other tags that are never evaluated.",
     why="`$(eval)` converts the text `true` of an argument to `True`, and `1` to a number, before the comparison. "
     "The value never equals the text `'true'`, and the tag is never evaluated.",
     example="<group if=\"$(eval arg('simulation') == 'true')\">\n</group>",

@@ -12,7 +12,9 @@ from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.loaded_modules import is_loaded_module
 from preflight_analysis.evaluation.problems import PythonException, PythonImportFailed
-from preflight_analysis.findings.finding import Confidence, Finding, Related, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.asked_variables import lack_of_asked
 from preflight_analysis.rules.elsewhere import (
@@ -25,7 +27,7 @@ from preflight_analysis.rules.files import is_below_own_home, nearest_file
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
 from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import fix, problem_finding, problems_of, shown
+from preflight_analysis.rules.problems import fix, problem_claim, problems_of, shown
 from preflight_analysis.rules.python_imports import absent_module, slip_of
 from preflight_analysis.rules.python_keywords import UnknownKeyword, unknown_keywords
 from preflight_analysis.rules.rule import Context, Rule
@@ -57,20 +59,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, wrong_keywords in wrong_calls.items():
         yield from (_keyword(rule, context, path, each) for each in wrong_keywords)
     for problem in problems_of(context, PythonException, PythonImportFailed):
-        severity: Severity | None = None
+        why: tuple[Doubt, ...] = ()
         lack: Lack | None = None
-        confidence: Confidence = "certain"
         related: tuple[Related, ...] = ()
         match problem.kind:
             case PythonImportFailed() as failed:
                 # Which modules there are is a matter of the environment, which may be another one when it is launched.
                 there = has_ros(context)
                 wrong = _wrong_import(context, failed, problem.location.file)
+                about = Subject("module", failed.module)
                 if wrong is not None:
-                    message, severity, confidence = wrong
+                    message, why = wrong
                 else:
                     lack = _lack(context, failed)
-                    severity, confidence = ("warning", "likely") if there else ("info", "possible")
+                    why = doubts(UNSEEN=there, PARTLY_READ=not there)
                     message = _import(context, failed, problem.location.file, has_ros=there)
             case PythonException("InvalidPythonLaunchFileError") if is_loaded_module(
                 context.disk, problem.location.file
@@ -85,49 +87,45 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near, missing = _near_file(context, error, said), _missing_file(error, said)
+                about = Subject("file", missing or absent or "")
                 top = absent_top(context.disk, missing) if missing is not None else None
                 if near is not None:
                     message += f"; did you mean '{shown(near, context)}'?"
                     if top is None and missing is not None:
-                        severity = "info" if is_below_own_home(context, missing, problem.location.file) else None
+                        why = doubts(ON_ROBOT=is_below_own_home(context, missing, problem.location.file))
                 elif missing is not None:
                     lack = lack_of_made(context, missing) or lack_of_file(context, missing)
                     top = top if lack is None else None
                 else:
                     top = absent_top_said(context.disk, f"{error}: {said}")
                 if top is not None:
-                    severity, message = "info", f"{message}; this machine has no '{top}'"
+                    why, message = doubts(ON_ROBOT=top), f"{message}; this machine has no '{top}'"
                 elif near is not None or missing is not None:
                     pass
                 elif absent and not _is_of_workspace(context, absent):
-                    severity, message = "info", f"{message}; this machine has no '{absent}'"
+                    why, message = doubts(ON_ROBOT=absent), f"{message}; this machine has no '{absent}'"
                 elif absent and (lack := lack_of_made(context, absent)) is not None:
                     pass
                 elif absent and _is_of_build(context, absent, problem.location.file):
-                    severity = "info"
+                    why = doubts(MADE_ELSEWHERE=True)
                     message += f"; the build of the package may create '{shown(absent, context)}'"
                 elif error == "SystemExit":
-                    severity, message = "info", _ends_itself(context, frames, said)
+                    why, message = doubts(INTENDED=True), _ends_itself(context, frames, said)
                 elif "NoneType" in said and (lack := lack_of_asked(context, problem.location.file)) is not None:
                     message += f"; environment variable '{lack.name}' is not set"
                 elif (name := _empty_argument(context, frames, said)) is not None:
-                    severity, message = "info", f"{message}; argument '{name}' is empty"
+                    why, message = doubts(NOT_SET=f"argument '{name}'"), f"{message}; argument '{name}' is empty"
                 elif _refuses_the_machine(context, frames):
-                    severity, message = "info", f"{message}; the file asks for the machine that it runs on"
+                    why = doubts(ON_ROBOT=True)
+                    message += "; the file asks for the machine that it runs on"
                 elif _takes_installed_path_apart(context, error, frames):
-                    severity, confidence = "info", "possible"
+                    why = doubts(PARTLY_READ=True)
                     message += "; the file takes the path of an installed package apart, and the workspace is not built"
                 places = (place for place in reversed(frames) if place != problem.location)
                 related = tuple(Related("in the traceback", place) for place in places)
-        yield problem_finding(
-            rule,
-            problem,
-            message,
-            severity=severity,
-            confidence=confidence,
-            related=related,
-            lack=lack,
-            quoted=message,
+        said_by_python = say("{quoted}", quoted=message)
+        yield problem_claim(
+            rule, problem, said_by_python, subject=about, effect=rule.effect, doubts=why, related=related, lack=lack
         )
 
 
@@ -139,7 +137,15 @@ def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> 
         edits = writer.rename_keyword(wrong.span, wrong.near)
     fixes = fix(f"Replace '{wrong.name}' with '{wrong.near}'", edits, preferred=True)
     message = f"{wrong.made}() got an unexpected keyword argument '{wrong.name}'{did_you_mean(wrong.near)}"
-    return rule.finding(message, place, fixes=fixes, stops_launch=True)
+    return rule.claim(
+        message,
+        place,
+        subject=Subject("keyword", wrong.name),
+        kind="invalid" if wrong.near is None else "near",
+        candidates=(wrong.near,),
+        fixes=fixes,
+        stops_launch=True,
+    )
 
 
 def _ends_itself(context: Context, frames: tuple[Location, ...], said: str) -> str:
@@ -208,24 +214,22 @@ def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:
     return lack_of_module(context, failed.module)
 
 
-def _wrong_import(
-    context: Context, failed: PythonImportFailed, file: str
-) -> tuple[str, Severity | None, Confidence] | None:
+def _wrong_import(context: Context, failed: PythonImportFailed, file: str) -> tuple[str, tuple[Doubt, ...]] | None:
     """What is said of an import that no machine can do; None of one that a machine may."""
     name = _NO_NAME.search(failed.message)
     if name is not None and _LAUNCH.match(name[2].partition(".")[0]):
         top = name[2].partition(".")[0]
         instead = f"it is in '{failed.instead}'" if failed.instead else f"no {top} of {_RELEASES} has it"
-        return f"cannot import name '{name[1]}' from '{name[2]}'; {instead}", None, "certain"
+        return f"cannot import name '{name[1]}' from '{name[2]}'; {instead}", ()
     if name is None and not failed.message.startswith("No module named"):
         return None
     absent = absent_module(context, file, f"{name[2]}:{name[1]}" if name is not None else failed.module)
     if absent is not None:
-        return f"module '{absent[0]}' does not exist{did_you_mean(absent[1])}", None, "certain"
+        return f"module '{absent[0]}' does not exist{did_you_mean(absent[1])}", ()
     near = slip_of(context, file, failed.module) if name is None else None
     if near is None:
         return None
-    return f"module '{failed.module}' is not known{did_you_mean(near)}", "warning", "likely"
+    return f"module '{failed.module}' is not known{did_you_mean(near)}", doubts(UNSEEN=True)
 
 
 def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros: bool) -> str:
@@ -251,14 +255,19 @@ def _import(context: Context, failed: PythonImportFailed, file: str, *, has_ros:
 RULE = Rule(
     id="LCH032",
     name="python-launch-file-fails",
-    severity="error",
-    what="Checks for the line of a Python launch file that raises an exception. It may raise while it is loaded, in "
-    "`generate_launch_description`, in an `OpaqueFunction`, or in an action with invalid arguments. Such files run "
-    "in the sandbox if the workspace is trusted. Nothing that they describe is started. The finding is "
-    "information if the file itself raises because a program, or a file outside of the workspace, is missing, or "
-    "because an argument is empty that its message names. So is one that asks for the machine (a container, a device), "
-    "and one that raises because a file is missing which the build of its package may create. The same applies to a "
-    "file that calls `exit()`, and to one that looks for `/install/` in the path of a package that is not built.",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=(
+        Reason.NOT_HERE,
+        Reason.ON_ROBOT,
+        Reason.MADE_ELSEWHERE,
+        Reason.NOT_SET,
+        Reason.PARTLY_READ,
+        Reason.INTENDED,
+        Reason.UNSEEN,
+    ),
+    what="Checks for the line of a Python launch file that raises an exception, in `generate_launch_description`, an "
+    "`OpaqueFunction`, or an action. Such files run in the sandbox if the workspace is trusted.",
     why="`ros2 launch` stops at this line. Earlier actions may be running already.",
     example='Node(package="camera", node_executable="driver")',
     instead='Node(package="camera", executable="driver")',

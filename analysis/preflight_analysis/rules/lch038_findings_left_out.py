@@ -31,8 +31,8 @@ RULE = Rule(
     effect="misbehaves",
     kind="duplicate",
     sometimes=("stops-launch", "stops-node", "breaks", "no-effect", "note", "style"),
-    what=f"Checks for files with more than {MAX_FINDINGS:,} findings, and counts those that are not shown. It is as severe "
-    "as the most severe of them.",
+    what=f"Checks for files with more than {MAX_FINDINGS:,} findings, and counts those that are not shown. It is as "
+    "severe as the most severe of them.",
     why="A faulty program, or an attack on the editor, makes a file with so many findings. Showing them takes "
     "longer than finding them.",
     example="<launch>\n  <!-- ten thousand unknown tags -->\n</launch>",

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.python import PythonWriter
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
@@ -28,7 +30,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for span, message, instead in _asked(launch_file) if launch_file.is_python else ():
             known = context.environment.distro not in _BEFORE
             fixes = _fixes(launch_file, span, instead) if instead is not None and known else ()
-            yield rule.finding(message, context.location(path, span), confidence="likely", fixes=fixes)
+            yield rule.claim(message, context.location(path, span), subject=Subject("expression", message), fixes=fixes)
 
 
 class _Instead(NamedTuple):
@@ -203,10 +205,11 @@ class _Finder(ast.NodeVisitor):
 RULE = Rule(
     id="LCH040",
     name="substitution-as-value",
-    severity="warning",
-    what="Checks for a substitution or a condition in a Python launch file whose value Python itself reads: before "
-    "`and` and `or`, after `not`, in `if`, in a comparison with a text, or in a string. Only objects that are "
-    "written there, or whose name is bound once in the file, are checked.",
+    effect="misbehaves",
+    kind="invalid",
+    always=(Reason.FROM_SOURCE,),
+    what="Checks for a substitution or condition in a Python launch file whose value Python itself reads, in an "
+    "operator, an `if` or a string.",
     why="The value is unresolved while Python reads the file. The object itself is always true, equals no text, and "
     "prints as a Python object. `IfCondition(a) and UnlessCondition(b)` is `UnlessCondition(b)`.",
     example="condition=IfCondition(use_rviz) and UnlessCondition(headless)",

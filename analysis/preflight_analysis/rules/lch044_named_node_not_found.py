@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import LIFECYCLE_MANAGER
 from preflight_analysis.rules.named_nodes import missing_nodes
@@ -22,11 +24,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if near is not None:
             below = f"{named.name[: len(named.name) - len(written)]}" if not written.startswith("/") else ""
             new = near.removeprefix(below) if near.startswith(below) else near
-        yield rule.finding(
-            f"'{named.name}' is not a node of this launch; {node.name} waits for it{did_you_mean(near)}",
+        yield rule.claim(
+            say(
+                "'{name}' is not a node of this launch; {node} waits for it{near}",
+                name=named.name,
+                node=node.name,
+                near=did_you_mean(near),
+            ),
             location,
-            severity="warning" if near is not None else None,
-            confidence="likely" if complete else "possible",
+            subject=Subject("node", named.name),
+            kind="absent" if near is None else "near",
+            doubts=doubts(OUTSIDE=near is None, NOT_ANALYSED=not complete),
+            candidates=(near,),
             related=(Related(f"{node.name}", node.location), *include_chain(named.origin)),
             fixes=rename(context, location, written, new) if new is not None else (),
         )
@@ -35,11 +44,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="LCH044",
     name="named-node-not-found",
-    severity="info",
-    what="Checks for the name of a node in a parameter or argument that no node of the launch has: `node_names` of "
-    "a `lifecycle_manager`, the nodes of `lifecycle_bringup`, the node that `dynparam` sets parameters of. The "
-    "finding is a warning if a node has a similar name. Otherwise all of the launch must be known. "
-    "Files of `knowledge` in the settings say which parameters of other nodes name a node.",
+    effect="misbehaves",
+    kind="near",
+    sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED),
+    what="Checks for the name of a node, in a parameter or argument, that no node of the launch has. An example is "
+    "`node_names` of a `lifecycle_manager`.",
     why="The node that has the name waits for the services of the other one. A lifecycle manager activates none of its "
     "nodes then.",
     example='<node pkg="nav2_map_server" exec="map_server" name="map_server"/>\n'
