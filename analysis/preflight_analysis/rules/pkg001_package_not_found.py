@@ -11,7 +11,9 @@ from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.rules.below_packages import has_what_is_asked_of, lacks_what_is_asked_of
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
@@ -83,9 +85,13 @@ def _finding(
     hint = (
         f"; the folder {renamed.share} contains package '{renamed.name}'" if renamed is not None else did_you_mean(near)
     )
-    return rule.finding(
+    return rule.claim(
         f"package '{name}' not found among {len(context.environment.packages)} packages{hint}",
         location,
+        subject=Subject("package", name),
+        kind="near",
+        effect="stops-launch" if stops else None,
+        candidates=(near,),
         related=related,
         fixes=fixes,
         stops_launch=stops,
@@ -97,10 +103,9 @@ def _not_here(
 ) -> Finding:
     """Of a package that nothing is near to: what is released, or named by a manifest, is missing on this machine."""
     having = distributions_with(name, context.tree.generation)
-    confidence: Confidence = "certain" if having else "likely"
     lack: Lack | None = lack_of_package(context, name)
-    severity: Severity | None = None
-    fixes: tuple[Fix, ...] = ()
+    meant: str | None = None
+    is_sure = True
     text = f"package '{name}' is neither installed nor in the workspace"
     if having:
         package = debian_package_of(context, name)
@@ -111,9 +116,8 @@ def _not_here(
     elif (having_it := has_what_is_asked_of(context, location.file, name)) is not None:
         other, path = having_it
         text += f" nor released for any distribution; package '{other.name}' has '{path}'{did_you_mean(other.name)}"
-        fixes = rename(context, location, name, other.name, preferred=False)
-        sure = _is_own_or_akin(context, location.file, name, other)
-        lack, severity, confidence = None, "warning" if sure else "info", "possible"
+        meant, lack = other.name, None
+        is_sure = _is_own_or_akin(context, location.file, name, other)
     else:
         text += f"; it is not released for any distribution, and no {MANIFEST} of the workspace names it"
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
@@ -123,16 +127,19 @@ def _not_here(
                 is_of_family(context, name, near.name) or lacks_what_is_asked_of(context, location.file, name, near)
             ):
                 near = None
-            text += did_you_mean(near.name if near is not None else None)
-            fixes = rename(context, location, name, near.name, preferred=False) if near is not None else ()
-            lack, severity = None, "info" if near is None else "warning"
-    return rule.finding(
+            meant, lack = near.name if near is not None else None, None
+            text += did_you_mean(meant)
+            is_sure = meant is not None
+    return rule.claim(
         text,
         location,
-        severity=severity,
-        confidence=confidence,
+        subject=Subject("package", name),
+        kind="absent" if meant is None else "near",
+        effect="stops-launch" if stops else None,
+        doubts=doubts(UNSEEN=not having, ON_ROBOT=not is_sure),
+        candidates=(meant,),
         related=related,
-        fixes=fixes,
+        fixes=rename(context, location, name, meant, preferred=False) if meant is not None else (),
         stops_launch=stops,
         lack=lack,
     )
@@ -187,14 +194,11 @@ def _in_folder_of_that_name(context: Context, name: str) -> Package | None:
 RULE = Rule(
     id="PKG001",
     name="package-not-found",
-    severity="error",
+    effect="stops-node",
+    kind="absent",
+    sometimes=("stops-launch", Reason.NOT_HERE, Reason.UNSEEN, Reason.ON_ROBOT),
     what="Checks for a package, in `$(find ...)` or as the `pkg` of a node, that is neither on the package path nor "
-    "in the workspace. The finding names the nearest package, here or among the released packages of ROS. It also "
-    "names a package whose folder has that name and whose `package.xml` has another. A package that is released, or "
-    "that a `package.xml` names, may be missing on this machine only: this is a hint with the Debian package. An "
-    "unknown package is information if it is the only one in the launch. It is a warning if the workspace has one "
-    "of a similar name. The same applies if one has all files that the launch file uses of the unknown package: "
-    "that of the launch file, or one with a word of the unknown name.",
+    "in the workspace. The finding names the nearest package, or the Debian package to install.",
     why="`roslaunch` stops at `$(find ...)` of a missing package, and does not start a node of one. `ros-preflight "
     "doctor` shows the folders that are searched.",
     example='<node pkg="rospy_tutorial" type="talker" name="talker"/>',

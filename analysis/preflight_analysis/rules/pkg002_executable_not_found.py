@@ -9,7 +9,9 @@ from preflight_analysis.environment.build import LISTS, Made
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.catalogued import slips
 from preflight_analysis.rules.files import says_not_set
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH_NODE
@@ -31,7 +33,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         found = node.resolved
         if node.executable.isspace() and not node.unknowns:
             place = attribute_location(context, node, context.tree.ros.executable)
-            yield rule.finding(f"executable name of {node.name} is blank", place, related=include_chain(node.origin))
+            yield rule.claim(
+                say("executable name of {node} is blank", node=node.name),
+                place,
+                subject=Subject("executable"),
+                kind="invalid",
+                related=include_chain(node.origin),
+            )
             continue
         if found.path is not None or not program_known(node):
             continue
@@ -49,27 +57,29 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if (is_undecided and not is_no_program) or was_removed(context, node):
             continue
         location = attribute_location(context, node, context.tree.ros.executable)
-        chain = include_chain(node.origin)
+        chain, about = include_chain(node.origin), Subject("executable", node.executable)
         if is_no_program:
             path = found.not_executable[0]
             message = f"file '{path}' is not executable; run `chmod +x {path}`"
             if made_of is not None:
                 message += ", or start it from the install space: CMakeLists.txt installs it as a program"
-            sure: Confidence = "certain" if made_of is None else "likely"
-            severity: Severity | None = None if made_of is None else "warning"
-            yield rule.finding(message, location, severity=severity, confidence=sure, related=chain)
+            no_program, installed = Subject("executable", path), made_of is not None
+            yield rule.claim(
+                message, location, subject=no_program, kind="invalid", doubts=doubts(UNSEEN=installed), related=chain
+            )
             continue
         if is_build_target:
             message = _unbuilt(node.executable, node.package, made_of, found.package_path)
-            lack = lack_of_build(context, node.package)
-            yield rule.finding(message, location, confidence="likely", related=chain, lack=lack)
+            lack, unbuilt = lack_of_build(context, node.package), doubts(MADE_BY_BUILD=True)
+            yield rule.claim(message, location, subject=about, doubts=unbuilt, related=chain, lack=lack)
             continue
         if not names and not _is_of_workspace(context, node.package):
             # Debian has the programs of a package apart from the rest of it.
-            yield rule.finding(
+            yield rule.claim(
                 f"package '{node.package}' is installed in {found.package_path} without its executables",
                 location,
-                confidence="likely",
+                subject=Subject("package", node.package),
+                doubts=doubts(UNSEEN=True),
                 related=chain,
                 lack=lack_of_package(context, node.package),
             )
@@ -78,28 +88,35 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         programs = [name for name in names if not name.endswith(_NO_PROGRAMS)]
         near = nearest(node.executable, programs) or nearest(node.executable, programs, key=_stem)
         near = near or next((name for name in programs if _plain(name) == _plain(node.executable)), None)
+        meant: str | None
         if holder is not None:
-            hint = f"; package '{holder}' has it"
+            hint, meant = f"; package '{holder}' has it", holder
             fixes = rename(context, attribute_location(context, node, "pkg"), node.package, holder)
         else:
-            hint = did_you_mean(near)
+            hint, meant = did_you_mean(near), near
             slip = near is not None and any(is_slip(key(node.executable), key(near)) for key in (str, _stem, _plain))
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
-        doubtful = node.executable.startswith("/dev/") or says_not_set(node.executable)
-        if doubtful:
-            hint = "; set the argument that names it"
+        against: tuple[Doubt, ...] = ()
+        if node.executable.startswith("/dev/") or says_not_set(node.executable):
+            against, hint = doubts(NOT_SET="the argument that names it"), "; set the argument that names it"
         elif near == node.executable:
-            doubtful, hint = True, "; a build file names it, but how it is installed is unresolved"
+            against = doubts(PARTLY_READ=True)
+            hint = "; a build file names it, but how it is installed is unresolved"
         elif not names and is_ignored(context.disk, f"{found.package_path}/{LISTS}"):
-            doubtful, hint = True, f"; git ignores {LISTS} of the package, so each machine may create it"
-        yield rule.finding(
+            against = doubts(MADE_ELSEWHERE=True)
+            hint = f"; git ignores {LISTS} of the package, so each machine may create it"
+        if against:
+            meant, fixes = None, ()
+        yield rule.claim(
             f"executable '{node.executable}' not found in package '{node.package}' ({len(names)} executables in "
             f"{found.package_path} and the {_SPACES[context.tree.generation]}){hint}",
             location,
-            severity="info" if doubtful else None,
-            confidence="likely" if node.unknowns else "certain",
+            subject=about,
+            kind="absent" if meant is None else "near",
+            doubts=(*against, *doubts(BRANCHES=bool(node.unknowns))),
+            candidates=(meant,),
             related=chain,
-            fixes=() if doubtful else fixes,
+            fixes=fixes,
         )
 
 
@@ -164,13 +181,18 @@ def _plain(name: str) -> str:
 RULE = Rule(
     id="PKG002",
     name="executable-not-found",
-    severity="error",
+    effect="stops-node",
+    kind="absent",
+    sometimes=(
+        Reason.NOT_HERE,
+        Reason.MADE_BY_BUILD,
+        Reason.MADE_ELSEWHERE,
+        Reason.NOT_SET,
+        Reason.OTHER_DISTRIBUTION,
+        Reason.UNSEEN,
+    ),
     what="Checks for a node whose `type` (ROS 2: `exec`) is not an executable file of its package. The finding names "
-    "the nearest executable, or the package of the launch that has it. It also checks for a file without the "
-    "permission to execute it: a warning, if `install()` installs the file with it. An executable that a "
-    "`CMakeLists.txt` of the package names is not built yet: this is a hint. It is information if git ignores that "
-    "file. For a common package that is not installed, the catalogue knows its executables. A typo of those is a "
-    "warning if the catalogue has the distribution in use, otherwise a hint.",
+    "the nearest executable, or the package of the launch that has it.",
     why="`roslaunch` prints an error among the output of the other nodes and continues without this one. `ros2 "
     "launch` stops.",
     example='<node pkg="rospy_tutorials" type="talkr" name="talker"/>',

@@ -5,6 +5,7 @@ import os
 from collections.abc import Iterator
 
 from preflight_analysis.environment.model import Executable
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ROSLAUNCH_NODE
 from preflight_analysis.rules.places import attribute_location
@@ -20,10 +21,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if others:
             package = node.resolved.package_path or ""
             rest = ", ".join(f"'{os.path.relpath(path, package)}'" for path in others)
-            yield rule.finding(
+            yield rule.claim(
                 f"ambiguous executable '{node.executable}': package '{node.package}' has {len(others) + 1} different "
                 f"files; '{os.path.relpath(first, package)}' runs here, another machine may run {rest}",
                 attribute_location(context, node, "type"),
+                subject=Subject("executable", node.executable),
                 related=include_chain(node.origin),
             )
 
@@ -52,7 +54,8 @@ def _same(path: str, other: str) -> bool:
 RULE = Rule(
     id="PKG003",
     name="executable-ambiguous",
-    severity="warning",
+    effect="misbehaves",
+    kind="duplicate",
     what="Checks for a node whose package has several executable files of that name with different content. A link, "
     "a copy, and a built file in a devel or install space are not counted.",
     why="`roslaunch` runs the first one that it finds and reports nothing. The order of folders in the file system "

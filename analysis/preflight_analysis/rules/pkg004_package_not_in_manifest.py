@@ -15,6 +15,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tags import tags_of
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
@@ -47,9 +48,10 @@ def _findings(
     manifest: Document | Unreadable,
 ) -> tuple[Finding, ...]:
     return tuple(
-        rule.finding(
+        rule.claim(
             f"package '{name}' is not a dependency in {os.path.basename(owner.manifest)} of '{owner.name}'",
             launch_file.document.location(span),
+            subject=Subject("package", name),
             fixes=_fixes(manifest, owner, name, launch_file.path),
         )
         for name, span in missing
@@ -119,10 +121,10 @@ def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str
 RULE = Rule(
     id="PKG004",
     name="package-not-in-manifest",
-    severity="hint",
-    what="Checks for a package that a launch file uses and the `package.xml` of its own package does not name. A "
-    "use is the `pkg` of a node, `$(find ...)` or `$(find-pkg-share ...)`. Any kind of dependency counts. Each "
-    "package is reported once in a file.",
+    effect="style",
+    kind="absent",
+    what="Checks for a package that a launch file uses and the `package.xml` of its own package does not name as any "
+    "kind of dependency. Each package is reported once in a file.",
     why="`rosdep` and binary packages install only declared dependencies. The launch file fails where no other "
     "package needs the missing one. In ROS 1 `roslaunch_add_file_check` reports the same.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',

@@ -12,6 +12,8 @@ from preflight_analysis.environment.installed_paths import installed_at, install
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tree import Use
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
@@ -39,12 +41,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         below, places = os.path.relpath(path, package.share), installed_at(disk, package, path)
         if below in places or installed_from(disk, package, below) is not None or installs_more(disk, package):
             continue
+        about = Subject("file", path)
         message = f"file '{below}' is not installed in the share folder: {_build_file(package)} of '{package.name}' "
         if places:
-            yield rule.finding(f"{message}installs it as '{places[0]}'", use.location)
+            yield rule.claim(
+                f"{message}installs it as '{places[0]}'", use.location, subject=about, candidates=places[:1]
+            )
         else:
             fixes = _fixes(context, package, below)
-            yield rule.finding(f"{message}does not list it", use.location, fixes=fixes)
+            yield rule.claim(f"{message}does not list it", use.location, subject=about, fixes=fixes)
     for path, launch_file in context.launch_files.items():
         package = _package_of(context, path) if path not in named and launch_file.root is not None else None
         if package is None or launch_file.root is None:
@@ -57,12 +62,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         ):
             # A copy that somebody put aside has more behind `.launch`, and build files that name patterns leave it.
             is_copy = ".launch" in os.path.basename(path) and not path.endswith(LAUNCH_SUFFIXES)
-            yield rule.finding(
+            yield rule.claim(
                 f"launch file '{below}' is not installed by {_build_file(package)} of '{package.name}': "
                 f"`ros2 launch {package.name} {os.path.basename(path)}` does not find it",
                 context.location(path, launch_file.root.head_span),
-                severity="info" if is_copy else None,
-                confidence="likely",
+                subject=Subject("file", path),
+                doubts=doubts(SET_ASIDE=is_copy),
                 fixes=_fixes(context, package, below),
             )
 
@@ -121,12 +126,11 @@ def _fixes(context: Context, package: Package, below: str) -> tuple[Fix, ...]:
 RULE = Rule(
     id="PKG005",
     name="not-installed",
-    severity="warning",
-    what="Checks for a launch or parameter file that is referenced in the share folder of a package and that the "
-    "package does not install there. The file is in the source of the package, and its `setup.py` or "
-    "`CMakeLists.txt` does not install it, or installs it in another folder. A launch file in the folder `launch` "
-    "that is not installed at all is reported too. If its name does not end like that of a launch file "
-    "(`robot.launch_old.py`), the finding is information.",
+    effect="misbehaves",
+    kind="absent",
+    sometimes=(Reason.SET_ASIDE,),
+    what="Checks for a launch or parameter file that the `setup.py` or `CMakeLists.txt` of its package does not install "
+    "in the share folder. The launch refers to it there, or it is in the folder `launch`.",
     why="`ros2 launch` searches the share folder of the installed package. The file is not there.",
     example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
     "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.catalogued import slips
 from preflight_analysis.rules.further_reading import COMPOSITION
@@ -28,12 +30,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         near = nearest_class(node.plugin, registered)
         location = attribute_location(context, node, "plugin")
-        yield rule.finding(
+        yield rule.claim(
             f"component '{node.plugin}' is not registered by package '{node.package}'"
             f"{did_you_mean(near) if near else '; it registers ' + _named(registered)}",
             location,
-            severity=None if near else "warning",
-            confidence="likely",
+            subject=Subject("component", node.plugin),
+            kind="near" if near else "absent",
+            doubts=doubts(FROM_SOURCE=bool(near), UNSEEN=not near),
+            candidates=(near,),
             related=include_chain(node.origin),
             fixes=rename(context, location, node.plugin, near) if near else (),
         )
@@ -48,12 +52,11 @@ def _named(registered: Sequence[str]) -> str:
 RULE = Rule(
     id="PKG006",
     name="component-not-registered",
-    severity="error",
-    what="Checks for the plugin of a `<composable_node>` that its package does not register. The finding names the "
-    "nearest registered component. Registered components are those in the resource index of an installed package. "
-    "In the workspace they are those of `rclcpp_components_register_node(s)` in `CMakeLists.txt`. A package without "
-    "known components is not checked. For a common package that is not installed, the catalogue knows its "
-    "components. A typo of those is a warning if the catalogue has the distribution in use, otherwise a hint.",
+    effect="stops-node",
+    kind="near",
+    sometimes=(Reason.FROM_SOURCE, Reason.UNSEEN, Reason.OTHER_DISTRIBUTION),
+    what="Checks for the plugin of a `<composable_node>` that its package does not register: in the resource index, or "
+    "in `CMakeLists.txt`. A package without known components is not checked.",
     why="The container logs `Failed to find class with the requested plugin name` and continues without the component.",
     example='<composable_node pkg="vision" plugin="Detector" name="detector"/>\n'
     '<!-- rclcpp_components_register_nodes(detector "vision::Detector") -->',

@@ -12,6 +12,8 @@ from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.installed import is_of_family, near_package
@@ -35,10 +37,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue  # a private package, as most that nobody has released
             writer = context.writer(manifest.path)
             edits = [writer.replace(span, near) for span in spans] if writer is not None else []
-            yield rule.finding(
+            yield rule.claim(
                 f"unknown package '{name}': not in the workspace nor any distribution{did_you_mean(near)}",
                 manifest.location(spans[0]),
-                confidence="likely",
+                subject=Subject("package", name),
+                candidates=(near,),
                 fixes=fix(f"Replace '{name}' with '{near}'", all_of(*edits), preferred=True),
             )
 
@@ -80,7 +83,9 @@ _LONG = 8
 RULE = Rule(
     id="PKG007",
     name="dependency-not-found",
-    severity="warning",
+    effect="misbehaves",
+    kind="near",
+    always=(Reason.UNSEEN,),
     what="Checks for a dependency in the `package.xml` of a launch file's package that is a typo. The name is not "
     "in the workspace, not installed, not released for any distribution of ROS and not known to rosdep.",
     why="`rosdep install` stops at it, and the intended package is not installed on the robot.",

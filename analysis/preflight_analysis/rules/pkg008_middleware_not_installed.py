@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 from preflight_analysis.environment import middleware
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import MIDDLEWARE
 from preflight_analysis.rules.installed import has_ros, lack_of_package, near_package
@@ -27,9 +29,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = near_package(context, name)
         setter = "your environment" if name == of_user else "the launch"
         others = f" and {len(nodes) - 1} more" if len(nodes) > 1 else ""
-        yield rule.finding(
-            f"middleware '{name}' is not installed; {setter} sets it for {nodes[0].name}{others}{did_you_mean(near)}",
+        text = "middleware '{name}' is not installed; {setter} sets it for {node}{others}{near}"
+        yield rule.claim(
+            say(text, name=name, setter=setter, node=nodes[0].name, others=others, near=did_you_mean(near)),
             nodes[0].location,
+            subject=Subject("package", name),
+            kind="absent" if near is None else "near",
+            candidates=(near,),
             related=include_chain(nodes[0].origin),
             lack=lack_of_package(context, name) if near is None else None,
         )
@@ -38,10 +44,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="PKG008",
     name="middleware-not-installed",
-    severity="error",
-    what="Checks for a middleware in `RMW_IMPLEMENTATION` that is not installed, once in a launch. The "
-    "environment or a `<set_env>` sets the variable. A typo of a package's name is an error. Otherwise the "
-    "middleware is missing on this machine only, and nodes are run with the default one.",
+    effect="stops-node",
+    kind="absent",
+    sometimes=(Reason.NOT_HERE,),
+    what="Checks for a middleware in `RMW_IMPLEMENTATION` that is not installed, once in a launch. The environment or "
+    "a `<set_env>` sets the variable. Nodes are then run with the default middleware.",
     why="Each node exits at once with `Expected RMW implementation identifier of 'rmw_cyclonedds_cpp' but instead "
     "found 'rmw_fastrtps_cpp'`.",
     example='<set_env name="RMW_IMPLEMENTATION" value="rmw_cyclonedd_cpp"/>',

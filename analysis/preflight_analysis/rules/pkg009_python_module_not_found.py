@@ -43,10 +43,8 @@ RULE = Rule(
     effect="stops-node",
     kind="absent",
     sometimes=(Reason.UNSEEN,),
-    what="Checks for a node in Python that imports a module which its own package, or another one of the workspace, "
-    "does not have. The sources are read, nothing is run. Imports in a `try`, in a function or under a condition "
-    "are ignored, and so are modules that a build makes. A module of no package of the workspace is a warning if its "
-    "name is a typo of a module that many programs import, and the package names it nowhere.",
+    what="Checks for a node in Python that imports a module which no package has. Imports in a `try`, in a function or "
+    "under a condition are ignored, and so are modules that a build makes.",
     why="The node exits at once with `ModuleNotFoundError`.",
     example="from tank_station.calibraton import offset",
     instead="from tank_station.calibration import offset",

@@ -186,12 +186,8 @@ RULE = Rule(
     effect="no-effect",
     kind="near",
     sometimes=(Reason.SHARED, Reason.PARTLY_READ, Reason.NOT_ANALYSED, Reason.FROM_SOURCE),
-    what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. The "
-    "finding names the nearest declared parameter. Nodes that accept undeclared parameters are checked for a typo "
-    "of `use_sim_time` only. Parameters of controllers of ros2_control are not checked. A value that several nodes "
-    "share is not reported if one of them, in any launch, declares it. Without a near name the finding is information "
-    "below `/**` in the file of another package, and for another group of parameters that the node declares. So it is "
-    "for a name that a Python launch file has read from elsewhere.",
+    what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. A value that "
+    "several nodes share is not reported if one of them declares it.",
     why="The client libraries ignore the value without an error, and the node uses its default.",
     example='<!-- the node declares max_pressure -->\n<node pkg="pump" exec="pump" name="pump">\n'
     '  <param name="max_presure" value="4.5"/>\n</node>',
