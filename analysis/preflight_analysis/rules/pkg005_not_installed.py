@@ -129,8 +129,8 @@ RULE = Rule(
     effect="misbehaves",
     kind="absent",
     sometimes=(Reason.SET_ASIDE,),
-    what="Checks for a launch or parameter file that the `setup.py` or `CMakeLists.txt` of its package does not install "
-    "in the share folder. The launch refers to it there, or it is in the folder `launch`.",
+    what="Checks for a launch or parameter file that the `setup.py` or `CMakeLists.txt` of its package does not "
+    "install in the share folder. The launch refers to it there, or it is in the folder `launch`.",
     why="`ros2 launch` searches the share folder of the installed package. The file is not there.",
     example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
     "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",

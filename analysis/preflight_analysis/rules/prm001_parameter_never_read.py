@@ -9,8 +9,9 @@ from dataclasses import replace
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.findings.claim import say
-from preflight_analysis.findings.finding import Alike, Confidence, Finding, Related
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Alike, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
 from preflight_analysis.rules.missing_params import missing_params
@@ -30,6 +31,15 @@ _GROUP = 4
 _PARTLY = ("catalogue", "source")
 """What may tell a node's parameters without telling all, beside a run to the event loop: one that ended early tells too
 few."""
+_UNUSED = "unused parameter '{name}': not read by {node} {until}, nor by any other node"
+_MANY = "unused parameters, not read by {node} {until}, nor by any other node"
+_IN_PART = "{count} parameters of this file are not read by {node}, '{first}' among them; it reads them in {where}"
+_SET_TOO = "unused parameter '{name}'; {node} reads '{read}', which is set to {value}"
+_NOT_READ = (
+    "parameter '{name}' is not read by {node}; did you mean '{read}', which it reads and which is not set{default}?"
+)
+_SEARCHED = "unused parameter '{name}'; did you mean '{read}', for which {node} searches?"
+_NOT_SET = "unused parameter '{name}'; {node} reads '{read}', which is not set{default}"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -49,7 +59,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for each in _of_partly_known(context, context.graph, explained):
         explained.add(each.param.name)
         if each.meant is not None:
-            yield _finding(rule, context, context.graph, each, each.meant, sure="possible")
+            partly = each.holder or each.meant.node
+            yield _finding(rule, context, context.graph, each, each.meant, doubts(NOT_ANALYSED=partly.name))
     yield from _one_level_too_high(rule, context, context.graph, explained)
     yield from _as_on_the_command_line(rule, context, context.graph, explained)
 
@@ -80,11 +91,12 @@ def _one_level_too_high(rule: Rule, context: Context, graph: Graph, explained: C
                 continue
             first = min(params, key=lambda param: (param.place.line, param.name))
             where = " or ".join(f"'{names.leaf(space)}'" for space in sorted(spaces))
-            yield rule.finding(
-                f"{len(params)} parameters of this file are not read by {node.name}, '{names.leaf(first.name)}' among "
-                f"them; it reads them in {where}",
+            yield rule.claim(
+                say(_IN_PART, count=len(params), node=node.name, first=names.leaf(first.name), where=where),
                 first.origin[-2] if len(first.origin) > 1 else first.place,
-                confidence="possible",
+                subject=Subject("parameter", first.name),
+                kind="unreachable",
+                doubts=doubts(NOT_ANALYSED=node.name),
                 related=(Related("the first of them", first.place), *include_chain(node.origin)),
             )
 
@@ -100,11 +112,14 @@ def _as_on_the_command_line(
     for param in odd:
         above, _, leaf = param.name.rpartition("/")
         if above in nodes and param.name not in read and _ARGUMENT.fullmatch(leaf):
-            yield rule.finding(
+            yield rule.claim(
                 f"parameter '{leaf}' begins with '_', which is the form of a node's arguments ('{leaf}:=...'); did you "
                 f"mean '{leaf[1:]}'?",
                 param.place,
-                confidence="likely",
+                subject=Subject("parameter", param.name),
+                kind="invalid",
+                doubts=doubts(LIBRARY=True),
+                candidates=(leaf[1:],),
                 related=include_chain(param.origin),
                 fixes=renamed(context, param, f"{above}/{leaf[1:]}"),
             )
@@ -114,14 +129,14 @@ def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
     param, holder = unread.param, unread.holder
     who = holder.name if holder is not None else "any node"
     until = "in its source" if in_source else "before its event loop"
-    by_whom = f"not read by {who} {until}, nor by any other node"
-    return rule.finding(
-        f"unused parameter '{param.name}': {by_whom}",
+    return rule.claim(
+        say(_UNUSED, name=param.name, node=who, until=until),
         param.place,
-        severity="hint",
-        confidence="possible",
+        subject=Subject("parameter", param.name),
+        kind="unused",
+        doubts=doubts(NO_DIFFERENCE=True, NOT_ANALYSED=holder.name if holder is not None else True),
         related=(*((related_node(holder),) if holder is not None else ()), *include_chain(param.origin)),
-        alike=Alike(say("unused parameters, {by_whom}", by_whom=by_whom), param.name),
+        alike=Alike(say(_MANY, node=who, until=until), param.name),
     )
 
 
@@ -239,34 +254,35 @@ def _finding(
     graph: Graph,
     unread: Unread,
     read: ParamRead,
-    sure: Confidence | None = None,
+    partly: tuple[Doubt, ...] = (),
 ) -> Finding:
     param, holder = unread.param, unread.holder
     namespace, name = param.name.rpartition("/")[0], read.name
     if read.use.access == "search":
         name = f"{namespace}/{read.name.rpartition('/')[2]}"
-    sure = sure or ("likely" if holder is not None or (graph.complete and unread.alone) else "possible")
     set_too = graph.tree.params.get(read.name)
     if set_too is not None:
-        message = (
-            f"unused parameter '{param.name}'; {read.node.name} reads '{read.name}', which is set to {set_too.value!r}"
-        )
+        template = _SET_TOO
     elif holder is not None:
-        message = (
-            f"parameter '{param.name}' is not read by {holder.name}; did you mean '{read.name}', which it reads and "
-            f"which is not set{_default(read)}?"
-        )
-    elif read.use.access == "search":
-        message = f"unused parameter '{param.name}'; did you mean '{name}', for which {read.node.name} searches?"
+        template = _NOT_READ
     else:
-        message = (
-            f"unused parameter '{param.name}'; {read.node.name} reads '{read.name}', which is not set{_default(read)}"
-        )
-    return rule.finding(
-        message,
+        template = _SEARCHED if read.use.access == "search" else _NOT_SET
+    who = holder if template is _NOT_READ and holder is not None else read.node
+    value = repr(set_too.value) if set_too is not None else ""
+    return rule.claim(
+        say(template, name=param.name, node=who.name, read=name, value=value, default=_default(read)),
         param.place,
-        severity="warning" if unread.alone and not _may_be_read(context, unread, read) else "info",
-        confidence=sure,
+        subject=Subject("parameter", param.name),
+        doubts=(
+            *partly,
+            *doubts(
+                SHARED=not unread.alone,
+                IN_USE=unread.alone and _may_be_read(context, unread, read),
+                NOT_ANALYSED=not partly and holder is None and not (graph.complete and unread.alone),
+                FROM_SOURCE=id(read.node) in context.once(known_by_source),
+            ),
+        ),
+        candidates=(name,),
         related=(related_param_read(read), *include_chain(param.origin)),
         fixes=renamed(context, param, name) if unread.alone and set_too is None else (),
     )
@@ -290,16 +306,18 @@ def _default(read: ParamRead) -> str:
 RULE = Rule(
     id="PRM001",
     name="parameter-never-read",
-    severity="warning",
-    what="Checks for a parameter that no node reads. The finding is a warning if a node reads an unset parameter of "
-    "a similar name. It is a warning too if a node reads the same name in another namespace: one level too many or "
-    "too few, or global instead of private. Otherwise it is a hint, and only for a node that is known up to its "
-    "event loop. Reading a namespace reads all parameters in it. Of a node that the catalogue or its source "
-    "describes in part, only typos are reported. Its source also shows the same name in another namespace. A file "
-    "is a warning if its node reads most of it one namespace below. It is information if a source of another "
-    "package reads the name. Parameters below the name of a plugin "
-    "in a robot description are those of the simulator. A parameter of a node that begins with `_` is a "
-    "warning, because that form belongs on the command line.",
+    effect="no-effect",
+    kind="near",
+    sometimes=(
+        Reason.NO_DIFFERENCE,
+        Reason.SHARED,
+        Reason.IN_USE,
+        Reason.NOT_ANALYSED,
+        Reason.FROM_SOURCE,
+        Reason.LIBRARY,
+    ),
+    what="Checks for a parameter that no node reads. The finding names the unset parameter that was meant: one of a "
+    "similar name, or of the same name in another namespace.",
     why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~publish_objects -->\n<param name="publish_obejcts" value="false"/>',
     instead='<param name="publish_objects" value="false"/>',

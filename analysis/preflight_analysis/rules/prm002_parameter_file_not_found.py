@@ -1,6 +1,7 @@
 """PRM002: a parameter file that is not there."""
 
 from preflight_analysis.evaluation.problems import ParameterFileNotFound
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.rules.files import check_missing_files
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
@@ -8,13 +9,22 @@ from preflight_analysis.rules.rule import Rule
 RULE = Rule(
     id="PRM002",
     name="parameter-file-not-found",
-    severity="error",
+    effect="stops-launch",
+    kind="absent",
+    sometimes=(
+        "misbehaves",
+        Reason.NOT_HERE,
+        Reason.MADE_BY_BUILD,
+        Reason.MADE_ELSEWHERE,
+        Reason.NOT_SET,
+        Reason.ON_ROBOT,
+        Reason.WHERE_STARTED,
+        Reason.UNSEEN,
+    ),
     what="Checks for a parameter file that does not exist: `<rosparam file=...>`, `<param textfile=...>`, `<param "
-    "binfile=...>` or `<param from=...>`. The finding names the nearest file of the folder or package. A file in a "
-    "top folder that this machine lacks (`/ws/src/...` of a container) is information. So is a file in the folder "
-    "where the launch is started (`$(env PWD)`), and a relative path to one beside the launch file.",
+    "binfile=...>` or `<param from=...>`. The finding names the nearest file of the folder or package.",
     why="`roslaunch` stops and starts nothing. `ros2 launch` stops if the file is for a component. Other nodes "
-    "start without the file, with their defaults: then it is a warning.",
+    "start without the file, with their defaults.",
     example='<rosparam command="load" file="$(find camera)/config/camrea.yaml"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     references=(

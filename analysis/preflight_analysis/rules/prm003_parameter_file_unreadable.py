@@ -1,6 +1,7 @@
 """PRM003: a parameter file that cannot be read."""
 
 from preflight_analysis.evaluation.problems import UnreadableParameterFile
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.rules.files import check_unreadable_files
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
@@ -8,11 +9,13 @@ from preflight_analysis.rules.rule import Rule
 RULE = Rule(
     id="PRM003",
     name="parameter-file-unreadable",
-    severity="error",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=("misbehaves", Reason.NOT_SET),
     what="Checks for a parameter file that exists but cannot be read: a folder, without permission, too large, or "
     "not text.",
     why="`roslaunch` stops and starts nothing. `ros2 launch` stops if the file is for a component, and starts other "
-    "nodes without the file. The finding is then a warning, and information if the path is an empty argument.",
+    "nodes without the file.",
     example='<rosparam command="load" file="$(find camera)/config"/>',
     instead='<rosparam command="load" file="$(find camera)/config/camera.yaml"/>',
     references=(

@@ -3,24 +3,28 @@
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.problems import BadYaml
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.files import says_not_set
 from preflight_analysis.rules.further_reading import ROSLAUNCH_ROSPARAM, YAML_STANDARD
-from preflight_analysis.rules.problems import problem_finding, problems_of
+from preflight_analysis.rules.problems import problem_claim, problems_of
 from preflight_analysis.rules.rule import Context, Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, BadYaml):
         message = problem.kind.message
-        severity: Severity | None = "info" if says_not_set(message) else None
-        yield problem_finding(rule, problem, f"invalid parameters: {message}", severity=severity, quoted=message)
+        text, unset = say("invalid parameters: {quoted}", quoted=message), doubts(NOT_SET=says_not_set(message))
+        yield problem_claim(rule, problem, text, subject=Subject("text"), doubts=unset)
 
 
 RULE = Rule(
     id="PRM004",
     name="bad-yaml",
-    severity="error",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=(Reason.NOT_SET,),
     what="Checks for parameters, in a `<rosparam>` or in the file that it loads, that are not valid YAML or have an "
     "invalid structure.",
     why="`roslaunch` stops and starts nothing.",

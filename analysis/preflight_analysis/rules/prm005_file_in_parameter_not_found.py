@@ -16,7 +16,9 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
-from preflight_analysis.findings.finding import Finding, Fix, Related, Severity
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.elsewhere import depends_on_working_folder
 from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
@@ -92,22 +94,33 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             near = nearest_file(context.disk, path, context.environment)
             hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
-            severity: Severity | None = None
+            against: tuple[Doubt, ...] = ()
             if near is None and _is_fetched(path):
-                severity, hint = "info", "; fetch it first"
+                against, hint = doubts(MADE_ELSEWHERE=True), "; fetch it first"
             elif (near is None or not _is_beside(near, path)) and is_ignored(context.disk, path):
-                severity, fixes, hint = "info", (), "; git ignores it, so each machine may create it"
+                against, fixes = doubts(MADE_ELSEWHERE=True), ()
+                hint = "; git ignores it, so each machine may create it"
             elif near is None and depends_on_working_folder(context, location):
-                severity, hint = "info", "; the path depends on the folder where the launch is started"
+                against = doubts(WHERE_STARTED=True)
+                hint = "; the path depends on the folder where the launch is started"
             elif near is None and _CALIBRATION in named.what:
-                severity, hint = "info", "; the calibration of the camera creates it"
+                against, hint = doubts(MADE_ELSEWHERE=True), "; the calibration of the camera creates it"
             elif near is None and (others := others_in_vain(context, location, path)):
-                severity = "info"
+                against = doubts(MADE_ELSEWHERE=True)
                 hint = f"; {others} other packages set missing files for it too, so a node may create it"
             elif near is None and may_be_made(context, path):
-                severity, hint = "hint", "; the build of the package may create it"
+                against, hint = doubts(MADE_BY_BUILD=True), "; the build of the package may create it"
             message = f"file '{shown(path, context)}' in {named.what} does not exist{hint}"
-            yield rule.finding(message, location, severity=severity, confidence="likely", related=related, fixes=fixes)
+            yield rule.claim(
+                message,
+                location,
+                subject=Subject("file", path),
+                kind="absent" if near is None else "near",
+                doubts=against,
+                candidates=(near,),
+                related=related,
+                fixes=fixes,
+            )
 
 
 def _is_beside(near: str, path: str) -> bool:
@@ -301,14 +314,12 @@ def _where_written(
 RULE = Rule(
     id="PRM005",
     name="file-in-parameter-not-found",
-    severity="warning",
+    effect="misbehaves",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.MADE_ELSEWHERE, Reason.MADE_BY_BUILD, Reason.WHERE_STARTED),
     what="Checks for a file that does not exist in the value of a parameter, the arguments of a node or a command. "
-    "The path has an extension and is below a package or the workspace, also as `file://` or `package://`. Its folder "
-    "may be another argument (`-configuration_directory` of cartographer). The finding names the nearest file. Names "
-    "of files that are written (`output`, `log`, `record`, ...), patterns and files that the package builds are not "
-    "reported. The name may be that of an argument, too. If no similar file exists, some files are information. These "
-    "are a model or recording, a file that git ignores, a file in `$(env PWD)`, and the calibration of a camera. The "
-    "same applies to a file that several packages name for the same argument and lack.",
+    "Names of files that are written (`output`, `log`, `record`, ...) and patterns are ignored.",
     why="The launcher does not check the value. The node exits when it opens the file, or continues without it: a "
     "planner without its limits.",
     example='<param name="limits_file" value="$(find arm)/config/limits.yaml"/>',

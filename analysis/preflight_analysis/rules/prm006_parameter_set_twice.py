@@ -10,12 +10,20 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import YamlKeyTwice
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
-from preflight_analysis.findings.finding import Finding, Related, Severity
+from preflight_analysis.findings.claim import Effect, Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import gives
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS, ROSLAUNCH_PARAM, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import as_written, include_chain, problem_finding, problems_of, shortened
+from preflight_analysis.rules.problems import as_written, include_chain, problem_claim, problems_of, shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.syntax import Tag, Tags, has_condition
+
+_OVERRIDDEN = "overridden: parameter '{name}' of {node} {why} to {value}, not {old}"
+_DEAD_ARGUMENT = (
+    "overridden: parameter '{name}' of {node} is set again by a later parameter file; argument '{argument}' does not "
+    "change it"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +77,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             found = _surprise(tags, loser, winner)
             if found is not None:
-                severity, why = found
-                yield rule.finding(
+                effect, why = found
+                yield rule.claim(
                     f"overridden: parameter '{as_written(param.name)}' {why} to {_shown(param.value)}, not "
                     f"{_shown(old.value)}",
                     loser.place,
-                    severity=severity,
+                    subject=Subject("parameter", as_written(param.name)),
+                    effect=effect,
                     related=(Related("the value that applies", winner.place), *include_chain(old.origin)),
                 )
 
@@ -102,11 +111,12 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
             if why is None or at in reported:
                 continue
             reported.add(at)
-            yield rule.finding(
-                f"overridden: parameter '{param.name}' of {node.name} {why} to {_shown(param.value)}, not "
-                f"{_shown(old.value)}",
+            values = {"value": _shown(param.value), "old": _shown(old.value)}
+            yield rule.claim(
+                say(_OVERRIDDEN, name=param.name, node=node.name, why=why, **values),
                 lost.place,
-                severity="info" if lost.of_launch_file and not _is_inside(lost.place, node) else None,
+                subject=Subject("parameter", param.name),
+                doubts=doubts(SHARED=lost.of_launch_file and not _is_inside(lost.place, node)),
                 related=(Related("the value that applies", counts.place), *include_chain(old.origin)),
             )
     yield from _dead_arguments(rule, context, reported)
@@ -129,10 +139,10 @@ def _dead_arguments(rule: Rule, context: Context, reported: set[tuple[Location, 
             use = next((use for use in context.tree.uses if gives(context, use, lost.place)), None)
             if use is None or not _is_inside(lost.place, node):
                 continue
-            yield rule.finding(
-                f"overridden: parameter '{param.name}' of {node.name} is set again by a later parameter file; argument "
-                f"'{use.name}' does not change it",
+            yield rule.claim(
+                say(_DEAD_ARGUMENT, name=param.name, node=node.name, argument=use.name),
                 lost.place,
+                subject=Subject("parameter", param.name),
                 related=(Related("the value that applies", counts.place), *include_chain(old.origin)),
             )
 
@@ -221,10 +231,11 @@ def _is_inside(place: Location, node: LaunchNode) -> bool:
 
 def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, YamlKeyTwice):
-        yield problem_finding(
+        yield problem_claim(
             rule,
             problem,
             f"duplicate key '{problem.kind.name}' in this dictionary: the later one overrides this one",
+            subject=Subject("parameter", problem.kind.name),
             related=(Related("the value that applies", problem.kind.second),),
         )
 
@@ -237,7 +248,7 @@ def _setting(tags: Tags, param: Param) -> _Setting | None:
     return None
 
 
-def _surprise(tags: Tags, loser: _Setting, winner: _Setting) -> tuple[Severity, str] | None:
+def _surprise(tags: Tags, loser: _Setting, winner: _Setting) -> tuple[Effect, str] | None:
     """Why it is not what was meant that the one value is lost; None where it may well be.
 
     What a file of many parameters says is there to be overridden, and so is what an included file says. A setting
@@ -249,9 +260,9 @@ def _surprise(tags: Tags, loser: _Setting, winner: _Setting) -> tuple[Severity, 
     if len(winner.chain) == common < len(loser.chain):
         return None
     if len(loser.chain) == common < len(winner.chain):
-        return "warning", "is set again by a later include"
+        return "no-effect", "is set again by a later include"
     if len(winner.chain) > common:
-        return "hint", "is set again by another included file"
+        return "style", "is set again by another included file"
     return _in_one_file(loser, winner)
 
 
@@ -263,22 +274,22 @@ def _is_alternative(tags: Tags, loser: _Setting, winner: _Setting, common: int) 
     return any(map(has_condition, own))
 
 
-def _in_one_file(loser: _Setting, winner: _Setting) -> tuple[Severity, str] | None:
+def _in_one_file(loser: _Setting, winner: _Setting) -> tuple[Effect, str] | None:
     node = next((action for action in loser.tag.above if action.kind in ("node", "test")), None)
     in_winners_node = node is not None and any(action is node for action in winner.tag.above)
     if loser.is_private and not in_winners_node and not loser.in_node:
         return None  # a `~param` around the nodes, as a default that one of them replaces
     if winner.tag.action.head_span > loser.tag.action.head_span:
         if winner.loads_file:
-            return "warning", "is set again by a later file"
+            return "no-effect", "is set again by a later file"
         if loser.is_rosparam:
-            return "hint", f"is set again by a later <{winner.tag.action.kind}>"
-        return "warning", "is set again below"
+            return "style", f"is set again by a later <{winner.tag.action.kind}>"
+        return "no-effect", "is set again below"
     if in_winners_node:
-        return "warning", "is set by the <param> of the <node>, which comes after each <rosparam>,"
+        return "no-effect", "is set by the <param> of the <node>, which comes after each <rosparam>,"
     if loser.in_node:
-        return "warning", "is set by the <param> around the <node>, which comes after each <rosparam>,"
-    return "warning", "is set by an earlier <param> for the node, which comes later,"
+        return "no-effect", "is set by the <param> around the <node>, which comes after each <rosparam>,"
+    return "no-effect", "is set by an earlier <param> for the node, which comes later,"
 
 
 def _shown(value: object) -> str:
@@ -293,14 +304,11 @@ def _shown(value: object) -> str:
 RULE = Rule(
     id="PRM006",
     name="parameter-set-twice",
-    severity="warning",
-    what="Checks for a parameter value that another one overrides in a way that is easily missed. In ROS 1 the "
-    "parameter is set twice in one tag or file, or before an include or file that sets it again. It may also be in "
-    "the `<rosparam>` of a node with a `<param>` of that name. A key that is twice in one YAML dictionary is "
-    "reported too. A parameter file that is overridden on purpose is not reported, nor are included files and tags "
-    "under a condition. In ROS 2 a `<param>`, or a dictionary in `parameters=[...]`, comes before another one or a "
-    "file that sets the same parameter. A value for the node's own name that a later wildcard in the file overrides "
-    "is reported too, and so is the value of an argument before a file that has the argument's default.",
+    effect="no-effect",
+    kind="duplicate",
+    sometimes=("style", Reason.SHARED),
+    what="Checks for a parameter value that another one overrides in a way that is easily missed. Files that are "
+    "overridden on purpose, included files and tags under a condition are ignored.",
     why="A change of the overridden value has no effect. The last of several settings applies, and no launcher "
     "reports the others. In a `<node>` of ROS 1 each `<param>` comes after each `<rosparam>`. A `<param "
     'name="~...">` around the node comes after those too. In ROS 2 the client library first collects all files by '

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
@@ -44,11 +46,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if not tree.complete or not _is_alone(context, prefix, params):
                 continue
             place = params[0].place
-            yield rule.finding(
+            yield rule.claim(
                 f"'{prefix}' is neither a node nor a namespace of this launch ({_what(params)})",
                 place,
-                severity="hint",
-                confidence="possible",
+                subject=Subject("name", prefix),
+                kind="absent",
+                doubts=doubts(OTHER_LAUNCH=True),
                 related=include_chain(params[0].origin),
             )
             continue
@@ -59,10 +62,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
         places = [_prefix_place(context, param, leaf) for param in params]
         related = [related_node(n) for n in tree.nodes if n.name == meant][-1:]
-        yield rule.finding(
+        yield rule.claim(
             f"'{prefix}' is not a node of this launch ({_what(params)}); did you mean '{meant}'?",
             places[0],
-            confidence="likely",
+            subject=Subject("name", prefix),
+            doubts=doubts(NOT_ANALYSED=meant),
+            candidates=(meant,),
             related=(*related, *include_chain(params[0].origin)),
             fixes=_fixes(context, places, leaf, near),
         )
@@ -216,10 +221,11 @@ def _known(context: Context) -> frozenset[str]:
 RULE = Rule(
     id="PRM007",
     name="parameter-without-node",
-    severity="warning",
-    what="Checks for a parameter below a name that is neither a node nor a namespace of a node. The finding names "
-    "the node with a similar name. Without one it is a hint, and only if a tag sets the parameter and nothing else "
-    "in the launch mentions the name. Launch files without nodes, and parameters at the top, are not checked.",
+    effect="no-effect",
+    kind="near",
+    sometimes=(Reason.NOT_ANALYSED, Reason.OTHER_LAUNCH),
+    what="Checks for a parameter below a name that is neither a node nor a namespace of a node. Launch files without "
+    "nodes, and parameters at the top, are not checked.",
     why="The intended node uses its default, and no tool reports it.",
     example='<param name="/talkr/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',
     instead='<param name="/talker/rate" value="10"/>\n<node pkg="chat" type="talker" name="talker"/>',

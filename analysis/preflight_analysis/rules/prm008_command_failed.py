@@ -9,7 +9,9 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand, Problem
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.findings.claim import Subject, as_text, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules.files import in_namesake
@@ -23,7 +25,7 @@ from preflight_analysis.rules.installed import (
     lack_said,
 )
 from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import include_chain, problem_finding, problems_of, quoted, rename, shown
+from preflight_analysis.rules.problems import include_chain, problem_claim, problems_of, quoted, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 _TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
@@ -49,7 +51,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             case CommandMissing(line):
                 yield _missing(rule, context, line, problem.origin, stops=problem.fatal)
             case MalformedCommand(message):
-                yield problem_finding(rule, problem, f"malformed command: {message}", quoted=message)
+                text = say("malformed command: {quoted}", quoted=message)
+                yield problem_claim(rule, problem, text, subject=Subject("command"))
             case CommandFailed() as failed:
                 yield _failed(rule, context, problem, failed)
     # A program that is named with its folder is looked for without running anything.
@@ -64,26 +67,29 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed: CommandFailed) -> Finding:
     lack = lack_said(context, reversed(failed.stderr))
-    message = _message(failed)
-    severity: Severity | None = None
+    text, about = say("the command failed: {quoted}", quoted=_said(failed)), Subject("command")
+    against: tuple[Doubt, ...] = ()
     if lack is None and (found := next(filter(None, map(_NO_FILE.search, failed.stderr)), None)) is not None:
         path = found["after"] or found["before"]
         lack = _variable_in(context, path, problem.origin)
         if lack is not None:
-            message = (
+            about = Subject("variable", lack.name)
+            text = as_text(
                 f"the command failed: environment variable '{lack.name}' is not set, and names a file that it reads"
             )
         lack = lack or lack_of_made(context, path) or lack_of_file(context, path)
         if lack is None and is_ignored(context.disk, path):
-            severity, message = "info", f"{message}; git ignores the file, so each machine may create it"
+            against = doubts(MADE_ELSEWHERE=True)
+            text = text.followed_by("; git ignores the file, so each machine may create it")
     elif lack is None and any(_is_beside(context, problem.origin, line) for line in failed.stderr):
-        severity, message = "info", f"{message}; the path depends on the folder where the launch is started"
+        against = doubts(WHERE_STARTED=True)
+        text = text.followed_by("; the path depends on the folder where the launch is started")
     elif any(_NO_INPUT in line for line in failed.stderr):
         # An argument whose default is empty is how Python launch files say that it has to be given.
         empty = [name for name, arg in context.tree.args.items() if not arg.value]
-        severity = "info" if empty else None
-        message += f"; set argument {quoted(empty)}" if empty else ""
-    return problem_finding(rule, problem, message, severity=severity, lack=lack, quoted=message)
+        against = doubts(NOT_SET=f"argument {quoted(empty)}" if empty else "")
+        text = text.followed_by("; set argument {empty}", empty=quoted(empty)) if empty else text
+    return problem_claim(rule, problem, text, subject=about, doubts=against, lack=lack)
 
 
 def _is_beside(context: Context, origin: Origin, said: str) -> bool:
@@ -107,7 +113,8 @@ def _variable_in(context: Context, path: str, origin: Origin) -> Lack | None:
     return lack_of_variable(context, unset) if unset is not None else None
 
 
-def _message(failed: CommandFailed) -> str:
+def _said(failed: CommandFailed) -> str:
+    """What the command or the sandbox says of it."""
     lines = [line.strip() for line in failed.stderr if line.strip()]
     if any(_TRACEBACK.match(line) for line in lines):
         reported = lines[-1:]
@@ -115,15 +122,14 @@ def _message(failed: CommandFailed) -> str:
         # xacro says what is wrong and where, and may go on with advice.
         start = next((n for n, line in enumerate(lines) if _ERROR.search(line)), max(0, len(lines) - _STDERR_LINES))
         reported = lines[start : start + _STDERR_LINES]
-    return "; ".join([f"the command failed: {failed.reason}", *reported])
+    return "; ".join([failed.reason, *reported])
 
 
 def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: bool) -> Finding:
     """The program is not there, or may not be executed."""
     program = shlex.split(line)[0]
     name = os.path.basename(program)
-    confidence: Confidence = "certain"
-    severity: Severity | None = None
+    against: tuple[Doubt, ...] = ()
     near = lack = None
     if "/" not in program:
         lack = lack_of_program(context, program)
@@ -136,7 +142,7 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         message = (
             f"program '{shown(program, context)}' is not built yet: CMakeLists.txt of package '{package}' names it"
         )
-        confidence, lack = "likely", lack_of_build(context, package)
+        against, lack = doubts(MADE_BY_BUILD=True), lack_of_build(context, package)
     else:
         near = _near(context, program)
         noetic = context.environment.distro in (None, "noetic")
@@ -144,13 +150,15 @@ def _missing(rule: Rule, context: Context, line: str, origin: Origin, *, stops: 
         message = f"program '{shown(program, context)}' does not exist{removed}{did_you_mean(near)}"
         lack = lack_of_file(context, program) if near is None and not removed else None
         if (other := in_namesake(context, program)) is not None:
-            severity, message = "warning", f"{message}; another package of that name has it in '{other}'"
+            against, message = doubts(UNSEEN=True), f"{message}; another package of that name has it in '{other}'"
     location: Location = origin[-1]
-    return rule.finding(
+    return rule.claim(
         message,
         location,
-        severity=severity,
-        confidence=confidence,
+        subject=Subject("command", program),
+        kind="absent" if near is None else "near",
+        doubts=against,
+        candidates=(near,),
         related=include_chain(origin),
         fixes=rename(context, location, name, near) if near else (),
         stops_launch=stops,
@@ -179,12 +187,18 @@ def _near(context: Context, program: str) -> str | None:
 RULE = Rule(
     id="PRM008",
     name="command-failed",
-    severity="error",
-    what="Checks for a `<param command=...>` whose command fails or whose program does not exist. The finding "
-    "quotes the last lines of its output. The command runs in the sandbox if the workspace is trusted, and again "
-    "when a file that it read changes. A file that git ignores, an empty argument, or a relative path "
-    "to a file beside the launch file makes the finding information. "
-    "`ros-preflight check --no-run` runs nothing and finds missing programs only.",
+    effect="stops-launch",
+    kind="invalid",
+    sometimes=(
+        Reason.NOT_HERE,
+        Reason.MADE_BY_BUILD,
+        Reason.MADE_ELSEWHERE,
+        Reason.NOT_SET,
+        Reason.WHERE_STARTED,
+        Reason.UNSEEN,
+    ),
+    what="Checks for a `<param command=...>` whose command fails or whose program does not exist. The command runs "
+    "in the sandbox if the workspace is trusted; `ros-preflight check --no-run` finds missing programs only.",
     why="`roslaunch` runs the command before the first node, and starts nothing if it fails.",
     example='<param name="robot_description" command="$(find xacro)/xacro.py $(find arm)/urdf/arm.xacro"/>',
     instead='<param name="robot_description" command="$(find xacro)/xacro $(find arm)/urdf/arm.xacro"/>',
