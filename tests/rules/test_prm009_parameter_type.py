@@ -63,12 +63,12 @@ def test_values_that_will_do(value: str, default: str) -> None:
 
 
 def test_a_text_where_zero_may_stand_for_not_set_is_a_hint() -> None:
-    assert _kinds("/dev/ttyUSB0", "0") == [("hint", "possible")]
+    assert _kinds("/dev/ttyUSB0", "0") == [("hint", "likely")]
 
 
 def test_an_empty_text_for_a_number_is_information() -> None:
     """`$(optenv PORT)` without the variable."""
-    assert _kinds("", "1883") == [("info", "possible")]
+    assert _kinds("", "1883") == [("info", "likely")]
 
 
 def test_lists_from_yaml() -> None:

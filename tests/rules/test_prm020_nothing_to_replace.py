@@ -74,7 +74,7 @@ def generate_launch_description():
 def test_a_slip_in_a_key_that_is_to_be_rewritten(tmp_path: Path, real: bool) -> None:
     made = """RewrittenYaml(source_file=file, param_rewrites={"use_sim_tiem": LaunchConfiguration("sim")})"""
     (finding,) = _found(tmp_path, made, real=real)
-    assert (finding.severity, finding.confidence) == ("warning", "likely")
+    assert (finding.severity, finding.confidence) == ("warning", "certain")
     assert "key 'use_sim_tiem' of RewrittenYaml replaces nothing" in finding.message
     assert [edit.text for edit in finding.fixes[0].edits] == ["use_sim_time"]
 
@@ -88,7 +88,7 @@ def test_a_slip_in_a_text_that_is_to_be_replaced(tmp_path: Path) -> None:
 
 def test_what_is_like_nothing_in_the_file_is_but_a_hint(tmp_path: Path) -> None:
     (finding,) = _found(tmp_path, """RewrittenYaml(source_file=file, param_rewrites={"autostart": "true"})""")
-    assert (finding.severity, finding.confidence) == ("hint", "possible")
+    assert (finding.severity, finding.confidence) == ("hint", "certain")
 
 
 def test_a_class_of_that_name_which_is_another_one(tmp_path: Path) -> None:

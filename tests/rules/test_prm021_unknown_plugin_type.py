@@ -40,7 +40,7 @@ def test_a_type_that_is_nearly_the_packages_own(type_: str, meant: str) -> None:
     said = f"warning[PRM021] unknown controller '{type_}'"
     (finding,) = check(FIXTURE.format(type_) + f"                {'^' * len(type_)} {said}\n")
     assert f"did you mean '{meant}'?" in finding.message
-    assert finding.confidence == "possible"
+    assert finding.confidence == "likely"
     assert [edit.text for fix in finding.fixes for edit in fix.edits] == [meant]
 
 

@@ -55,7 +55,7 @@ def test_a_slip_of_what_the_catalogue_knows() -> None:
             "vx_min: -0.3",
         )
     )
-    assert found.confidence == "possible"
+    assert found.confidence == "likely"
     assert "the catalogue of jazzy" in found.message
     assert [edit.text for fix in found.fixes for edit in fix.edits] == ["vx_max"]
 

@@ -20,6 +20,7 @@ class Reason(Enum):
     NOT_SET = "a value is empty or a placeholder", "set {of}"
     WHERE_STARTED = "it depends on the folder where the launch is started", "write the path from its package"
     OTHER_ARGUMENTS = "it applies with other arguments only", "launch with {of}"
+    NOT_GIVEN = "no node of this launch gets the file", "launch the node that gets it"
     # What is known is of something like it.
     CATALOGUE = "it is known from the catalogue, not from this machine", "install the package"
     OTHER_DISTRIBUTION = (

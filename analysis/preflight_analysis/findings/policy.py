@@ -54,6 +54,7 @@ LIMITS: Mapping[Reason, Limit] = {
     Reason.NOT_SET: Limit("info"),
     Reason.WHERE_STARTED: Limit("info"),
     Reason.OTHER_ARGUMENTS: Limit(confidence="possible", less=True),
+    Reason.NOT_GIVEN: Limit("warning", "likely"),
     Reason.CATALOGUE: Limit(confidence="likely"),
     Reason.OTHER_DISTRIBUTION: Limit("hint", "possible"),
     Reason.OTHER_VERSION: Limit("info", "possible"),

@@ -40,8 +40,7 @@ class PluginIndex:
         here = self._environment.packages.get(package)
         if here is not None and self._is_ours(here):
             return self._of_source(name, package)
-        known = _catalogued(package, name, self._distro)
-        return known if known is None or self._environment.distro == self._distro else known.of_other()
+        return _catalogued(package, name, self._distro)
 
     def names(self, package: str) -> tuple[str, ...]:
         """The plugins that a package has, as far as the catalogue knows it; none where it is in the workspace."""
@@ -69,7 +68,8 @@ class PluginIndex:
 
         found = plugin_params(SourceAnalysis(self._environment, self._disk), name, package)
         defaults = {param: use.default for param, use in (found or {}).items()}
-        return Plugin(name, defaults, frozenset(), f"its source in package '{package}'", True) if defaults else None
+        evidence = f"its source in package '{package}'"
+        return Plugin(name, defaults, frozenset(), evidence, of_workspace=True) if defaults else None
 
 
 @lru_cache(maxsize=_KEPT)
@@ -82,6 +82,6 @@ def _catalogued(package: str, name: str, distro: str) -> Plugin | None:
         repository, commit, _ = of_package["source"]
         defaults = {param: about.get("default_value") for param, about in params.items()}
         evidence = f"the catalogue of {distro} ({repository} at {commit[:7]})"
-        return Plugin(name, defaults, frozenset(found.get("elsewhere", ())), evidence, True)
+        return Plugin(name, defaults, frozenset(found.get("elsewhere", ())), evidence)
     except (KeyError, TypeError, ValueError, AttributeError):
         return None

@@ -47,6 +47,7 @@ _MOST = 200
 _LONGEST = 200_000
 """Characters of one."""
 _JOINTS = ("joint", "joints")
+_LOOSE = doubts(NOT_GIVEN=True)
 _TOGETHER = 4
 """Parameters that stand together, of which most are those of one source."""
 
@@ -79,17 +80,31 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         for name, span in file.unmarked[:1] if file.sections else ():
             message = prm012.MESSAGE.format(name, MARK)
             place, fixes = document.location(span), prm012.marked(document, span)
-            yield prm012.RULE.finding(message, place, severity="warning", confidence="likely", fixes=fixes)
+            yield prm012.RULE.claim(message, place, subject=Subject("parameter", name), doubts=_LOOSE, fixes=fixes)
         for what, span in file.refused[:1]:
             message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
-            yield prm016.RULE.finding(message, document.location(span), severity="warning", confidence="likely")
+            of_file = Subject("file", path)
+            yield prm016.RULE.claim(message, document.location(span), subject=of_file, doubts=_LOOSE)
         for missing in document.once(prm018.missing_in):
             if _is_in_base(context, files | given, missing):
                 continue
-            yield prm018.RULE.finding(missing.message, document.location(missing.span), confidence="likely")
+            yield prm018.RULE.claim(
+                missing.message,
+                document.location(missing.span),
+                subject=missing.subject,
+                effect=missing.effect,
+                doubts=_LOOSE,
+                candidates=missing.meant,
+            )
         yield from _unknown_names(context, package.share, document)
         for wrong in prm022.wrong_in(document, context.plugins):
-            yield prm022.RULE.finding(wrong.message, document.location(wrong.span), confidence=wrong.confidence)
+            yield prm022.RULE.claim(
+                wrong.message,
+                document.location(wrong.span),
+                subject=Subject("parameter", wrong.name),
+                doubts=(*wrong.doubts, *_LOOSE),
+                candidates=(wrong.meant,),
+            )
 
 
 def _of_ros1(context: Context, share: str) -> Iterator[Finding]:
@@ -154,10 +169,12 @@ def _unknown_names(context: Context, share: str, document: Document) -> Iterator
         names = tuple(sorted(group)) if len(group) >= _TOGETHER else ()
         found = meant_in_one_file(context.disk.db, context.environment, (share,), names) if names else {}
         for name, asked in found.items():
-            yield prm023.RULE.finding(
+            yield prm023.RULE.claim(
                 prm023.MESSAGE.format(name, asked.name, os.path.basename(asked.path)),
                 document.location(group[name]),
-                confidence="possible",
+                subject=Subject("parameter", name),
+                doubts=_LOOSE,
+                candidates=(asked.name,),
             )
 
 

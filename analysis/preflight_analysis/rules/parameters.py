@@ -9,6 +9,8 @@ from operator import is_not
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject, Text
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.places import related_node
 from preflight_analysis.rules.problems import include_chain, replacement
@@ -61,16 +63,28 @@ def namespace_of(param: Param) -> str:
     return param.name.rpartition("/")[0]
 
 
-def refusal_finding(rule: Rule, node: LaunchNode, param: Param, use: ParamUse, message: str) -> Finding:
+OF_REFUSALS = (Reason.FROM_SOURCE, Reason.CATALOGUE, Reason.DEPENDS, Reason.LIBRARY)
+"""The doubts that `refusal` may have."""
+
+
+def refusal(
+    rule: Rule, node: LaunchNode, param: Param, use: ParamUse, said: Text, against: Iterable[Doubt] = ()
+) -> Finding:
     """The finding for a value at which a node of ROS 2 stops when it declares the parameter."""
-    finding = rule.finding(
-        message,
+    finding = rule.claim(
+        said,
         param.place,
-        severity="warning" if use.assumed else "error",
-        confidence="possible" if use.assumed else "likely",
+        subject=Subject("parameter", param.name),
+        doubts=(
+            *against,
+            *doubts(
+                DEPENDS=node.name if use.assumed else "",
+                LIBRARY=use.assumed,
+                FROM_SOURCE=use.inferred,
+                CATALOGUE=bool(use.catalogued),
+            ),
+        ),
         related=(related_node(node), *include_chain(node.origin)),
-        node=node.name,
-        quoted=use.refused if use.refused is not None and use.refused in message else "",
     )
     return replace(finding, crash_of=node.name) if use.refused is not None else finding
 

@@ -11,7 +11,9 @@ from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchTree, Param
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
+from preflight_analysis.findings.claim import Effect, Subject, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.model import action_at
@@ -26,6 +28,7 @@ _OTHER_NUMBER = re.compile(
     r"[-+]?(0[xob][0-9a-f_]+|[0-9][0-9_]*(\.[0-9_]*)?(e[-+]?[0-9]+)?|\.[0-9]+(e[-+]?[0-9]+)?)", re.I
 )
 _PLAIN = re.compile(r"-?[0-9]+\.[0-9]+")
+_SAID = "type mismatch of parameter '{name}': {value} is {kind}, {node} expects {wanted} (default {default}){advice}"
 _IN_ANOTHER_BASE = re.compile("[-+]?0[xob]", re.IGNORECASE)
 
 
@@ -85,7 +88,7 @@ def _refused_of(
         if param is not None and type(param.value) is not type(read.use.default):
             difference = _difference(param.value, read.use.default)
             if difference is not None:
-                yield read, _finding(rule, param, read, *difference)
+                yield read, _finding(rule, param, read, difference)
 
 
 def _plain_number(context: Context, param: Param, read: ParamRead) -> tuple[Fix, ...]:
@@ -107,52 +110,61 @@ def _plain_number(context: Context, param: Param, read: ParamRead) -> tuple[Fix,
     return fix(f"Write {plain}", writer.set_parameter(param.place.span, param.value, plain), preferred=True)
 
 
-def _finding(
-    rule: Rule, param: Param, read: ParamRead, severity: Severity, confidence: Confidence, why: str
-) -> Finding:
-    if read.use.assumed:
-        severity, confidence = ("info" if severity == "warning" else severity), "possible"
-    return rule.finding(
-        f"type mismatch of parameter '{param.name}': {_shown(param.value)} is {_kind(param.value)}, {read.node.name} "
-        f"expects {_kind(read.use.default)} (default {_shown(read.use.default)}){why}",
+@dataclass(frozen=True, slots=True)
+class _Difference:
+    """What a value of another kind does, what speaks against that, and what to add to the message."""
+
+    effect: Effect = "misbehaves"
+    doubts: tuple[Doubt, ...] = ()
+    advice: str = ""
+
+
+def _finding(rule: Rule, param: Param, read: ParamRead, difference: _Difference) -> Finding:
+    default = {"wanted": _kind(read.use.default), "default": _shown(read.use.default)}
+    given = {"value": _shown(param.value), "kind": _kind(param.value)}
+    return rule.claim(
+        say(_SAID, name=param.name, node=read.node.name, **given, **default, advice=difference.advice),
         param.place,
-        severity=severity,
-        confidence=confidence,
+        subject=Subject("parameter", param.name),
+        effect=difference.effect,
+        doubts=(*difference.doubts, *doubts(ASSUMED=read.use.assumed, FROM_SOURCE=read.use.inferred)),
         related=(related_param_read(read), *include_chain(param.origin)),
     )
 
 
-def _difference(value: Any, default: Any) -> tuple[Severity, Confidence, str] | None:
-    """How severe it is, how sure, and what to add to the message; None where the value will do or nobody can tell.
+def _difference(value: Any, default: Any) -> _Difference | None:
+    """What is wrong; None where the value will do or nobody can tell.
 
     A default is also what a node takes for "not set": `False`, `0`, `""` and `None` say little of the kind.
     """
     match default:
         case bool():
             if isinstance(value, str) and value.strip().lower() in _BOOLEAN_WORDS:
-                return "warning", "likely", "; any text that is not empty is true"
+                return _Difference(advice="; any text that is not empty is true")
         case int() | float():
             if isinstance(value, str):
                 if not value.strip():
-                    return "info", "possible", "; set the argument or variable that the value comes from"
+                    unset = doubts(NOT_SET="the argument or variable that the value comes from")
+                    return _Difference(doubts=unset, advice="; set the argument or variable that the value comes from")
                 if _OTHER_NUMBER.fullmatch(value.strip()):
-                    return "warning", "possible", "; write it as a plain decimal number"
-                return ("warning", "likely", "") if default not in (0, -1) else ("hint", "possible", "")
+                    return _Difference(advice="; write it as a plain decimal number")
+                return _Difference("misbehaves" if default not in (0, -1) else "style")
             if isinstance(value, list | dict):
-                return "warning", "likely", ""
+                return _Difference()
         case str() if default:
             if isinstance(value, list | dict):
-                return "warning", "likely", ""
+                return _Difference()
         case list() | dict() if not default and isinstance(value, list | dict):
-            return "info", "possible", "; an empty default may stand for either"
+            return _Difference(doubts=doubts(INTENDED=True), advice="; an empty default may stand for either")
         case list():
             if isinstance(value, str) and value.strip().startswith("["):
-                return "warning", "likely", '; a <param> is never a list: write <rosparam param="...">[...]</rosparam>'
+                advice = '; a <param> is never a list: write <rosparam param="...">[...]</rosparam>'
+                return _Difference(advice=advice)
             if isinstance(value, str | int | float | dict):
-                return "warning", "likely", ""
+                return _Difference()
         case dict():
             if isinstance(value, str | int | float | list):
-                return "warning", "likely", ""
+                return _Difference()
     return None
 
 
@@ -176,11 +188,12 @@ def _shown(value: Any) -> str:
 RULE = Rule(
     id="PRM009",
     name="parameter-type",
-    severity="warning",
-    what="Checks for a parameter whose value has another kind than the default with which a node reads it. It "
-    "reports a text for a number, a list or a boolean, and a list for a single value. An integer for a float is valid. "
-    'Defaults that mean "not set" (`False`, `0`, an empty text) are not compared. '
-    "A list for an empty dictionary is information.",
+    effect="misbehaves",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
+    sometimes=("style", Reason.ASSUMED, Reason.FROM_SOURCE, Reason.NOT_SET, Reason.INTENDED),
+    what="Checks for a parameter whose value has another kind than the default with which a node reads it. An "
+    'integer for a float is valid, and defaults that mean "not set" (`False`, an empty text) are not compared.',
     why="Some nodes crash, some use the default, and some read `off` as true. For `roslaunch` the values `1e3`, "
     "`0x10` and `1_000` are texts.",
     example='<param name="rate" value="1e3"/> <!-- rospy.get_param("~rate", 10) -->',

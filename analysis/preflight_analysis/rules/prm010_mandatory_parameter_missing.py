@@ -15,6 +15,8 @@ from preflight_analysis.evaluation.problems import (
     WithheldFile,
 )
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
@@ -30,6 +32,15 @@ from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _UNREAD = (ParameterFileNotFound, UnreadableParameterFile, WithheldFile, BadYaml)
 _SET = (re.compile(r"""<param\b[^<>]*?\bname\s*=\s*["'](?:[^"'<>]*/)?(\w+)["']"""),)
+_NOT_SET = "parameter {names} is not set; {node} reads it without a default"
+_NONE_SET = "parameters {names} are not set; {node} reads them without a default"
+_BY_TYPE = "required parameter {names} is not set; {node} declares it by type only, and rclcpp throws an exception"
+_ALL_BY_TYPE = (
+    "required parameters {names} are not set; {node} declares them by type only, and rclcpp throws an exception"
+)
+_REFUSED = "required parameter '{name}' is not set; {node} declares it without a default and exits ({quoted})"
+_MISSING = "required parameter '{name}' is not set; {node} {reads} and exits: {quoted}{nearby}"
+_MEANT = "unused parameter '{unused}'; did you mean '{name}'? {node} {reads} and exits: {quoted}"
 _WITH_ZEROS = ("dashing", "eloquent", "foxy")
 """Distributions in which a parameter that is declared by its type alone begins with a zero of it."""
 
@@ -63,13 +74,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _hint(rule: Rule, node: LaunchNode, params: tuple[str, ...]) -> Finding:
-    one = len(params) == 1
-    return rule.finding(
-        f"parameter{'' if one else 's'} {quoted(params)} {'is' if one else 'are'} not set; {node.name} reads "
-        f"{'it' if one else 'them'} without a default",
+    return rule.claim(
+        say(_NOT_SET if len(params) == 1 else _NONE_SET, names=quoted(params), node=node.name),
         node.location,
-        severity="hint",
-        confidence="possible",
+        subject=Subject("parameter", params[0]),
+        effect="misbehaves",
+        doubts=doubts(OTHER_LAUNCH=True),
         related=include_chain(node.origin),
     )
 
@@ -83,15 +93,11 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
         for use in uses:
             if use.name in given:
                 continue
-            found = rule.finding(
-                f"required parameter '{use.name[1:]}' is not set; {node.name} declares it without a default and exits "
-                f"({use.refused})",
+            found = rule.claim(
+                say(_REFUSED, name=use.name[1:], node=node.name, quoted=use.refused),
                 node.location,
-                severity="error",
-                confidence="likely",
+                subject=Subject("parameter", use.name[1:]),
                 related=include_chain(node.origin),
-                node=node.name,
-                quoted=use.refused or "",
             )
             yield replace(found, crash_of=node.name)
 
@@ -113,13 +119,12 @@ def _of_sources(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]
         declared = {use.name for use in interface.params}
         if any(nearest(name, names_missing) for name in given - declared):
             continue  # PRM013 says it at the name that was meant for it
-        one = len(names_missing) == 1
-        yield rule.finding(
-            f"required parameter{'' if one else 's'} {quoted([name[1:] for name in names_missing])} "
-            f"{'is' if one else 'are'} not set; {node.name} declares {'it' if one else 'them'} by type only, and "
-            "rclcpp throws an exception",
+        named = [name[1:] for name in names_missing]
+        yield rule.claim(
+            say(_BY_TYPE if len(named) == 1 else _ALL_BY_TYPE, names=quoted(named), node=node.name),
             node.location,
-            confidence="likely",
+            subject=Subject("parameter", named[0]),
+            doubts=doubts(LIBRARY=True, FROM_SOURCE=True),
             related=include_chain(node.origin),
         )
 
@@ -168,28 +173,25 @@ def _misspelt(read: ParamRead, private: Iterable[Param]) -> Param | None:
 def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None, died: str) -> Finding:
     node: LaunchNode = read.node
     reads = "reads it without a default" if read.use.mandatory else "reads it"
-    message = f"required parameter '{read.name}' is not set; {node.name} {reads} and exits: {died}"
     if meant is None:
         setters = 0 if read.use.name.startswith("~") else around(context, _SET).get(names.leaf(read.name), 0)
-        if setters:
-            files = f"{setters} launch files nearby set" if setters > 1 else "a launch file nearby sets"
-            message += f"; {files} a parameter of that name"
-        return rule.finding(
-            message,
+        files = f"{setters} launch files nearby set" if setters > 1 else "a launch file nearby sets"
+        nearby = f"; {files} a parameter of that name" if setters else ""
+        return rule.claim(
+            say(_MISSING, name=read.name, node=node.name, reads=reads, quoted=died, nearby=nearby),
             node.location,
-            severity="info" if setters else None,
-            confidence="likely",
+            subject=Subject("parameter", read.name),
+            doubts=doubts(UNSEEN=True, IN_USE=setters > 0),
             related=(related_param_read(read), *include_chain(node.origin)),
-            node=node.name,
-            quoted=died,
         )
-    return rule.finding(
-        f"unused parameter '{meant.name}'; did you mean '{read.name}'? {node.name} {reads} and exits: {died}",
+    return rule.claim(
+        say(_MEANT, unused=meant.name, name=read.name, node=node.name, reads=reads, quoted=died),
         meant.place,
-        confidence="likely",
+        subject=Subject("parameter", read.name),
+        kind="near",
+        doubts=doubts(UNSEEN=True),
+        candidates=(read.name,),
         related=(related_param_read(read), *include_chain(meant.origin)),
-        node=node.name,
-        quoted=died,
         fixes=renamed(context, meant, read.name),
     )
 
@@ -197,14 +199,18 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
 RULE = Rule(
     id="PRM010",
     name="mandatory-parameter-missing",
-    severity="warning",
-    what="Checks for a parameter that a node reads without a default and that the launch does not set. In ROS 2 the "
-    "finding is an error if the node was run and exited because of it. It is a warning if the C++ source declares "
-    "the parameter by type only, in a line without a condition. In ROS 1 it is a warning if the node exited because "
-    "of it. That warning is at the intended parameter if one of a similar name, or in an outer namespace, is set. "
-    "It is information if a launch file nearby sets one of that name, as the launches may be started together. "
-    "Otherwise it is a hint, because the node may handle the missing value. If the node continues and an unused "
-    "parameter was intended, PRM001 reports it.",
+    effect="stops-node",
+    kind="absent",
+    sometimes=(
+        "misbehaves",
+        Reason.OTHER_LAUNCH,
+        Reason.UNSEEN,
+        Reason.IN_USE,
+        Reason.LIBRARY,
+        Reason.FROM_SOURCE,
+    ),
+    what="Checks for a parameter that a node reads without a default and that the launch does not set. If an unused "
+    "parameter was meant for it, the finding is there.",
     why="rospy raises a KeyError; in roscpp the variable keeps its old value. rclcpp throws an exception for a "
     "parameter that is declared by type only and has no value. Most nodes exit then.",
     example='<param name="rate" value="10"/> <!-- /rate; the node reads /talker/rate -->\n'

@@ -12,14 +12,18 @@ from preflight_analysis.evaluation.meanings import known_of_nodes
 from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.problems import include_chain, quoted, replacement
+from preflight_analysis.rules.problems import enumerated, include_chain, quoted, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.written_elsewhere import around
 
 _SHOWN = 3
+_OF_OTHERS = "section '{section}' applies to no node that gets this file (only {node}{others})"
+_NOT_OF_NODE = "no section of this file applies to {node}; it has sections for {sections}{inferred}"
 _KEYS = (re.compile(r"^([A-Za-z]\w*):[ \t]*$", re.MULTILINE),)
 _ENOUGH = 2
 """Parameter files that have to agree on a namespace."""
@@ -143,25 +147,29 @@ def _is_slip_of(name: str, other: str) -> bool:
 
 
 def _about_namespace(rule: Rule, context: Context, path: str, section: Section, meant: tuple[str, int]) -> Finding:
-    return rule.finding(
+    return rule.claim(
         f"section '{section.pattern}' applies to no node; did you mean '{meant[0]}'? {meant[1]} parameter files nearby "
         "have that namespace",
         context.location(path, section.spans[-1]),
-        confidence="likely",
+        subject=Subject("section", section.pattern),
+        kind="near",
+        doubts=doubts(UNSEEN=True),
+        candidates=meant[:1],
         every_root=True,
     )
 
 
 def _about_key(rule: Rule, context: Context, path: str, section: Section, ignoring: list[_Given]) -> Finding:
     nodes = [each.node.name for each in ignoring]
-    *some, last = nodes[:_SHOWN] if len(nodes) <= _SHOWN else (*nodes[:_SHOWN], "others")
-    getters = f"{', '.join(some)} and {last}" if some else last
+    shown = nodes[:_SHOWN] if len(nodes) <= _SHOWN else [*nodes[:_SHOWN], "others"]
+    others = enumerated(shown).removeprefix(nodes[0])
     inferred = any(each.node.name_inferred for each in ignoring)
-    return rule.finding(
-        f"section '{section.pattern}' applies to no node that gets this file (only {getters})",
+    return rule.claim(
+        say(_OF_OTHERS, section=section.pattern, node=nodes[0], others=others),
         context.location(path, section.spans[-1]),
-        severity="info" if inferred else "warning",
-        confidence="possible" if inferred else "certain",
+        subject=Subject("section", section.pattern),
+        doubts=doubts(ASSUMED=inferred),
+        candidates=nodes[:1],
         related=[Related(f"{each.node.name} gets the file here", each.location) for each in ignoring[:_SHOWN]],
         fixes=_rewrite(context, path, section, nodes[0] if len(nodes) == 1 else _for_each(nodes)),
         every_root=True,
@@ -175,11 +183,13 @@ def _about_file(
     named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
     inferred = "; the name is from its source" if node.name_inferred else ""
     key = meant or sections[0]
-    return rule.finding(
-        f"no section of this file applies to {node.name}; it has sections for {named}{inferred}",
+    return rule.claim(
+        say(_NOT_OF_NODE, node=node.name, sections=named, inferred=inferred),
         given.location,
-        severity="info" if inferred else "warning",
-        confidence="possible" if inferred else "certain",
+        subject=Subject("file", path),
+        kind="absent" if meant is None else "near",
+        doubts=doubts(ASSUMED=bool(inferred)),
+        candidates=(meant.pattern if meant is not None else None,),
         related=(
             Related("the section" if meant is not None else "its first section", context.location(path, key.spans[-1])),
             *include_chain(node.origin),
@@ -205,12 +215,11 @@ def _rewrite(context: Context, path: str, section: Section, name: str | None) ->
 RULE = Rule(
     id="PRM011",
     name="parameter-file-for-another-node",
-    severity="warning",
-    what="Checks for a parameter file in which no section applies to the node that gets it. A section applies if its "
-    "key is the node's full name, or a wildcard that matches it. It also checks for a key that matches no node and "
-    "is close to one that gets the file: its name without the namespace, a typo, or the executable. A namespace that "
-    "is a typo of one in several parameter files is reported if the launch has the node in another one. A file that "
-    "several nodes share may have no section for one of them.",
+    effect="no-effect",
+    kind="unreachable",
+    sometimes=(Reason.ASSUMED, Reason.UNSEEN),
+    what="Checks for a parameter file in which no section applies to the node that gets it, and for a key that "
+    "matches no node and is close to one. A file that several nodes share may have no section for one of them.",
     why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',

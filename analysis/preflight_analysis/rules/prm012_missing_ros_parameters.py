@@ -7,6 +7,8 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.edits.yaml import YamlWriter
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.problems import fix
@@ -28,9 +30,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             seen.add(path)
             for name, span in read_param_file(document).unmarked[:1]:
                 related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
-                yield rule.finding(
+                yield rule.claim(
                     MESSAGE.format(name, MARK),
                     context.location(path, span),
+                    subject=Subject("parameter", name),
                     related=related,
                     fixes=marked(document, span),
                 )
@@ -51,10 +54,11 @@ def marked(document: Document, key: Span) -> tuple[Fix, ...]:
 RULE = Rule(
     id="PRM012",
     name="missing-ros-parameters",
-    severity="error",
-    what="Checks for a value in a parameter file that is below a node's name without `ros__parameters` between "
-    "them. The first one of a file is reported. A file for components may have such values, because `launch_ros` "
-    "reads it. In a parameter file of the package that no node of the launch gets, the finding is a warning.",
+    effect="stops-node",
+    kind="invalid",
+    sometimes=(Reason.NOT_GIVEN,),
+    what="Checks for a value in a parameter file that is below a node's name without `ros__parameters` between them. "
+    "The first one of a file is reported. A file for components may have such values.",
     why="The client libraries refuse the whole file, and the node does not start.",
     example="camera:\n  rate: 30",
     instead="camera:\n  ros__parameters:\n    rate: 30",

@@ -6,10 +6,12 @@ from typing import Any
 
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, plain_scalar
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Text, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.files import is_template
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
-from preflight_analysis.rules.parameters import OF_ALL_NODES, refusal_finding
+from preflight_analysis.rules.parameters import OF_ALL_NODES, OF_REFUSALS, refusal
 from preflight_analysis.rules.problems import fix, shortened
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
@@ -22,7 +24,14 @@ _NAMES = {
     "string": "a string",
     "byte array": "bytes (which an empty list means)",
 }
-_ENDS = "the node exits (InvalidParameterTypeException)"
+_START = "type mismatch of parameter '{name}': "
+_OTHER_TYPE = _START + "got {given}, {node} declares {wanted}; the node exits (InvalidParameterTypeException){hint}"
+_EMPTY = _START + "an empty list has no type, {node} declares {wanted}; rclpy ignores the value, rclcpp exits"
+_UNQUOTED = (
+    _START + "launch passes {value} without quotes, and rcl reads {given}; {node} declares {wanted}, the node exits "
+    "(InvalidParameterTypeException); set it in a parameter file, in quotes"
+)
+_REFUSED = "parameter '{name}' is refused, and {node} exits: {quoted}"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -43,16 +52,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             passed = param.value if place.file in files or node.container else as_passed(param.value)
             message = _wrong(param, passed, wanted, node)
             if message is None and use.refused is not None:
-                message = f"parameter '{param.name}' is refused, and {node.name} exits: {use.refused}"
+                message = say(_REFUSED, name=param.name, node=node.name, quoted=use.refused)
             if message is None or (place, wanted) in reported:
                 continue  # what is written once for several nodes is wrong for each
             reported.add((place, wanted))
-            found = replace(
-                refusal_finding(rule, node, param, use, message),
-                fixes=_fixes(context, param, passed, wanted, in_file=place.file in files),
-            )
             # A program writes the value into the file before it is used.
-            yield replace(found, severity="info") if is_template(str(param.value)) else found
+            template = doubts(NOT_SET=f"the value of '{param.name}'" if is_template(str(param.value)) else "")
+            fixes = _fixes(context, param, passed, wanted, in_file=place.file in files)
+            yield replace(refusal(rule, node, param, use, message, template), fixes=fixes)
 
 
 def _is_as_declared(param: Param, use: ParamUse, wanted: str) -> bool:
@@ -67,29 +74,18 @@ def _declared_type(use: ParamUse, interface: Interface) -> str | None:
     return None if interface.declared and isinstance(use.default, str) else _type(use.default)
 
 
-def _wrong(param: Param, passed: Any, wanted: str, node: LaunchNode) -> str | None:
+def _wrong(param: Param, passed: Any, wanted: str, node: LaunchNode) -> Text | None:
     """What is wrong with the value that arrives at the node; None if it fits, or if nobody can tell."""
     if isinstance(passed, (list, tuple)) and not passed:
         # An empty list is what the node has anyway.
-        return (
-            None
-            if wanted == "byte array"
-            else (
-                f"type mismatch of parameter '{param.name}': an empty list has no type, {node.name} declares "
-                f"{_named(wanted)}; rclpy ignores the value, rclcpp exits"
-            )
-        )
+        return None if wanted == "byte array" else say(_EMPTY, name=param.name, node=node.name, wanted=_named(wanted))
     given = _type(passed)
     if given is None or given == wanted:
         return None
-    declares = f"{node.name} declares {_named(wanted)}"
+    kinds = {"given": _named(given), "wanted": _named(wanted)}
     if _type(param.value) == wanted:
-        return (
-            f"type mismatch of parameter '{param.name}': launch passes {_shown(param.value)} without quotes, and rcl "
-            f"reads {_named(given)}; {declares}, {_ENDS}; set it in a parameter file, in quotes"
-        )
-    hint = _hint(passed, given, wanted)
-    return f"type mismatch of parameter '{param.name}': got {_named(given)}, {declares}; {_ENDS}{hint}"
+        return say(_UNQUOTED, name=param.name, node=node.name, value=_shown(param.value), **kinds)
+    return say(_OTHER_TYPE, name=param.name, node=node.name, **kinds, hint=_hint(passed, given, wanted))
 
 
 def _hint(passed: Any, given: str, wanted: str) -> str:
@@ -149,12 +145,11 @@ def _shown(value: Any) -> str:
 RULE = Rule(
     id="PRM014",
     name="parameter-of-other-type",
-    severity="error",
-    what="Checks for a parameter whose type differs from the type that its node declares. An integer is not a double, "
-    "and an empty list has no type. A text of the launch file may arrive with another type. launch writes it to a "
-    "YAML file, with quotes only where Python's YAML needs them. rcl also reads `y`, `n` and `1e3` as values. Each "
-    "node declares `use_sim_time` as a bool. The finding is information for a text such as `__MAX_SPEED__`, for which "
-    "a program may write the value.",
+    effect="stops-node",
+    kind="conflict",
+    sometimes=(*OF_REFUSALS, Reason.NOT_SET),
+    what="Checks for a parameter whose type differs from the type that its node declares. An integer is not a "
+    "double, and an empty list has no type. A text of the launch file may arrive with another type.",
     why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes exit.",
     example='<!-- declare_parameter("rate", 10.0) -->\n<param name="rate" value="5"/>',
     instead='<param name="rate" value="5.0"/>',

@@ -6,6 +6,8 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.bridges import is_bridge
 from preflight_analysis.evaluation.ros2.spawners import SPAWN, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.arguments import gives
 from preflight_analysis.rules.further_reading import CLOCK_AND_TIME, PARAMETERS
@@ -14,6 +16,8 @@ from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 3
+_APART = "'use_sim_time' is true for {node}, which has {variable} {other}; '/clock' is published with {one}"
+_DIFFER = "'use_sim_time' is not true for {node}{others}, but for {count} of this launch; their times differ"
 _MOST_STEPS = 10
 _TIMELESS = ("static_transform_publisher",)
 """What it sends holds at any time."""
@@ -37,24 +41,31 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         related = include_chain(node.origin)
         if given != param.place:
             related = (Related(f"set for {node.name} here", param.place), *related)
-        yield rule.finding(
+        yield rule.claim(
             "'use_sim_time' is true, but '/clock' has no publisher in this launch; time does not advance without a "
             "simulator or `ros2 bag play --clock`",
             given,
-            severity="info",
-            confidence="likely" if graph.complete else "possible",
+            subject=Subject("topic", "/clock"),
+            kind="absent",
+            doubts=doubts(OUTSIDE=True),
             related=related,
         )
     published = clock.providers if clock is not None else ()
     for node, param in on if published else ():
         difference = graph.domains.apart(published[0].node, node)
         if difference is not None and not graph.providers_for(node, "topics", "/clock"):
-            yield rule.finding(
-                f"'use_sim_time' is true for {node.name}, which has {difference.variable} {difference.other}; '/clock' "
-                f"is published with {difference.one}",
+            yield rule.claim(
+                say(
+                    _APART,
+                    node=node.name,
+                    variable=difference.variable,
+                    other=difference.other,
+                    one=difference.one,
+                ),
                 node.location,
-                severity="info",
-                confidence="likely",
+                subject=Subject("topic", "/clock"),
+                kind="unreachable",
+                doubts=doubts(OUTSIDE=True),
                 related=(Related(f"true for {node.name}", param.place), *include_chain(node.origin)),
             )
             break
@@ -63,12 +74,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         node for node in nodes if id(node) not in simulated and _has_times(node) and not _publishes_clock(node, context)
     ]
     if has_clock and off and len(off) <= len(on):
-        shown = ", ".join(node.name for node in off[:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
-        yield rule.finding(
-            f"'use_sim_time' is not true for {shown}, but for {_counted(len(on))} of this launch; their times differ",
+        others = "".join(f", {node.name}" for node in off[1:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
+        yield rule.claim(
+            say(_DIFFER, node=off[0].name, others=others, count=_counted(len(on))),
             off[0].location,
-            severity="info",
-            confidence="possible",
+            subject=Subject("parameter", "use_sim_time"),
+            doubts=doubts(ASSUMED=True),
             related=(Related(f"true for {on[0][0].name}", on[0][1].place), *include_chain(off[0].origin)),
         )
 
@@ -115,7 +126,9 @@ def _publishes_clock(node: LaunchNode, context: Context) -> bool:
 RULE = Rule(
     id="PRM015",
     name="simulated-time",
-    severity="info",
+    effect="misbehaves",
+    kind="conflict",
+    sometimes=(Reason.OUTSIDE, Reason.ASSUMED),
     what="Checks for `use_sim_time` set to true in a launch where no node publishes `/clock`. If a node publishes "
     "`/clock`, it checks for nodes without `use_sim_time` among a majority with it, and for nodes with it in another "
     "domain.",

@@ -7,12 +7,20 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, refused_items
 from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 
 _SHOWN = 5
+_ONE = "{what}; rcl refuses the whole file, and {node} does not start"
+_SEVERAL = "{what}; rcl refuses the whole file, and its {count} nodes do not start"
+_ARRIVES = (
+    "parameter '{name}' arrives as {refused}, because launch passes it without quotes; {node} does not start; set it "
+    "in a parameter file, in quotes"
+)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -26,11 +34,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if at in reported or (substituted and "$(" in document.text[span.start : span.end]):
                 continue  # what a substitution comes to may be fine
             reported.add(at)
-            who = f"{given[0][0].name} does" if len(given) == 1 else f"its {len(given)} nodes do"
+            one, count = given[0][0].name, len(given)
+            text = say(_ONE, what=what, node=one) if count == 1 else say(_SEVERAL, what=what, count=count)
             more = f" (and {len(given) - _SHOWN} more nodes)" if len(given) > _SHOWN else ""
-            yield rule.finding(
-                f"{what}; rcl refuses the whole file, and {who} not start",
+            yield rule.claim(
+                text,
                 at,
+                subject=Subject("file", path),
                 related=[
                     Related(f"{node.name} gets the file here{more if index == _SHOWN else ''}", source.origin[-1])
                     for index, (node, source) in enumerate(given[:_SHOWN], 1)
@@ -61,10 +71,10 @@ def _values(rule: Rule, context: Context) -> Iterator[Finding]:
                 if refused is None or place in reported:
                     continue
                 reported.add(place)
-                yield rule.finding(
-                    f"parameter '{param.name}' arrives as {refused}, because launch passes it without quotes; "
-                    f"{node.name} does not start; set it in a parameter file, in quotes",
+                yield rule.claim(
+                    say(_ARRIVES, name=param.name, refused=refused, node=node.name),
                     place,
+                    subject=Subject("parameter", param.name),
                     related=include_chain(node.origin),
                 )
 
@@ -72,12 +82,12 @@ def _values(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="PRM016",
     name="parameter-file-refused",
-    severity="error",
-    what="Checks for parameter files that are valid YAML and that rcl refuses. It reports a list of mixed types "
-    "such as `[1, 2.5]` and a list of lists. It reports a parameter without a value and a key with a slash below "
-    "another key. `y`, `n`, `on` and `off` are bools, so `[x, y, z]` is a list of mixed types, in a launch file "
-    "too. A parameter file of the package that no node of the launch gets is a warning. A program or an argument "
-    "may use it.",
+    effect="stops-node",
+    kind="invalid",
+    sometimes=(Reason.NOT_GIVEN,),
+    what="Checks for parameter files that are valid YAML and that rcl refuses: a list of mixed types, a list of "
+    "lists, a parameter without a value, a key with a slash below another key. `y`, `n`, `on` and `off` are "
+    "bools.",
     why="rcl refuses the whole file: `Sequence should be of same type`. Each node that gets it exits at once, even "
     "if it has no section in the file.",
     example="camera:\n  ros__parameters:\n    gains: [1, 2.5]",

@@ -7,12 +7,15 @@ from collections.abc import Iterator
 from textwrap import shorten
 
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
-from preflight_analysis.rules.parameters import refusal_finding
+from preflight_analysis.rules.parameters import OF_REFUSALS, refusal
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import ParamUse, Range
 
+_OUTSIDE = "parameter '{name}' is {value}, {outside}: {node} declares {range} and exits"
+_REFUSED = "parameter '{name}' is {value}, which {node} refuses, and exits: {quoted}"
 _CLOSE = 1e-6
 """As a part of the value; the client libraries are stricter."""
 
@@ -31,18 +34,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if use is None or why is None or at in reported:
                 continue
             reported.add(at)
-            yield refusal_finding(rule, node, param, use, f"{why} (InvalidParameterValueException)")
+            yield refusal(rule, node, param, use, why.followed_by(" (InvalidParameterValueException)"))
 
 
-def _wrong(param: Param, use: ParamUse, node: LaunchNode) -> str | None:
+def _wrong(param: Param, use: ParamUse, node: LaunchNode) -> Text | None:
     """What is wrong with the value; None if nothing is."""
-    value = f"parameter '{param.name}' is {shorten(str(param.value), 60, placeholder='...')}"
+    value = shorten(str(param.value), 60, placeholder="...")
     outside = _outside(param.value, use.range) if use.range and _is_of_its_type(param.value, use) else None
     if outside is not None:
-        return f"{value}, {outside}: {node.name} declares {use.range} and exits"
+        return say(_OUTSIDE, name=param.name, value=value, outside=outside, node=node.name, range=use.range)
     if use.refused is None or use.type is not None or use.mandatory:
         return None
-    return f"{value}, which {node.name} refuses, and exits: {use.refused}"
+    return say(_REFUSED, name=param.name, value=value, node=node.name, quoted=use.refused)
 
 
 def _is_of_its_type(value: object, use: ParamUse) -> bool:
@@ -73,7 +76,9 @@ def _is_close(value: float, other: float) -> bool:
 RULE = Rule(
     id="PRM017",
     name="parameter-out-of-range",
-    severity="error",
+    effect="stops-node",
+    kind="invalid",
+    sometimes=OF_REFUSALS,
     what="Checks for a number outside of the range, or between the steps, of the descriptor with which the node "
     "declares the parameter.",
     why="rclcpp and rclpy raise InvalidParameterValueException in `declare_parameter`, and most nodes exit.",

@@ -14,6 +14,8 @@ from typing import NamedTuple
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
+from preflight_analysis.findings.claim import Effect, Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.places import getters_of
@@ -81,6 +83,21 @@ class Missing(NamedTuple):
             f"it{hint}"
         )
 
+    @property
+    def subject(self) -> Subject:
+        """The parameter that is not there."""
+        return Subject("parameter", self.listed_in if self.instead else self.parameter)
+
+    @property
+    def effect(self) -> Effect:
+        """What it does: nav2 goes on with other plugins than those of the file, or a node ends."""
+        return "no-effect" if self.instead else "stops-node"
+
+    @property
+    def meant(self) -> tuple[str, ...]:
+        """What is configured in its place, where that is one."""
+        return tuple(name for name, _ in self.ready) if len(self.ready) == 1 else ()
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _of_moveit(rule, context)
@@ -104,10 +121,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             missing.instead and _is_listed(context, getters, missing)
         ):
             continue
-        yield rule.finding(
+        yield rule.claim(
             missing.message,
             context.location(path, missing.span),
-            confidence="likely",
+            subject=missing.subject,
+            effect=missing.effect,
+            candidates=missing.meant,
             related=(
                 *(Related(f"'{name}' is configured here", context.location(path, at)) for name, at in missing.ready),
                 getters[path],
@@ -138,11 +157,12 @@ def _of_moveit(rule: Rule, context: Context) -> Iterator[Finding]:
             lacking = [name for name in listed if not any(each.startswith(f"{_MOVEIT}.{name}.") for each in given)]
             of_file = any(source.path == param.place.file for source in node.param_sources)
             for name in lacking if len(lacking) == len(listed) or not of_file else ():
-                yield rule.finding(
+                yield rule.claim(
                     f"'{name}' in '{param.name}' has no section '{_MOVEIT}.{name}'; MoveIt does not know the "
                     "controller",
                     param.place,
-                    confidence="likely",
+                    subject=Subject("controller", name),
+                    effect="breaks",
                     related=include_chain(node.origin),
                 )
 
@@ -225,12 +245,13 @@ def _ready(spans: Mapping[str, Span], prefix: str, kind: str, listed: set[str]) 
 RULE = Rule(
     id="PRM018",
     name="listed-not-configured",
-    severity="warning",
-    what="Checks for a name in a list of a parameter file (`plugins`, `controller_plugins`, `behavior_plugins`, "
-    "...) without a `NAME.plugin` or `NAME.type`. Another name of the list has one, or the list is one of Nav2. It "
-    "also checks for a plugin of Nav2 in a section without the list, for which Nav2 loads its default list. Nav2 knows "
-    "the plugins of its default lists. Parameter files of the package that no node of the launch gets are checked too. "
-    "It also checks for a name in `controller_names` of MoveIt without a section.",
+    effect="stops-node",
+    kind="absent",
+    always=(Reason.LIBRARY,),
+    sometimes=("breaks", "no-effect", Reason.NOT_GIVEN),
+    what="Checks for a name in a list of a parameter file (`plugins`, `controller_plugins`, ...) without a "
+    "`NAME.plugin` or `NAME.type`, and for a plugin of Nav2 that is in no list. It also checks "
+    "`controller_names` of MoveIt.",
     why="The node requests that parameter for each name of the list and does not start without it. Often the list "
     "and the section differ in the name.",
     example='plugins: ["voxel_layer", "inflation_layer"]\n'

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import replace
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
@@ -21,6 +20,8 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.ros2.spawners import Asked, asked_of, is_spawner, type_in
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject, Text, as_text, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
@@ -63,10 +64,9 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
             near = nearest(controller, known)
             sure = context.tree.complete or (near is not None and is_slip(controller, near))
             if sure or _is_beside(node, types):
-                missing = f"parameter '{full}/type' is not set, and the controller manager reads it"
-                found = _finding(rule, context, node, missing, controller, known)
-                found = found if sure else replace(found, severity="info")
-                yield replace(found, confidence="possible") if _is_of_one_variant(context, types) else found
+                missing = as_text(f"parameter '{full}/type' is not set, and the controller manager reads it")
+                against = doubts(PARTLY_READ=not sure, DEPENDS=_is_of_one_variant(context, types))
+                yield _finding(rule, context, node, missing, controller, known, against=against)
 
 
 def _is_beside(spawner: LaunchNode, types: Iterable[Param]) -> bool:
@@ -83,11 +83,12 @@ def _of_other_namespace(
         end = f"/{names.leaf(controller)}/type"
         found = [param for name, param in params.items() if name.endswith(end) and _is_plugin(param.value)]
         if len(found) == 1 and found[0].name.removesuffix("/type") not in loaded:
-            yield rule.finding(
+            yield rule.claim(
                 f"parameter '{controller}/type' is not set, and the controller manager reads it: the controller is not "
                 f"loaded; did you mean '{found[0].name}'?",
                 spawner.location,
-                confidence="likely",
+                subject=Subject("controller", names.leaf(controller)),
+                candidates=(found[0].name,),
                 related=(Related("the type is set here", found[0].place), *include_chain(spawner.origin)),
             )
 
@@ -126,7 +127,7 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
             if known or apart is not None or (files and context.tree.complete):
                 related = [Related(f"parameters of {manager.name}", source.origin[-1]) for source in files[:1]]
                 related += [Related("the type is set here", apart[1])] if apart is not None else []
-                missing = f"parameter '{controller}.type' of {manager.name} is not set"
+                missing = say("parameter '{name}.type' of {node} is not set", name=controller, node=manager.name)
                 where = apart[0] if apart is not None else None
                 yield _finding(rule, context, nodes[at], missing, controller, known, related, where)
 
@@ -177,11 +178,12 @@ def _finding(
     rule: Rule,
     context: Context,
     spawner: LaunchNode,
-    missing: str,
+    missing: Text,
     controller: str,
     known: list[str],
     related: Iterable[Related] = (),
     apart: str | None = None,
+    against: Iterable[Doubt] = (),
 ) -> Finding:
     near = nearest(controller, known)
     some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
@@ -191,12 +193,16 @@ def _finding(
         what = f"did you mean '{near}'?"
     else:
         what = f"it has types for {some}" if known else "it has no types of controllers"
-    return rule.finding(
-        f"{missing}: the controller is not loaded; {what}",
+    meant = near if apart is None else None
+    return rule.claim(
+        missing.followed_by(": the controller is not loaded; {what}", what=what),
         spawner.location,
-        confidence="likely",
+        subject=Subject("controller", controller),
+        kind="absent" if meant is None else "near",
+        doubts=against,
+        candidates=(meant,),
         related=(*related, *include_chain(spawner.origin)),
-        fixes=_corrected(context, spawner, controller, near) if apart is None and near is not None else (),
+        fixes=_corrected(context, spawner, controller, meant) if meant is not None else (),
     )
 
 
@@ -235,16 +241,13 @@ def _has_section(context: Context, node: LaunchNode, name: str) -> bool:
 RULE = Rule(
     id="PRM019",
     name="controller-not-configured",
-    severity="warning",
-    what="Checks for a controller in the arguments of the `spawner` of ros2_control without a type in the parameters "
-    "of the controller manager, or in a file that the spawner has as `--param-file`. The manager is a node of the "
-    "launch, or the one that the robot description starts in Gazebo. A `type` in the section of the controller "
-    "itself, as in ROS 1, only counts in the file of the spawner. There is no finding if the parameters of the "
-    "manager are not all known, or if the spawner has `--controller-type`. In ROS 1 the rule checks for `NAME/type` "
-    "in the namespace of the manager. The launch must set the type of another controller there, or that of the "
-    "controller in one other namespace only. If the launch is not known completely, only a misspelled controller is "
-    "reported, or information where the launch file of the spawner sets other types. Under a condition, the finding "
-    "is information if an argument names the parameter file.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.PARTLY_READ, Reason.DEPENDS, Reason.ASSUMED),
+    what="Checks for a controller in the arguments of a `spawner` without a type in the parameters of its controller "
+    "manager, or in a `--param-file` of the spawner. Managers whose parameters are not all known are not "
+    "checked.",
     why="The manager refuses to load the controller: `The 'type' param was not defined`. The spawner exits and the "
     "controller does not run.",
     example="arguments=['streaming_controller']  # the manager's file has twist_controller",

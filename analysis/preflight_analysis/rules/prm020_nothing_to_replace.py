@@ -6,10 +6,12 @@ from collections.abc import Iterable, Iterator
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import NothingToReplace
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import FORMATS, NAV2
 from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.problems import problem_finding, problems_of, rename, shown
+from preflight_analysis.rules.problems import problem_claim, problems_of, rename, shown
 from preflight_analysis.rules.rule import Context, Rule
 
 _KEY = re.compile(r"^[ \t-]*[\"']?([\w./-]+)[\"']?[ \t]*:", re.MULTILINE)
@@ -27,12 +29,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         there = f"'{shown(path, context)}'" if text else "the file"
         what = "key" if by == "RewrittenYaml" else "text"
         place = _place(context, problem.location, name)
-        yield problem_finding(
+        yield problem_claim(
             rule,
             problem,
             f"{what} '{name}' of {by} replaces nothing: {there} does not contain it{did_you_mean(near)}",
-            severity="warning" if near is not None else "hint",
-            confidence="likely" if near is not None else "possible",
+            subject=Subject("parameter", name),
+            kind="absent" if near is None else "near",
+            doubts=doubts(SHARED=near is None, NO_DIFFERENCE=near is None),
+            candidates=(near,),
             fixes=rename(context, place, name, near) if near is not None else (),
         )
 
@@ -61,10 +65,11 @@ def _place(context: Context, around: Location, name: str) -> Location:
 RULE = Rule(
     id="PRM020",
     name="nothing-to-replace",
-    severity="warning",
+    effect="no-effect",
+    kind="near",
+    sometimes=(Reason.SHARED, Reason.NO_DIFFERENCE),
     what="Checks for a key in the `param_rewrites` of a `RewrittenYaml`, or a text in the `replacements` of a "
-    "`ReplaceString`, that the source file lacks. The finding is a warning if the file has one of a similar name, "
-    "otherwise a hint. Launch files often have rewrites for several files.",
+    "`ReplaceString`, that the source file lacks. Launch files often have rewrites for several files.",
     why="`RewrittenYaml` adds no keys. The nodes keep the value of the file, and no tool reports it.",
     example="RewrittenYaml(source_file=params, param_rewrites={'use_sim_tme': use_sim_time})",
     instead="RewrittenYaml(source_file=params, param_rewrites={'use_sim_time': use_sim_time})",

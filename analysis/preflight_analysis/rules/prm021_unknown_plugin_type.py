@@ -16,6 +16,8 @@ from preflight_analysis.catalogue.plugin_names import distributions_with, is_kno
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
 from preflight_analysis.rules.nearest import did_you_mean, is_slip
@@ -56,10 +58,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if of_nav is not None:
                 message, near = of_nav
                 place = context.location(path, named.span)
-                yield rule.finding(
+                yield rule.claim(
                     message + did_you_mean(near),
                     place,
-                    confidence="likely",
+                    subject=Subject("plugin", named.type),
+                    kind="absent" if near is None else "near",
+                    doubts=doubts(CATALOGUE=True),
+                    candidates=(near,),
                     related=(getter,),
                     fixes=rename(context, place, named.type, near) if near is not None else (),
                 )
@@ -72,13 +77,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             place = context.location(path, named.span)
             by = "its plugin descriptions" if own else f"the catalogue of {distro}"
-            yield rule.finding(
+            yield rule.claim(
                 f"unknown {named.kind} '{named.type}' of package '{named.package}'; did you mean '{meant}'? "
                 f"Source: {by}",
                 place,
+                subject=Subject("plugin", named.type),
                 # Another version of the package may have had the shorter name.
-                severity="info" if abridged is not None and environment.distro != distro else None,
-                confidence="likely" if own or environment.distro == distro else "possible",
+                doubts=doubts(CATALOGUE=not own, OTHER_VERSION=abridged is not None and environment.distro != distro),
+                candidates=(meant,),
                 related=(getter,),
                 fixes=rename(context, place, named.type, meant),
             )
@@ -152,13 +158,11 @@ def _words(type_: str) -> set[str]:
 RULE = Rule(
     id="PRM021",
     name="unknown-plugin-type",
-    severity="warning",
-    what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, "
-    "if the package has one of a similar name. The catalogue lists the types of common packages, and the plugins "
-    "of Nav2 by distribution: `nav2_behaviors/Spin` of Humble is `nav2_behaviors::Spin` since Jazzy. For packages of "
-    "the workspace the plugin descriptions list them, and only typos are reported. It is information if the type is "
-    "that of the only controller of the package without some of its words, and the catalogue is of another "
-    "distribution.",
+    effect="stops-node",
+    kind="near",
+    always=(Reason.UNSEEN,),
+    what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, if "
+    "the package has one of a similar name. The types are those of plugin descriptions or of the catalogue.",
     why="pluginlib does not find the class. The spawner of the controller exits, or the node does not start.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",

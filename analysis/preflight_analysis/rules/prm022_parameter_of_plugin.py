@@ -15,7 +15,9 @@ from rapidfuzz.distance import OSA
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param_file
-from preflight_analysis.findings.finding import Confidence, Finding, Related
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.nearest import is_slip
 from preflight_analysis.rules.places import getters_of
@@ -41,9 +43,9 @@ class Wrong(NamedTuple):
         )
 
     @property
-    def confidence(self) -> Confidence:
-        """How sure that is."""
-        return "likely" if self.plugin.likely else "possible"
+    def doubts(self) -> tuple[Doubt, ...]:
+        """How that is known."""
+        return doubts(FROM_SOURCE=self.plugin.of_workspace, CATALOGUE=not self.plugin.of_workspace)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -56,10 +58,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             place = context.location(path, wrong.span)
             old, new = (name.rpartition(".")[2] for name in (wrong.name, wrong.meant))
             same_place = wrong.name.removesuffix(old) == wrong.meant.removesuffix(new)
-            yield rule.finding(
+            yield rule.claim(
                 wrong.message,
                 place,
-                confidence=wrong.confidence,
+                subject=Subject("parameter", wrong.name),
+                doubts=wrong.doubts,
+                candidates=(wrong.meant,),
                 related=(getter,),
                 fixes=rename(context, place, old, new) if same_place else (),
             )
@@ -116,10 +120,11 @@ def _is_near(name: str, declared: str, values: Mapping[str, object]) -> bool:
 RULE = Rule(
     id="PRM022",
     name="parameter-of-plugin-not-declared",
-    severity="warning",
-    what="Checks for a parameter below the name of a plugin that the plugin does not declare. The plugin declares "
-    "an unset one of a similar name. The catalogue lists the parameters of the plugins of Nav2. Plugins of the "
-    "workspace are read from their source. Parameters of other versions of a plugin are not reported.",
+    effect="no-effect",
+    kind="near",
+    sometimes=(Reason.FROM_SOURCE, Reason.NOT_GIVEN),
+    what="Checks for a parameter below the name of a plugin that the plugin does not declare, while one of a similar "
+    "name is not set. Plugins of the workspace are read from their source, those of Nav2 are in the catalogue.",
     why="The plugin uses its default, and no tool reports that the value of the file is unused.",
     example='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_maxx: 0.3',
     instead='FollowPath:\n  plugin: "nav2_mppi_controller::MPPIController"\n  vx_max: 0.3',

@@ -8,6 +8,8 @@ from collections.abc import Collection, Iterator, Mapping
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
@@ -121,10 +123,11 @@ def _renamed(name: str, asked: Asked) -> str:
 
 
 def _finding(rule: Rule, context: Context, node: LaunchNode | None, param: Param, asked: Asked) -> Finding:
-    return rule.finding(
+    return rule.claim(
         MESSAGE.format(_last(param.name), asked.name, os.path.basename(asked.path)),
         param.place,
-        confidence="possible",
+        subject=Subject("parameter", param.name),
+        candidates=(asked.name,),
         related=(*((related_node(node),) if node is not None else ()), *include_chain(param.origin)),
         fixes=_fixes(context, param, asked),
     )
@@ -147,14 +150,13 @@ def _fixes(context: Context, param: Param, asked: Asked) -> tuple[Fix, ...]:
 RULE = Rule(
     id="PRM023",
     name="parameter-not-in-sources",
-    severity="warning",
+    effect="no-effect",
+    kind="near",
+    always=(Reason.NOT_ANALYSED,),
+    sometimes=(Reason.NOT_GIVEN,),
     what="Checks for a parameter of a node of the workspace whose name is in no source of the workspace, while the "
-    "node's package reads one of a similar name that is not set. Similar is a typo, one word more or less, or the "
-    "same words in another order or shortened. In a deeper namespace (`radio/channel`) a plugin of any package may "
-    "read it. In ROS 1 it also checks parameters beside the nodes if one source reads most of them. The same applies "
-    "to YAML files of the package in folders such as `config` and `params` that no node of the launch gets. Names "
-    "are looked for in the text of the sources. Nodes whose parameters are known in full are checked by PRM001 and "
-    "PRM013.",
+    "node's package reads one of a similar name that is not set. Parameters that PRM001 and PRM013 know are not "
+    "checked.",
     why="The node uses its default, and no tool reports that the value of the launch file is unused.",
     example='<!-- the node reads ~subscribe_laserScan -->\n<param name="subscribe_scan" value="true"/>',
     instead='<param name="subscribe_laserScan" value="true"/>',

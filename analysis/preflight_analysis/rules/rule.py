@@ -62,18 +62,14 @@ class ExecutableNames(Executables, Protocol):
 class Plugin:
     """A plugin that nodes load by pluginlib. `params` has its parameters by their names below its own, with defaults:
     `{sources}.topic` stands for `front.topic` where the parameter `sources` has `front` among its items, `../speed` is
-    one of what loads it. `elsewhere` are those of other versions, `evidence` says where that is from, `likely` whether
-    it is of the version that is used."""
+    one of what loads it. `elsewhere` are those of other versions, `evidence` says where that is from, `of_workspace`
+    whether that is the source of the workspace."""
 
     name: str
     params: Mapping[str, object]
     elsewhere: frozenset[str]
     evidence: str
-    likely: bool
-
-    def of_other(self) -> Plugin:
-        """As another version has it than is used."""
-        return replace(self, likely=False)
+    of_workspace: bool = False
 
 
 class Plugins(Protocol):
