@@ -244,7 +244,7 @@ RULE = Rule(
     effect="breaks",
     kind="absent",
     always=(Reason.LIBRARY,),
-    sometimes=(Reason.PARTLY_READ, Reason.DEPENDS, Reason.ASSUMED),
+    sometimes=(Reason.PARTLY_READ, Reason.DEPENDS),
     what="Checks for a controller in the arguments of a `spawner` without a type in the parameters of its controller "
     "manager, or in a `--param-file` of the spawner. Managers whose parameters are not all known are not "
     "checked.",

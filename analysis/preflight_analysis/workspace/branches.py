@@ -249,7 +249,7 @@ class _Search:
         for finding in found:
             key = (finding.rule, finding.location)
             if key not in self._findings:
-                if finding.rule == _OF_VARIANTS and finding.confidence == "possible":
+                if finding.rule == _OF_VARIANTS and Doubt(Reason.DEPENDS) in finding.doubts:
                     finding = doubted(finding, _ASSUMED)  # noqa: PLW2901
                 self._findings[key] = _under(finding, condition), _text(finding, documents)
                 places = (finding.location, *(related.location for related in finding.related))
