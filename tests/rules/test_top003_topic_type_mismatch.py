@@ -91,7 +91,7 @@ def test_two_types_of_one_node() -> None:
          "/other": {"subscribers": {"mast": "x/Velocity"}}}
     """)
     (finding,) = (each for each in found if each.rule == "TOP003")
-    assert (finding.severity, finding.confidence) == ("error", "likely")
+    assert (finding.severity, finding.confidence) == ("error", "certain")
     assert finding.message == "type mismatch on '/mast': /simulator subscribes to both x/Position and x/Throttle"
 
 

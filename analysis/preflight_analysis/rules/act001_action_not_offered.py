@@ -2,19 +2,24 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
+from preflight_analysis.rules.channels import not_all_known
 from preflight_analysis.rules.dangling import dangling_consumers
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.moveit import known_to_moveit, unserved
-from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
+from preflight_analysis.rules.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
-from preflight_analysis.rules.places import Verbs
+from preflight_analysis.rules.places import Verbs, subject_of
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
 _VERBS = Verbs("serves", "is a client of")
+_NEAR = "action '{name}' has no server (client: {node}); did you mean '{near}', served by {other} ({why}{aside})?"
+_LONE = "action {name} has no server in this launch (client: {node}){aside}"
 _OF_GOALS = ("/goal", "/send_goal")
 """How the first part of an action is called, in ROS 1 and 2."""
 
@@ -27,23 +32,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     wrong = [each.known for each in context.once(unserved)]
     served = [each for each in context.once(known_to_moveit) if each.loaded is not None]
     of_moveit = {(id(each.node), each.action) for each in (*wrong, *served)}
-    pairs, unknown = near_misses(context, "actions"), not_analysed(graph)
+    pairs, unknown, lacks = near_misses(context, "actions"), not_analysed(graph), not_all_known(graph)
     near = [each for each in pairs if (id(each.consumer.node), each.consumer.name) not in of_moveit]
     for pair in near:
-        message = (
-            f"action '{pair.consumer.name}' has no server (client: {pair.consumer.node.name}); did you mean "
-            f"'{pair.provider.name}', served by {pair.provider.node.name} ({pair.why}{unknown})?"
-        )
-        weighed = weight(pair, graph.complete, graph.likely_complete)
-        yield near_miss_finding(rule, pair, message, _VERBS, _fixes(context, pair), weighed)
+        client, server = pair.consumer, pair.provider
+        nodes = {"node": client.node.name, "other": server.node.name}
+        said = say(_NEAR, name=client.name, near=server.name, **nodes, why=pair.why, aside=unknown)
+        why = doubts_of(pair, lacks, graph.likely_complete)
+        yield near_miss_finding(rule, pair, said, subject_of(client), _VERBS, _fixes(context, pair), why)
     explained = {id(pair.consumer) for pair in near}
     for connection in dangling_consumers(context, "actions"):
         if (id(connection.node), connection.name) in of_moveit:
             continue
         if id(connection) not in explained and not graph.blind:
-            action, client = with_type(connection), connection.node.name
-            message = f"action {action} has no server in this launch (client: {client}){unknown}"
-            yield lone_finding(rule, connection, message, whole=graph.complete)
+            said = say(_LONE, name=with_type(connection), node=connection.node.name, aside=unknown)
+            yield lone_finding(rule, connection, said, lacks=lacks)
 
 
 def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:
@@ -59,12 +62,12 @@ def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:
 RULE = Rule(
     id="ACT001",
     name="action-not-offered",
-    severity="warning",
-    what="Checks for an action client whose action has no server in the launch. If a node serves an action of a "
-    "similar name and the same type, the finding is a warning and names both. Otherwise it is a hint, because "
-    "another launch may start the server. In ROS 1 the five topics `goal`, `cancel`, `status`, `feedback` and "
-    "`result` make an action, in any client library. In ROS 1, and in ROS 2 since Kilted, a remap of the action's "
-    "name moves all its parts. Before Kilted such a remap has no effect.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OTHER_LAUNCH, *OF_NEAR_MISSES),
+    what="Checks for an action client whose action has no server in the launch. A remap of the action's name moves "
+    "its parts in ROS 1, and in ROS 2 since Kilted.",
     why="A client that waits for the server waits forever. The goals of a client that does not wait are lost "
     "without an error.",
     example='<!-- the base offers move_base -->\n<remap from="navigate" to="mov_base"/>',

@@ -6,7 +6,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.type_mismatch import mismatches
+from preflight_analysis.rules.type_mismatch import OF_MISMATCHES, mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -16,7 +16,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="ACT002",
     name="action-type-mismatch",
-    severity="error",
+    effect="breaks",
+    kind="conflict",
+    sometimes=OF_MISMATCHES,
     what="Checks for an action whose server and client have different types, or different definitions (MD5 sums) of "
     "one type.",
     why="Goals, feedback and results are rejected, with one line in a log. The client never gets a result.",

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+
+_SAID = "action '{name}' has {number} servers ({node}{more}): each executes every goal"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -20,11 +24,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         # A remap that brings them together is the place to change; else the later of the nodes.
         servers.sort(key=lambda c: c.is_placed)
-        yield rule.finding(
-            f"action '{channel.name}' has {len(servers)} servers ({' and '.join(c.node.name for c in servers)}): "
-            "each executes every goal",
+        more = "".join(f" and {each.node.name}" for each in servers[1:])
+        yield rule.claim(
+            say(_SAID, name=channel.name, number=len(servers), node=servers[0].node.name, more=more),
             connection_location(servers[-1]),
-            confidence="possible" if any(c.endpoint.speculative for c in servers) else "likely",
+            subject=subject_of(servers[0]),
+            doubts=doubts_of_ends(*servers, assumed="DEPENDS"),
             related=(*(related_endpoint(c, "serves") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
             endpoints=endpoints_of(*servers),
         )
@@ -33,7 +38,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="ACT003",
     name="action-offered-twice",
-    severity="warning",
+    effect="misbehaves",
+    kind="duplicate",
+    sometimes=OF_ENDS,
     what="Checks for an action that two nodes of the launch serve under one name.",
     why="A goal is a message on a topic (ROS 1) or a request that each server of the name receives (ROS 2). Both "
     "servers execute each goal, and the client takes the first result.",

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from itertools import chain, islice
-from typing import Concatenate, ParamSpec, TypeVar
+from typing import Concatenate, Literal, ParamSpec, TypeVar
 
-from preflight_analysis.graph.model import Channel, ChannelKind
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
+from preflight_analysis.rules.problems import enumerated
 from preflight_analysis.rules.rule import Context
 
 P = ParamSpec("P")
@@ -14,6 +16,39 @@ T = TypeVar("T")
 V = TypeVar("V")
 
 _KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
+
+
+OF_ENDS = (Reason.FROM_SOURCE, Reason.NOT_ANALYSED, Reason.DEPENDS, Reason.ASSUMED)
+"""What `doubts_of_ends` may say."""
+_SOME = 3
+
+
+def doubts_of_ends(
+    *ends: Connection, assumed: Literal["ASSUMED", "DEPENDS", ""] = "ASSUMED", lacks: str | bool = False
+) -> tuple[Doubt, ...]:
+    """Why nodes may not have these ends: each reason with the first of the nodes that it holds for. `assumed`: what is
+    said of ends that no run and no plain line of a source shows. `lacks`: see `not_all_known`."""
+    found: dict[str, str | bool] = {}
+    for end in ends:
+        of, node = end.endpoint, end.node.name
+        reasons = {
+            "FROM_SOURCE": of.inferred or of.displayed or of.stood_in,
+            "CATALOGUE": of.catalogued,
+            "NOT_ANALYSED": of.speculative,
+            "DEPENDS": of.on_demand or (of.assumed and assumed == "DEPENDS"),
+            "ASSUMED": of.assumed and assumed == "ASSUMED",
+        }
+        for reason, holds in reasons.items():
+            if holds:
+                found.setdefault(reason, node)
+    return doubts(**{**found, **({"NOT_ANALYSED": lacks} if lacks else {})})
+
+
+def not_all_known(graph: Graph) -> str | bool:
+    """The first nodes that were not analysed as a whole, for a doubt; whether anything else is not known."""
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True)
+    unknown = [node.name for node, interface in pairs if not interface.complete]
+    return enumerated(unknown[:_SOME]) or not graph.complete
 
 
 def channels_of(context: Context) -> Mapping[ChannelKind, Collection[Channel]]:

@@ -6,13 +6,15 @@ from collections.abc import Iterator
 from itertools import chain
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.claim import Text, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.domains import Difference, Domains, differences, processes_of
 from preflight_analysis.graph.model import PROVIDERS, Channel, Connection
-from preflight_analysis.rules.channels import channels_of
+from preflight_analysis.rules.channels import OF_ENDS, channels_of, doubts_of_ends
 from preflight_analysis.rules.further_reading import DOMAINS, MASTER
 from preflight_analysis.rules.further_reading import MIDDLEWARE as ABOUT_MIDDLEWARE
-from preflight_analysis.rules.places import endpoints_of, related_endpoint
+from preflight_analysis.rules.places import endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.variables import setting_of
@@ -39,11 +41,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         ]
         place, setter = places[0] if places else (consumer.node.location, consumer)
         other = provider if setter is consumer else consumer
-        yield rule.finding(
+        yield rule.claim(
             _message(pairs),
             place,
-            severity=None if difference.separates else "info",
-            confidence="possible" if consumer.endpoint.uncertain or provider.endpoint.uncertain else "likely",
+            subject=subject_of(consumer),
+            # Two vendors of DDS communicate in part.
+            effect=None if difference.separates else "note",
+            doubts=doubts_of_ends(consumer, provider, assumed="DEPENDS"),
             related=(
                 related_endpoint(other, "offers" if other is provider else "uses"),
                 *include_chain(setter.node.origin),
@@ -79,26 +83,27 @@ def _aligned(context: Context, place: Location, difference: Difference, of_consu
     return rename(context, place, old, new, preferred=False) if difference.separates else ()
 
 
-def _message(pairs: list[_Pair]) -> str:
+def _message(pairs: list[_Pair]) -> Text:
     consumer, provider, difference = pairs[0]
     more = f" and {len(pairs) - 1} more" if len(pairs) > 1 else ""
     fact = f"{'are' if more else 'is'} not shared{'' if difference.separates else ' reliably'}"
-    return (
-        f"'{consumer.name}'{more} {fact}: {provider.node.name} has {difference.variable} {difference.one}, "
-        f"{consumer.node.name} has {difference.other}"
+    return say(
+        "'{name}'{more} {fact}: {node} has {variable} {one}, {other} has {another}",
+        **{"name": consumer.name, "more": more, "fact": fact, "node": provider.node.name, "other": consumer.node.name},
+        **{"variable": difference.variable, "one": difference.one, "another": difference.other},
     )
 
 
 RULE = Rule(
     id="GRF001",
     name="different-domains",
-    severity="warning",
+    effect="breaks",
+    kind="unreachable",
+    always=(Reason.UNSEEN,),
+    sometimes=("note", *OF_ENDS),
     what="Checks for a subscriber or client whose only publishers or servers have another `ROS_DOMAIN_ID`, "
-    "`RMW_IMPLEMENTATION`, `ROS_MASTER_URI` or a discovery range of `OFF`. There is one finding for two nodes, at the "
-    "setting. Two middlewares are compared if both are set: Zenoh does not reach DDS. Two vendors of DDS are "
-    "information, because they communicate in part. Topics in the configuration of a `domain_bridge` are connected. "
-    "There is no finding if another bridge runs or a part of the launch is unresolved. Other discovery ranges are not "
-    "compared, because nodes on one host still find each other.",
+    "`RMW_IMPLEMENTATION`, `ROS_MASTER_URI` or a discovery range of `OFF`. There is no finding if a bridge of domains "
+    "runs.",
     why="Each node finds only nodes of its own domain, or of its own master. The names are equal, and no message "
     "arrives.",
     example='<node pkg="laser" exec="driver" name="laser">\n  <env name="ROS_DOMAIN_ID" value="5"/>\n</node>\n'

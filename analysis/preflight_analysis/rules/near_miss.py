@@ -6,8 +6,9 @@ from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Confidence, Severity
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.rules.nearest import has_all_words, is_word_more
 
 Evidence = Literal["typo", "slash", "level", "words"]
@@ -73,21 +74,26 @@ class NearMiss:
         return said
 
 
-def weight(near: NearMiss, complete: bool, likely_complete: bool) -> tuple[Severity, Confidence]:
-    """How severe a near miss is and how sure, in a graph of which that is known: without evidence beside a like name it
-    is but a hint."""
-    connections = (near.consumer.endpoint, near.provider.endpoint)
-    speculative = any(connection.uncertain for connection in connections)
-    sure = complete and near.same_type and not speculative
+OF_NEAR_MISSES = (Reason.LIKE_NAMES, Reason.COMPUTED, *OF_ENDS)
+"""What `doubts_of` may say."""
+
+
+def doubts_of(near: NearMiss, lacks: str | bool, likely_complete: bool) -> tuple[Doubt, ...]:
+    """Why the ends of a near miss may not be meant to meet, in a graph of which so much is known: `lacks` as of
+    `channels.not_all_known`."""
+    ends = (near.consumer, near.provider)
     lone = near.provider_dangles and not _of_another_node(near)
     alike = near.likeness == "typo" or (lone and (likely_complete or is_word_more(*_both_names(near))))
-    evidence = near.same_type and alike
-    on_demand = any(connection.on_demand or connection.beside_unnamed for connection in connections)
     # Two ends that nobody else has anything to do with speak for each other, be one of them but assumed.
     both_lone = near.provider_dangles and (near.likeness == "typo" or _same_leaf(near))
-    doubtful = on_demand or (not both_lone and any(connection.assumed for connection in connections))
-    severity: Severity = "info" if doubtful else "warning"
-    return severity if evidence else "hint", "likely" if sure else "possible"
+    return (
+        *doubts(
+            LIKE_NAMES=not (near.same_type and alike),
+            COMPUTED=any(each.endpoint.beside_unnamed for each in ends),
+            ASSUMED=next((each.node.name for each in ends if each.endpoint.on_demand), ""),
+        ),
+        *doubts_of_ends(*ends, assumed="DEPENDS" if both_lone else "ASSUMED", lacks=lacks),
+    )
 
 
 def _same_leaf(near: NearMiss) -> bool:

@@ -8,6 +8,7 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import EndpointRef, Related
 from preflight_analysis.graph.model import Connection, ParamRead
 from preflight_analysis.rules.rule import Context
@@ -80,6 +81,11 @@ def related_endpoint(connection: Connection, verb: str) -> Related:
 def endpoints_of(*connections: Connection) -> tuple[EndpointRef, ...]:
     """The ends as a finding names them."""
     return tuple(EndpointRef(_KINDS[c.endpoint.role], c.name, c.node.name) for c in connections)
+
+
+def subject_of(connection: Connection) -> Subject:
+    """The topic, service or action of an end."""
+    return Subject(_KINDS[connection.endpoint.role], connection.name)
 
 
 def related_node(node: LaunchNode) -> Related:

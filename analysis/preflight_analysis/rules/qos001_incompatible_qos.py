@@ -3,13 +3,17 @@
 from collections.abc import Iterator
 from itertools import chain
 
+from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.graph.qos import incompatible
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.rules.further_reading import QOS, QOS_DESIGN
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
+
+_MESSAGE = "incompatible QoS on '{name}': {node} publishes {offered}, {other} requests {requested}"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -39,13 +43,16 @@ def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:
 def _finding(
     rule: Rule, channel: Channel, provider: Connection, consumer: Connection, problem: tuple[str, str]
 ) -> Finding:
-    assumed = consumer.endpoint.assumed or consumer.endpoint.displayed or provider.endpoint.assumed
-    return rule.finding(
-        f"incompatible QoS on '{channel.name}': {provider.node.name} publishes {problem[0]}, "
-        f"{consumer.node.name} requests {problem[1]}",
+    offered, requested = problem
+    nodes = {"node": provider.node.name, "other": consumer.node.name}
+    # The robot moves without what a display shows.
+    mild = consumer.endpoint.assumed or consumer.endpoint.displayed or provider.endpoint.assumed
+    return rule.claim(
+        say(_MESSAGE, name=channel.name, **nodes, offered=offered, requested=requested),
         connection_location(consumer),
-        severity="warning" if assumed else None,
-        confidence="likely" if assumed or any(e.endpoint.stood_in for e in (consumer, provider)) else "certain",
+        subject=subject_of(consumer),
+        effect="misbehaves" if mild else None,
+        doubts=doubts_of_ends(consumer, provider, assumed="DEPENDS"),
         related=(related_endpoint(provider, "publishes"), *include_chain(consumer.node.origin)),
         endpoints=endpoints_of(consumer, provider),
     )
@@ -75,10 +82,11 @@ def _said(value: str) -> str:
 RULE = Rule(
     id="QOS001",
     name="incompatible-qos",
-    severity="error",
+    effect="breaks",
+    kind="conflict",
+    sometimes=("misbehaves", *OF_ENDS),
     what="Checks for a publisher and a subscriber of one topic with incompatible QoS: the subscriber requests more "
-    "than the publisher offers. It compares reliability, durability, liveliness and deadline. The finding is a "
-    "warning if the subscriber is a display in the configuration of RViz.",
+    "than the publisher offers. It compares reliability, durability, liveliness and deadline.",
     why="The middleware does not connect them, and no message arrives. At best each side logs a line about "
     "incompatible QoS.",
     example="<!-- the driver publishes /scan as best effort, the filter subscribes to it as reliable -->\n"

@@ -11,12 +11,14 @@ from rapidfuzz.distance import OSA
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
+from preflight_analysis.findings.claim import Text
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.dangling import dangling_consumers, dangling_topic_providers
 from preflight_analysis.rules.names_in_sources import meant_in_sources
 from preflight_analysis.rules.nearest import folded, is_slip_of_words, likeness
-from preflight_analysis.rules.places import connection_location, endpoints_of
+from preflight_analysis.rules.places import connection_location, endpoints_of, subject_of
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.siblings import slips_beside, without_slash
@@ -159,35 +161,31 @@ def _used(connection: Connection, known: _Targets) -> Elsewhere | None:
     return Elsewhere(written, -count)
 
 
-def elsewhere_finding(rule: Rule, context: Context, connection: Connection, message: str, found: Elsewhere) -> Finding:
+BY_FILES = (Reason.OUTSIDE, Reason.FROM_SOURCE)
+"""Doubts of what `elsewhere_finding` says."""
+
+
+def elsewhere_finding(rule: Rule, context: Context, connection: Connection, said: Text, found: Elsewhere) -> Finding:
     """The finding for an end whose other one is most likely started by another launch, under another name."""
     location = connection_location(connection)
+    by_launches = found.beside is None and not found.in_source
     if found.beside is not None:
         other = found.beside != found.name
         evidence = f"as in '{found.beside}' of the same node" if other else "which the same node publishes"
-        return rule.finding(
-            f"{message}; did you mean '{found.name}', {evidence}?",
-            location,
-            severity="warning",
-            confidence="likely",
-            related=include_chain(connection.node.origin),
-            endpoints=endpoints_of(connection),
-        )
-    if found.in_source:
+    elif found.in_source:
         files = f"{found.files} source files use" if found.files > 1 else "a source file uses"
-        return rule.finding(
-            f"{message}; did you mean '{found.name}', which {files} with this type?",
-            location,
-            confidence="possible",
-            related=include_chain(connection.node.origin),
-            endpoints=endpoints_of(connection),
-        )
-    return rule.finding(
-        f"{message}; did you mean '{found.name}', as in {found.files} launch files nearby?",
+        evidence = f"which {files} with this type"
+    else:
+        evidence = f"as in {found.files} launch files nearby"
+    return rule.claim(
+        said.followed_by("; did you mean '{near}', {evidence}?", near=found.name, evidence=evidence),
         location,
-        severity="info",
-        confidence="possible",
+        subject=subject_of(connection),
+        kind="near",
+        effect="breaks",
+        doubts=doubts(OUTSIDE=by_launches, FROM_SOURCE=found.in_source),
+        candidates=(found.name,),
         related=include_chain(connection.node.origin),
-        fixes=rename(context, location, context.text(location), found.name),
+        fixes=rename(context, location, context.text(location), found.name) if by_launches else (),
         endpoints=endpoints_of(connection),
     )

@@ -3,21 +3,27 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from preflight_analysis.evaluation import names
+from preflight_analysis.findings.claim import Text, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.channels import not_all_known
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_providers
 from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import not_analysed, weight
+from preflight_analysis.rules.near_miss import OF_NEAR_MISSES, doubts_of, not_analysed
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.near_miss_search import near_misses
 from preflight_analysis.rules.nearest import numbers_in, share_words
-from preflight_analysis.rules.places import Verbs, related_endpoint
-from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_elsewhere
+from preflight_analysis.rules.places import Verbs, related_endpoint, subject_of
+from preflight_analysis.rules.remaps_elsewhere import BY_FILES, elsewhere_finding, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
 _VERBS = Verbs("serves", "calls")
+_NEAR = "service '{name}' has no server (client: {node}); did you mean '{near}', served by {other} ({why}{aside})?"
+_LONE = "service {name} has no server in this launch (client: {node}){aside}"
+_WAITS = "; the client waits for it on start; did you mean '{near}', which has no client?"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -28,13 +34,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_endpoints)
     pairs = near_misses(context, "services")
     near = [pair for pair in pairs if id(pair.consumer) not in remapped and not _loads(pair.consumer)]
+    lacks, unknown = not_all_known(graph), not_analysed(graph)
     for pair in near:
-        message = (
-            f"service '{pair.consumer.name}' has no server (client: {pair.consumer.node.name}); did you mean "
-            f"'{pair.provider.name}', served by {pair.provider.node.name} ({pair.why}{not_analysed(graph)})?"
-        )
-        weighed = weight(pair, graph.complete, graph.likely_complete)
-        yield near_miss_finding(rule, pair, message, _VERBS, fixes_in(context, pair), weighed)
+        client, server = pair.consumer, pair.provider
+        nodes = {"node": client.node.name, "other": server.node.name}
+        said = say(_NEAR, name=client.name, near=server.name, **nodes, why=pair.why, aside=unknown)
+        why = doubts_of(pair, lacks, graph.likely_complete)
+        yield near_miss_finding(rule, pair, said, subject_of(client), _VERBS, fixes_in(context, pair), why)
     explained = {id(pair.consumer) for pair in near} | remapped
     lone = [each for each in dangling_consumers(context, "services") if id(each) not in explained and not _loads(each)]
     if not lone:
@@ -43,32 +49,32 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(context, "services", dangling_providers(context, "services")) if answers else {}
-    elsewhere, unknown = context.once(used_elsewhere), not_analysed(graph)
+    elsewhere = context.once(used_elsewhere)
     meant = [_meant(each, answers.get(id(each.node), ()), unused) for each in lone] if answers else [None] * len(lone)
     hints: list[tuple[Connection, Connection | None]] = []
-    for client, server in zip(lone, meant, strict=True):
-        if server is None and (graph.blind or client.endpoint.catalogued):
+    for client, offer in zip(lone, meant, strict=True):
+        if offer is None and (graph.blind or client.endpoint.catalogued):
             continue  # of a common node it is no news, as gazebo offers what its spawners call
-        if server is None and id(client) in elsewhere:
+        if offer is None and id(client) in elsewhere:
             yield elsewhere_finding(rule, context, client, _message(client, unknown), elsewhere[id(client)])
         else:
-            hints.append((client, server))
+            hints.append((client, offer))
     if hints:
-        yield from context.kept.each_row(_hint, zip(*hints, strict=True), rule, unknown, graph.complete)
+        yield from context.kept.each_row(_hint, zip(*hints, strict=True), rule, unknown, lacks)
 
 
-def _message(client: Connection, unknown: str) -> str:
-    return f"service {with_type(client)} has no server in this launch (client: {client.node.name}){unknown}"
+def _message(client: Connection, unknown: str) -> Text:
+    return say(_LONE, name=with_type(client), node=client.node.name, aside=unknown)
 
 
-def _hint(client: Connection, meant: Connection | None, rule: Rule, unknown: str, complete: bool) -> Finding:
-    hint = f"; the client waits for it on start; did you mean '{meant.name}', which has no client?" if meant else ""
+def _hint(client: Connection, meant: Connection | None, rule: Rule, unknown: str, lacks: str | bool) -> Finding:
+    said = _message(client, unknown)
     return lone_finding(
         rule,
         client,
-        _message(client, unknown) + hint,
-        whole=complete,
-        severity="hint" if meant is None else "warning",
+        said.followed_by(_WAITS, near=meant.name) if meant is not None else said,
+        lacks=lacks,
+        meant=meant,
         related=(related_endpoint(meant, _VERBS.provides),) if meant is not None else (),
     )
 
@@ -101,12 +107,12 @@ def _meant(
 RULE = Rule(
     id="SRV001",
     name="service-not-offered",
-    severity="warning",
-    what="Checks for a service client whose service has no server in the launch. The finding is a warning if a node "
-    "serves one of a similar name and the same type. It is a warning too if the client's node waits for the service "
-    "while a service with a word in common has no client. It is information if the client's remap is a typo of one "
-    "in several launch files nearby, and a warning if the service is a typo of one in sources of the workspace with "
-    "the same type. Otherwise it is a hint, because another launch may start the server.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OTHER_LAUNCH, *BY_FILES, *OF_NEAR_MISSES),
+    what="Checks for a service client whose service has no server in the launch. The finding names a service of a "
+    "similar name or of the same type.",
     why="A client that waits for the service waits forever. A client that does not wait gets an error at its first "
     "call.",
     example='<!-- the base offers reset_odometry -->\n<remap from="reset" to="reset_odometri"/>',

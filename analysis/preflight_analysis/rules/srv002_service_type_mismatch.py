@@ -6,7 +6,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
 from preflight_analysis.rules.places import Verbs
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.type_mismatch import mismatches
+from preflight_analysis.rules.type_mismatch import OF_MISMATCHES, mismatches
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -16,7 +16,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="SRV002",
     name="service-type-mismatch",
-    severity="error",
+    effect="breaks",
+    kind="conflict",
+    sometimes=OF_MISMATCHES,
     what="Checks for a service whose server and client have different types, or different definitions (MD5 sums) of "
     "one type.",
     why="Every call fails.",

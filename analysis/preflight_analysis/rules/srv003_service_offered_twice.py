@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.rules.further_reading import MASTER, SERVICES, SERVICES_2
 from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import include_chain, quoted
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.nodelets import manager_of
 
+_SAID = "{services} {number} servers ({node}{more}): {happens}"
 _BOTH_ANSWER = "each executes every request, and the client takes the first answer"
 
 
@@ -32,13 +35,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             found.setdefault(key, []).append((channel.name, servers))
     for (location, nodes), offered in found.items():
         names, servers = [name for name, _ in offered], offered[0][1]
-        sure = not any(c.endpoint.uncertain for _, connections in offered for c in connections)
-        subject = f"service {quoted(names)} has" if len(names) == 1 else f"services {quoted(names)} have"
-        yield rule.finding(
-            f"{subject} {len(nodes)} servers ({' and '.join(nodes)}): {_what_happens(context, servers)}",
+        services = f"service {quoted(names)} has" if len(names) == 1 else f"services {quoted(names)} have"
+        more = "".join(f" and {node}" for node in nodes[1:])
+        number, happens = len(nodes), _what_happens(context, servers)
+        yield rule.claim(
+            say(_SAID, services=services, number=number, node=nodes[0], more=more, happens=happens),
             location,
-            severity="info" if any(c.endpoint.assumed for c in servers) else None,
-            confidence="likely" if sure else "possible",
+            subject=Subject("service", names[0]),
+            doubts=doubts_of_ends(*servers),
             related=(*(related_endpoint(c, "serves") for c in servers[:-1]), *include_chain(servers[-1].node.origin)),
             endpoints=endpoints_of(*(c for _, connections in offered for c in connections)),
         )
@@ -56,7 +60,9 @@ def _what_happens(context: Context, servers: Sequence[Connection]) -> str:
 RULE = Rule(
     id="SRV003",
     name="service-offered-twice",
-    severity="warning",
+    effect="misbehaves",
+    kind="duplicate",
+    sometimes=OF_ENDS,
     what="Checks for a service that two nodes of the launch serve under one name.",
     why="The master of ROS 1 knows one server for a service. The node that registers last replaces the other, and "
     "the order differs from start to start. Two nodelets of one manager are one node, which refuses the second "

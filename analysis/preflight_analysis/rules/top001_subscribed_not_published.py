@@ -3,21 +3,33 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.findings.finding import Confidence, Finding, Severity
+from preflight_analysis.findings.claim import Text, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.channels import not_all_known
 from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import NearMiss, not_analysed, weight
+from preflight_analysis.rules.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.nearest import numbers_in
-from preflight_analysis.rules.places import Verbs, related_endpoint
-from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, in_use_around, used_elsewhere
+from preflight_analysis.rules.places import Verbs, related_endpoint, subject_of
+from preflight_analysis.rules.remaps_elsewhere import BY_FILES, elsewhere_finding, in_use_around, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
 _VERBS = Verbs("publishes", "subscribes to")
+_SUBSCRIBED = (
+    "'{name}' has no publisher (subscriber: {node}); did you mean '{near}', published by {other} ({why}{aside})?"
+)
+_PUBLISHED = (
+    "'{name}', published by {node}: did you mean '{near}'? {other} subscribes to it, and it has no publisher "
+    "({why}{aside})"
+)
+_LONE = "{name} has no publisher in this launch (subscriber: {node}){aside}"
+_FITS = "; '{near}', published by {other}, has the same type and no subscriber"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -28,10 +40,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     remapped = context.once(meant_endpoints)
     pairs = context.once(topic_near_misses)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
-    unknown = not_analysed(graph)
+    unknown, lacks = not_analysed(graph), not_all_known(graph)
     in_use = in_use_around(context, [pair.consumer for pair in near])
     columns = (near, in_use, *documents_of(context, near))
-    yield from context.kept.each_row(_near, columns, rule, unknown, graph.complete, graph.likely_complete)
+    yield from context.kept.each_row(_near, columns, rule, unknown, lacks, graph.likely_complete)
     if graph.blind:
         return
     explained = {id(pair.consumer) for pair in near} | remapped
@@ -49,7 +61,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # Of what a display might show instead its type says nothing.
         of_types = [() if each.endpoint.displayed else dangling.get(each.endpoint.type, ()) for each in others]
         lone = context.kept.each_row(lone_of_type, (others, of_types))
-        yield from context.kept.each_row(_hint, (others, lone), rule, unknown, graph.complete)
+        yield from context.kept.each_row(_hint, (others, lone), rule, unknown, lacks)
 
 
 def _near(
@@ -59,15 +71,12 @@ def _near(
     providers: Document | None,
     rule: Rule,
     unknown: str,
-    complete: bool,
+    lacks: str | bool,
     likely_complete: bool,
 ) -> Finding:
-    severity, confidence = weight(pair, complete, likely_complete)
-    mild = severity == "warning" and (in_use or _shows_another(pair))
-    weighed: tuple[Severity, Confidence] = ("info" if mild else severity, confidence)
-    return near_miss_finding(
-        rule, pair, _near_message(unknown, pair), _VERBS, fixes(pair, consumers, providers), weighed
-    )
+    why = (*doubts(IN_USE=in_use, OUTSIDE=_shows_another(pair)), *doubts_of(pair, lacks, likely_complete))
+    said = _near_message(unknown, pair)
+    return near_miss_finding(rule, pair, said, subject_of(pair.site), _VERBS, fixes(pair, consumers, providers), why)
 
 
 def _shows_another(pair: NearMiss) -> bool:
@@ -76,45 +85,35 @@ def _shows_another(pair: NearMiss) -> bool:
     return consumer.endpoint.displayed and numbers_in(consumer.name) != numbers_in(provider.name)
 
 
-def _near_message(unknown: str, pair: NearMiss) -> str:
-    consumer, provider = pair.consumer, pair.provider
-    if pair.site is consumer:
-        return (
-            f"'{consumer.name}' has no publisher (subscriber: {consumer.node.name}); did you mean "
-            f"'{provider.name}', published by {provider.node.name} ({pair.why}{unknown})?"
-        )
-    return (
-        f"'{provider.name}', published by {provider.node.name}: did you mean '{consumer.name}'? {consumer.node.name} "
-        f"subscribes to it, and it has no publisher ({pair.why}{unknown})"
+def _near_message(unknown: str, pair: NearMiss) -> Text:
+    at, other = pair.site, pair.other
+    said = _SUBSCRIBED if at is pair.consumer else _PUBLISHED
+    return say(
+        said, name=at.name, node=at.node.name, near=other.name, other=other.node.name, why=pair.why, aside=unknown
     )
 
 
-def _lone_message(unknown: str, connection: Connection) -> str:
-    return f"{with_type(connection)} has no publisher in this launch (subscriber: {connection.node.name}){unknown}"
+def _lone_message(unknown: str, connection: Connection) -> Text:
+    return say(_LONE, name=with_type(connection), node=connection.node.name, aside=unknown)
 
 
-def _hint(connection: Connection, lone: Connection | None, rule: Rule, unknown: str, whole: bool) -> Finding:
-    message = _lone_message(unknown, connection)
+def _hint(connection: Connection, lone: Connection | None, rule: Rule, unknown: str, lacks: str | bool) -> Finding:
+    said = _lone_message(unknown, connection)
     if lone is None:
-        return lone_finding(rule, connection, message, whole=whole)
-    message += f"; '{lone.name}', published by {lone.node.name}, has the same type and no subscriber"
-    return lone_finding(rule, connection, message, whole=whole, related=(related_endpoint(lone, _VERBS.provides),))
+        return lone_finding(rule, connection, said, lacks=lacks)
+    said = said.followed_by(_FITS, near=lone.name, other=lone.node.name)
+    return lone_finding(rule, connection, said, lacks=lacks, related=(related_endpoint(lone, _VERBS.provides),))
 
 
 RULE = Rule(
     id="TOP001",
     name="subscribed-not-published",
-    severity="warning",
-    what="Checks for a subscriber whose topic has no publisher in the launch. The finding is a warning if a node "
-    "publishes a topic of the same type and a similar name. The names may also differ by a leading slash or a "
-    "namespace. It names both and is at the remap that set the name, if there is one. It is information if several "
-    "launch files nearby write the topic, if a plugin of a simulator has it, or if a display of RViz has another "
-    "number in its topic. It is information too if the remap is a typo of one in several launch files, or if "
-    "the source of one of the nodes has more topics of the type whose names are not known. It is a warning "
-    "if the topic is a typo of one that sources of the workspace use with the same type. The same applies if a slash "
-    "is missing (`/zed/nodergb/info`) that another remap of the node has (`/zed/node/rgb/image`). Otherwise it is a "
-    "hint, because another launch may start the publisher. There is no finding if a node exited before its event loop, "
-    "because it may be the publisher.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OTHER_LAUNCH, Reason.IN_USE, *BY_FILES, *OF_NEAR_MISSES),
+    what="Checks for a subscriber whose topic has no publisher in the launch. The finding names a topic of a similar "
+    "name, or one that differs by a slash or a namespace. There is none if a node exited before its event loop.",
     why="The node waits for messages that never arrive. Neither the launcher nor the node reports it.",
     example='<!-- talker publishes chatter -->\n<node pkg="rospy_tutorials" type="listener" name="listener">\n'
     '  <remap from="chatter" to="chater"/>\n</node>',

@@ -3,16 +3,21 @@
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends, not_all_known
 from preflight_analysis.rules.dangling import dangling_topic_providers
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.idle_remaps import meant_endpoints
 from preflight_analysis.rules.near_miss_search import topic_near_misses
 from preflight_analysis.rules.places import connection_location, endpoints_of
 from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding, used_elsewhere
+from preflight_analysis.rules.remaps_elsewhere import BY_FILES, elsewhere_finding, used_elsewhere
 from preflight_analysis.rules.rule import Context, Rule
+
+_LONE = "{topics} {have} no subscriber in this launch (publisher: {node})"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -24,26 +29,26 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     elsewhere = context.once(used_elsewhere)
     for each in dangling:
         if id(each) in elsewhere:
-            message = f"'{each.name}' has no subscriber in this launch (publisher: {each.node.name})"
-            yield elsewhere_finding(rule, context, each, message, elsewhere[id(each)])
+            said = say(_LONE, topics=f"'{each.name}'", have="has", node=each.node.name)
+            yield elsewhere_finding(rule, context, each, said, elsewhere[id(each)])
     dangling = [each for each in dangling if id(each) not in elsewhere]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     grouped = context.kept.grouped(_place, rule.id, dangling)
-    yield from context.kept.each(_finding, grouped.values(), rule, graph.complete)
+    yield from context.kept.each(_finding, grouped.values(), rule, not_all_known(graph))
 
 
 def _place(connection: Connection) -> tuple[Location, str]:
     return connection_location(connection), connection.node.name
 
 
-def _finding(connections: tuple[Connection, ...], rule: Rule, complete: bool) -> Finding:
+def _finding(connections: tuple[Connection, ...], rule: Rule, lacks: str | bool) -> Finding:
     topics, node = sorted({connection.name for connection in connections}), connections[0].node
     have = "has" if len(topics) == 1 else "have"
-    sure = complete and not any(connection.endpoint.uncertain for connection in connections)
-    return rule.finding(
-        f"{quoted(topics)} {have} no subscriber in this launch (publisher: {node.name})",
+    return rule.claim(
+        say(_LONE, topics=quoted(topics), have=have, node=node.name),
         connection_location(connections[0]),
-        confidence="likely" if sure else "possible",
+        subject=Subject("topic", topics[0]),
+        doubts=(*doubts(OTHER_LAUNCH=True), *doubts_of_ends(*connections, lacks=lacks)),
         related=include_chain(node.origin),
         endpoints=endpoints_of(*connections),
     )
@@ -52,11 +57,11 @@ def _finding(connections: tuple[Connection, ...], rule: Rule, complete: bool) ->
 RULE = Rule(
     id="TOP002",
     name="published-not-subscribed",
-    severity="hint",
-    what="Checks for published topics without a subscriber in the launch, per node. The finding is a hint. It is "
-    "information if the remap of a topic is a typo of one in several launch files nearby. It is a warning if the "
-    "name is a typo of one under which the same node publishes. The same applies if a slash is missing that "
-    "another remap of the node has.",
+    effect="style",
+    kind="unused",
+    always=(Reason.UNSEEN,),
+    sometimes=("breaks", Reason.OTHER_LAUNCH, *BY_FILES, *OF_ENDS),
+    what="Checks for published topics without a subscriber in the launch, per node.",
     why="Most of these topics are fine. If a robot does not move, check them first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',

@@ -3,26 +3,29 @@
 from collections.abc import Iterator
 from itertools import chain
 
+from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.channels import channels_of
+from preflight_analysis.rules.channels import channels_of, doubts_of_ends
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
-from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.type_mismatch import in_short, mismatches
+from preflight_analysis.rules.type_mismatch import OF_MISMATCHES, in_short, mismatches
+
+_SAID = "type mismatch on '{name}': {node} {does} {types}"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from mismatches(rule, context, "topics", Verbs("publishes", "subscribes to"))
     for first, second in chain.from_iterable(context.kept.each(_of_one_node, channels_of(context)["topics"])):
         does = "publishes" if first.endpoint.role == "publisher" else "subscribes to"
-        yield rule.finding(
-            f"type mismatch on '{first.name}': {first.node.name} {does} both {first.endpoint.type} and "
-            f"{second.endpoint.type}",
+        types = f"both {first.endpoint.type} and {second.endpoint.type}"
+        yield rule.claim(
+            say(_SAID, name=first.name, node=first.node.name, does=does, types=types),
             connection_location(second),
-            severity="info" if first.endpoint.assumed or second.endpoint.assumed else None,
-            confidence="possible" if first.endpoint.assumed or second.endpoint.assumed else "likely",
+            subject=subject_of(first),
+            doubts=doubts_of_ends(first, second),
             related=(related_endpoint(first, does), *include_chain(second.node.origin)),
             endpoints=endpoints_of(first, second),
         )
@@ -45,11 +48,11 @@ def _of_one_node(channel: Channel) -> tuple[tuple[Connection, Connection], ...]:
 RULE = Rule(
     id="TOP003",
     name="topic-type-mismatch",
-    severity="error",
+    effect="breaks",
+    kind="conflict",
+    sometimes=("misbehaves", *OF_MISMATCHES),
     what="Checks for a topic whose publisher and subscriber have different types, or different definitions (MD5 "
-    "sums) of one type. `*` matches any type. It also checks for one node that uses a topic with two types. The "
-    "finding is a warning if the subscriber is a display in the configuration of RViz. Where a parameter decides the "
-    "type, such as `enable_stamped_cmd_vel` of Nav2, the finding names it.",
+    "sums) of one type. It also checks for one node that uses a topic with two types.",
     why="The two nodes refuse to connect, with one line in a log. No message arrives.",
     example="<!-- /pose: geometry_msgs/Pose published, geometry_msgs/PoseStamped subscribed -->\n"
     '<remap from="goal" to="/pose"/>',

@@ -8,16 +8,22 @@ from itertools import chain
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.value_places import value_place
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Severity
+from preflight_analysis.findings.claim import say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
-from preflight_analysis.rules.channels import channels_of, of_all_kinds
+from preflight_analysis.rules.channels import OF_ENDS, channels_of, doubts_of_ends, of_all_kinds
 from preflight_analysis.rules.controllers import controllers_of
 from preflight_analysis.rules.interface_files import lacks_type
-from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _MESSAGES = "_msgs"
+_SAID = "type mismatch on '{name}': {node} {provides} {type}, {other} {consumes} {other_type}{difference}"
+_NO_TYPE = "an unknown type"
+OF_MISMATCHES = (Reason.PARTLY_READ, Reason.OTHER_VERSION, *OF_ENDS)
+"""Doubts of what `mismatches` finds."""
 _SAME = {"tf/tfMessage": "tf2_msgs/TFMessage"}
 """Types of two packages with one definition, and so with one sum."""
 
@@ -32,14 +38,24 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
         if not consumer.is_placed and provider.is_placed:
             site, other = provider, consumer
         advice, fixes = _deciding_parameter(context, provider, consumer)
-        yield rule.finding(
-            f"type mismatch on '{consumer.name}': {provider.node.name} {verbs.provides} "
-            f"{provider.endpoint.type or 'an unknown type'}, {consumer.node.name} {verbs.consumes} "
-            f"{consumer.endpoint.type or 'an unknown type'}{difference}{advice}",
+        yield rule.claim(
+            say(
+                _SAID,
+                name=consumer.name,
+                node=provider.node.name,
+                provides=verbs.provides,
+                type=provider.endpoint.type or _NO_TYPE,
+                other=consumer.node.name,
+                consumes=verbs.consumes,
+                other_type=consumer.endpoint.type or _NO_TYPE,
+                difference=f"{difference}{advice}",
+            ),
             connection_location(site),
+            subject=subject_of(site),
+            # The robot moves without what a display shows.
+            effect="misbehaves" if consumer.endpoint.displayed else None,
+            doubts=_doubts(context, graph, consumer, provider),
             fixes=fixes,
-            severity=_severity(context, consumer, provider),
-            confidence=_confidence(context, graph, consumer, provider),
             related=(
                 related_endpoint(other, verbs.provides if other is provider else verbs.consumes),
                 *include_chain(site.node.origin),
@@ -70,13 +86,20 @@ def _set_to(context: Context, place: Location, value: str) -> tuple[Fix, ...]:
     return ()
 
 
-def _severity(context: Context, consumer: Connection, provider: Connection) -> Severity | None:
-    """None for that of the rule. The robot moves without what a display shows. A type for which its package has no
-    file is from another module than the program seems to have it from."""
-    unfounded = any(lacks_type(context, each.endpoint.type) for each in (consumer, provider))
-    if _is_doubtful(context, consumer, provider) or unfounded:
-        return "info"
-    return "warning" if consumer.endpoint.displayed else None
+def _doubts(context: Context, graph: Graph, *ends: Connection) -> tuple[Doubt, ...]:
+    """Why the types may not be those. One for which its package has no file is from another module than the program
+    seems to have it from."""
+    by_node = {id(node): interface.source for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True)}
+    assumed = next((each.node.name for each in ends if _is_assumed(context, each)), "")
+    not_run = next((each.node.name for each in ends if by_node[id(each.node)] != "trace"), "")
+    found = doubts(
+        PARTLY_READ=any(lacks_type(context, each.endpoint.type) for each in ends),
+        OTHER_VERSION=_is_moved(*ends),
+        ASSUMED=assumed,
+        FROM_SOURCE=not_run,
+    )
+    told = {each.reason for each in found}
+    return (*found, *(each for each in doubts_of_ends(*ends, assumed="") if each.reason not in told))
 
 
 def _is_assumed(context: Context, end: Connection) -> bool:
@@ -95,11 +118,9 @@ def _active_controllers(context: Context) -> frozenset[str]:
     )
 
 
-def _is_doubtful(context: Context, consumer: Connection, provider: Connection) -> bool:
-    """Whether an end is only assumed, or one of the catalogue may be of another version, with the message in another
-    package of the same project, for messages alone (`rtabmap_msgs`, `rtabmap_ros`)."""
-    if _is_assumed(context, consumer) or _is_assumed(context, provider):
-        return True
+def _is_moved(consumer: Connection, provider: Connection) -> bool:
+    """Whether an end of the catalogue may be of another version, with the message in another package of the same
+    project, for messages alone (`rtabmap_msgs`, `rtabmap_ros`)."""
     one, other = consumer.endpoint, provider.endpoint
     if not (one.catalogued or other.catalogued) or one.type is None or other.type is None:
         return False
@@ -159,15 +180,3 @@ def in_short(name: str) -> str:
     package, _, rest = name.partition("/")
     short = f"{package}/{rest.rpartition('/')[2]}"
     return _SAME.get(short, short)
-
-
-def _confidence(context: Context, graph: Graph, *connections: Connection) -> Confidence:
-    """Types that a run showed are certain; those of an annotation are the user's word, source code is only read."""
-    if any(_is_assumed(context, connection) for connection in connections):
-        return "possible"
-    for connection in connections:
-        index = next(i for i, node in enumerate(graph.tree.nodes) if node is connection.node)
-        endpoint = connection.endpoint
-        if endpoint.speculative or endpoint.displayed or endpoint.stood_in or graph.interfaces[index].source != "trace":
-            return "likely"
-    return "certain"

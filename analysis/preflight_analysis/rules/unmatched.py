@@ -3,49 +3,58 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Literal
 
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.findings.claim import Subject, Text
+from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.rules.channels import doubts_of_ends
 from preflight_analysis.rules.near_miss import NearMiss
-from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Rule
 
 
 def near_miss_finding(
-    rule: Rule, near: NearMiss, message: str, verbs: Verbs, fixes: Iterable[Fix], weight: tuple[Severity, Confidence]
+    rule: Rule, near: NearMiss, said: Text, subject: Subject, verbs: Verbs, fixes: Iterable[Fix], why: Iterable[Doubt]
 ) -> Finding:
-    """The finding for two endpoints that were probably meant to meet."""
-    severity, confidence = weight
-    return rule.finding(
-        message,
+    """The finding for two endpoints that were probably meant to meet. `why` they may not be."""
+    ends = (near.consumer, near.provider)
+    return rule.claim(
+        said,
         connection_location(near.site),
-        severity=severity,
-        confidence=confidence,
+        subject=subject,
+        kind="near",
+        doubts=why,
+        candidates=(next((each.name for each in ends if each.name != subject.name), None),),
         related=(
             related_endpoint(near.other, verbs.provides if near.other is near.provider else verbs.consumes),
             *include_chain(near.site.node.origin),
         ),
         fixes=fixes,
-        endpoints=endpoints_of(near.consumer, near.provider),
+        endpoints=endpoints_of(*ends),
     )
 
 
 def lone_finding(
     rule: Rule,
     connection: Connection,
-    message: str,
+    said: Text,
     *,
-    whole: bool,
-    severity: Severity = "hint",
+    lacks: str | bool,
+    meant: Connection | None = None,
     related: Iterable[Related] = (),
 ) -> Finding:
-    """The finding for an endpoint that has nobody. `whole`: the graph is complete."""
-    return rule.finding(
-        message,
+    """The finding for an endpoint that has nobody, or was `meant` for another one. `lacks` as of `not_all_known`."""
+    assumed: Literal["ASSUMED", "DEPENDS"] = "ASSUMED" if meant is None else "DEPENDS"
+    return rule.claim(
+        said,
         connection_location(connection),
-        severity=severity,
-        confidence="likely" if whole and not connection.endpoint.uncertain else "possible",
+        subject=subject_of(connection),
+        kind="absent" if meant is None else "near",
+        doubts=(*doubts(OTHER_LAUNCH=meant is None), *doubts_of_ends(connection, assumed=assumed, lacks=lacks)),
+        candidates=(meant.name,) if meant is not None else (),
         related=(*related, *include_chain(connection.node.origin)),
         endpoints=endpoints_of(connection),
     )
