@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.knowledge.conversions import gazebo_types
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
@@ -28,10 +30,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         meant = _meant(pair.ros, pairs)
         if meant is not None:
-            yield rule.finding(
+            yield rule.claim(
                 f"the bridge does not know '{pair.ros}'; did you mean '{meant}'?",
                 pair.ros_place,
-                confidence="likely",
+                subject=Subject("type", pair.ros),
+                kind="near",
+                candidates=(meant,),
                 related=include_chain(pair.node.origin),
                 fixes=rename(context, pair.ros_place, pair.ros, meant),
             )
@@ -40,12 +44,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         near = nearest(name, convertible) or (convertible[0] if len(convertible) == 1 else None)
         known = bool(convertible) and (name in every or nearest(name, convertible) is not None)
         instead = quoted(f"{prefix}.{each}" for each in convertible)
-        yield rule.finding(
+        yield rule.claim(
             f"the bridge cannot convert '{pair.ros}' and '{pair.gazebo}'"
             + (f"; it converts '{pair.ros}' and {instead}" if instead else f"; it does not know '{pair.ros}'"),
             pair.place,
-            severity=None if known else "info",
-            confidence="likely" if known else "possible",
+            subject=Subject("type", pair.gazebo),
+            doubts=doubts(OTHER_VERSION=not known),
+            candidates=(f"{prefix}.{near}",) if known and near is not None else (),
             related=include_chain(pair.node.origin),
             fixes=rename(context, pair.place, pair.gazebo, f"{prefix}.{near}") if known and near is not None else (),
         )
@@ -67,12 +72,13 @@ def _of_gazebo(rule: Rule, context: Context) -> Iterator[Finding]:
         meant = next(iter(types))
         # Where Gazebo has several topics on one name, a plugin that is not known may have one more.
         sure = len(types) == 1 and makers[0].is_certain
-        yield rule.finding(
+        yield rule.claim(
             f"the bridge expects '{bridge.gazebo}' on '{bridge.gazebo_topic}', but {makers[0].maker} has "
             f"'{prefix}.{meant}'",
             bridge.gazebo_place,
-            severity=None if sure else "info",
-            confidence="likely" if sure else "possible",
+            subject=Subject("type", bridge.gazebo),
+            doubts=doubts(PARTLY_READ=not sure),
+            candidates=(f"{prefix}.{meant}",),
             related=(*gazebo.related, *include_chain(bridge.node.origin)),
         )
 
@@ -89,11 +95,12 @@ def _meant(ros: str, known: Mapping[str, object]) -> str | None:
 RULE = Rule(
     id="BRG001",
     name="bridge-type-pair",
-    severity="warning",
-    what="Checks for a ROS type and a Gazebo type in the arguments or the file of `ros_gz_bridge` that the bridge of "
-    "Humble to Kilted does not convert into each other. A ROS type needs `/msg/`. A type that the bridge does not know "
-    "is information, because a build of your own may have more. It also checks for a type that differs from that of "
-    "the sensor or plugin in Gazebo, which the world and the robots of the launch tell.",
+    effect="breaks",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.OTHER_VERSION, Reason.PARTLY_READ),
+    what="Checks for a ROS type and a Gazebo type that `ros_gz_bridge` of Humble to Kilted does not convert into each "
+    "other. It also checks for a type that differs from that of the sensor or plugin in Gazebo.",
     why="The bridge does not create this topic: `Failed to create a bridge`. The others work, and nothing arrives on "
     "this one.",
     example="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.PointCloudPacked']",

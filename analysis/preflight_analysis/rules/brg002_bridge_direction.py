@@ -8,8 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.ros2.bridges import is_bridge
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.rules.channels import not_all_known
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.gazebo_bridges import Bridge, bridges
 from preflight_analysis.rules.gazebo_side import Gazebo, gazebo_of, plain
@@ -57,6 +60,8 @@ _COMMANDED = frozenset(
 )
 """What plugins of Gazebo subscribe to."""
 
+_SAID = "bridge direction: '{name}' goes {way}, but has no {missing} in ROS ({role}: {node}{more}){aside}"
+
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
@@ -74,12 +79,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         of_gazebo = _of_gazebo(gazebo, bridge, bool(providers), bool(consumers)) if gazebo is not None else None
         if of_gazebo is not None:
-            message, severity = of_gazebo
-            yield rule.finding(
+            message, doubtful = of_gazebo
+            yield rule.claim(
                 message,
                 bridge.place,
-                severity=severity,
-                confidence="likely" if severity is None else "possible",
+                subject=Subject("topic", bridge.gazebo_topic),
+                doubts=doubts(INTENDED=doubtful),
                 related=(*(gazebo.related if gazebo is not None else ()), *include_chain(bridge.node.origin)),
                 fixes=rename(context, bridge.place, *bridge.turned),
             )
@@ -97,12 +102,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         known = type_ in _SENSED or (sure and graph.likely_complete)
         written, other = bridge.turned
         ends = consumers or providers
-        yield rule.finding(
-            f"bridge direction: '{channel.name}' goes {way}, but has no {missing} in ROS ({_named(ends)})"
-            f"{not_analysed(graph)}",
+        more = f" and {len(ends) - 1} more" if len(ends) > 1 else ""
+        yield rule.claim(
+            say(
+                _SAID,
+                name=channel.name,
+                way=way,
+                missing=missing,
+                role=ends[0].endpoint.role,
+                node=ends[0].node.name,
+                more=more,
+                aside=not_analysed(graph),
+            ),
             bridge.place,
-            severity=None if known else "info",
-            confidence="likely" if known else "possible",
+            subject=Subject("topic", channel.name),
+            doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known and not_all_known(graph)),
             related=(
                 *(related_endpoint(each, "publishes" if providers else "subscribes to") for each in ends[:3]),
                 *include_chain(bridge.node.origin),
@@ -116,20 +130,18 @@ def _of_clock(rule: Rule, context: Context, bridge: Bridge) -> Iterator[Finding]
     if bridge.gazebo.rpartition(".")[2] == "Clock" and plain(bridge.gazebo_topic) == "/clock":
         sign = bridge.turned[0].replace(f"{bridge.ros}@", f"{bridge.ros}[")
         turned = "GZ_TO_ROS" if bridge.turned[0] == bridge.direction else sign
-        yield rule.finding(
+        yield rule.claim(
             "bridge direction: '/clock' goes both ways; Gazebo does not publish it if the bridge starts first",
             bridge.place,
-            confidence="likely",
+            subject=Subject("topic", "/clock"),
             related=include_chain(bridge.node.origin),
             fixes=rename(context, bridge.place, bridge.turned[0], turned) if turned != bridge.turned[0] else (),
         )
 
 
-def _of_gazebo(
-    gazebo: Gazebo, bridge: Bridge, has_providers: bool, has_consumers: bool
-) -> tuple[str, Severity | None] | None:
-    """What Gazebo says against a direction: it has the other end of the topic alone. Message and severity, None for the
-    usual one."""
+def _of_gazebo(gazebo: Gazebo, bridge: Bridge, has_providers: bool, has_consumers: bool) -> tuple[str, bool] | None:
+    """What Gazebo says against a direction: it has the other end of the topic alone. The message, and whether what is
+    in ROS speaks for the direction."""
     others = {"GZ_TO_ROS": "ROS_TO_GZ", "ROS_TO_GZ": "GZ_TO_ROS"}
     makers = gazebo.named(bridge.gazebo_topic, others[bridge.direction]) if bridge.direction in others else ()
     if not makers or gazebo.named(bridge.gazebo_topic, bridge.direction):
@@ -142,12 +154,7 @@ def _of_gazebo(
     else:
         said, doubtful = "goes from Gazebo to ROS, but {} subscribes to it there", not has_providers
     said = f"bridge direction: '{bridge.gazebo_topic}' {said.format(makers[0].maker)}"
-    return said, "info" if doubtful else None
-
-
-def _named(ends: tuple[Connection, ...]) -> str:
-    more = f" and {len(ends) - 1} more" if len(ends) > 1 else ""
-    return f"{ends[0].endpoint.role}: {ends[0].node.name}{more}"
+    return said, doubtful
 
 
 def _channels(graph: Graph) -> dict[tuple[str, str], Channel]:
@@ -167,13 +174,12 @@ def _others(ends: tuple[Connection, ...], bridge: Bridge) -> tuple[Connection, .
 RULE = Rule(
     id="BRG002",
     name="bridge-direction",
-    severity="warning",
-    what="Checks for a topic of `ros_gz_bridge` that goes in the wrong direction. The bridge takes a measurement, such "
-    "as a scan, from ROS to Gazebo, while nobody publishes it in ROS and a node subscribes to it. Or it takes a "
-    "command, such as a velocity, from Gazebo to ROS, while a node publishes it and nobody subscribes to it. The "
-    "finding is information for types that are neither. If nodes are not analysed, it is a warning for data of sensors "
-    "alone. A plugin or sensor in Gazebo that has the other end of the topic is evidence, too. A `/clock` that goes "
-    "both ways is a warning: Gazebo does not publish a clock that has a publisher already.",
+    effect="breaks",
+    kind="conflict",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED, Reason.INTENDED),
+    what="Checks for a topic of `ros_gz_bridge` that goes in the wrong direction: a measurement from ROS to Gazebo, or "
+    "a command from Gazebo to ROS. It also checks for a `/clock` that goes both ways.",
     why="No message arrives. The bridge does not report it.",
     example="arguments=['/scan@sensor_msgs/msg/LaserScan]gz.msgs.LaserScan']",
     instead="arguments=['/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan']",

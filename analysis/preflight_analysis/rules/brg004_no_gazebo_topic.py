@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.gazebo_bridges import Bridge
 from preflight_analysis.rules.gazebo_side import ANY, ENDS, Gazebo, GazeboTopic, gazebo_of, plain, to_gazebo
 from preflight_analysis.rules.nearest import is_slip
-from preflight_analysis.rules.problems import include_chain, rename
+from preflight_analysis.rules.problems import enumerated, include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 
 _BY_HAND = frozenset({"Twist", "Int32", "StringMsg", "Empty", "Boolean", "Double", "Float"})
@@ -37,13 +39,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if meant is None and not gazebo.whole:
             continue
         missing = " or ".join(_WORDS[each] for each in ENDS[bridge.direction])
-        sure = gazebo.whole and meant is not None
         offered = f"; {_offered(meant)}" if meant is not None else ""
-        yield rule.finding(
+        yield rule.claim(
             f"'{bridge.gazebo_topic}' has no {missing} in Gazebo{offered}",
             bridge.gazebo_place,
-            severity=None if sure else "info",
-            confidence="likely" if sure else "possible",
+            subject=Subject("topic", bridge.gazebo_topic),
+            kind="absent" if meant is None else "near",
+            doubts=doubts(PARTLY_READ=enumerated(gazebo.lacks), OUTSIDE=meant is None),
+            candidates=(meant.name if meant is not None else None,),
             related=(*gazebo.related, *include_chain(bridge.node.origin)),
             fixes=_fixes(context, bridge, meant),
         )
@@ -103,11 +106,12 @@ def _fixes(context: Context, bridge: Bridge, meant: GazeboTopic | None) -> tuple
 RULE = Rule(
     id="BRG004",
     name="no-gazebo-topic",
-    severity="warning",
+    effect="breaks",
+    kind="near",
+    always=(Reason.LIBRARY,),
+    sometimes=(Reason.PARTLY_READ, Reason.OUTSIDE),
     what="Checks for a topic of `ros_gz_bridge` that neither a sensor nor a plugin of Gazebo has. The world and the "
-    "robots that the launch spawns tell which topics there are. The finding is a warning if all of them are known, and "
-    "one topic of the same type has another name. Otherwise it is information. Without a world in the launch there is "
-    "no finding.",
+    "robots that the launch spawns tell which topics there are.",
     why="The bridge reports no error, and no message arrives.",
     example="# <plugin filename=\"gz-sim-diff-drive-system\"> without <topic>, in the model 'bot'\n"
     "- ros_topic_name: /cmd_vel\n  gz_topic_name: /cmd_vel\n  ros_type_name: geometry_msgs/msg/Twist\n"

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.gazebo_side import gazebo_of, to_gazebo
@@ -25,10 +27,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if not needed or "" in needed or needed & gazebo.systems:
             continue
         plugin = f"gz-sim-{min(needed)}-system"
-        yield rule.finding(
+        yield rule.claim(
             f"{makers[0].maker} publishes nothing on '{bridge.gazebo_topic}': '{plugin}' is not loaded",
             bridge.gazebo_place,
-            confidence="likely",
+            subject=Subject("plugin", plugin),
             related=(*gazebo.related, *include_chain(bridge.node.origin)),
         )
 
@@ -36,11 +38,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 RULE = Rule(
     id="BRG005",
     name="sensor-without-system",
-    severity="warning",
-    what="Checks for a topic of `ros_gz_bridge` that a sensor of Gazebo has, while no plugin runs such sensors: "
-    "`gz-sim-sensors-system` for cameras and lidars, `gz-sim-imu-system`, `gz-sim-navsat-system`, ... The plugin "
-    "may stand in the world or in a robot. A world without plugins has those for physics alone. There is no finding if "
-    "a part of Gazebo is not known.",
+    effect="breaks",
+    kind="absent",
+    always=(Reason.LIBRARY,),
+    what="Checks for a topic of `ros_gz_bridge` that a sensor of Gazebo has, while no plugin runs such sensors. There "
+    "is no finding if a part of Gazebo is not known.",
     why="Gazebo loads the sensor without an error, and the sensor publishes nothing.",
     example='<world name="w">\n  <plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>\n'
     '  <!-- a robot with <sensor type="imu"> -->',

@@ -17,9 +17,10 @@ from preflight_analysis.rules.well_known import is_transform
 from preflight_analysis.tracing.interface import ENDS, Interface
 
 _TOPIC_ROLES = ("publisher", "subscriber")
+BY_SOURCE = "in its source"
 BY_CATALOGUE = "according to the catalogue"
 _BY_RUN = "before its event loop"
-_KNOWN_BY = {"source": "in its source", "catalogue": BY_CATALOGUE}
+_KNOWN_BY = {"source": BY_SOURCE, "catalogue": BY_CATALOGUE}
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,12 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.finding import Finding, Fix, Severity
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
-from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, IdleRemap, idle_remaps
+from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, BY_SOURCE, IdleRemap, idle_remaps
 from preflight_analysis.rules.names_in_sources import writes_name
 from preflight_analysis.rules.places import endpoints_of, related_endpoint
 from preflight_analysis.rules.problems import fix, include_chain
@@ -19,6 +21,9 @@ from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS
 
 _DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "serves", "client": "calls"}
+
+_OF_ONE = "remap of '{name}' has no effect: {node} does not use that name"
+_OF_SEVERAL = "remap of '{name}' has no effect: none of its {number} nodes uses that name"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -41,23 +46,25 @@ def _is_written(context: Context, idle: IdleRemap) -> bool:
 def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Rule) -> Finding:
     remap, meant = idle.remap, idle.meant
     source = names.resolve(remap.source, idle.nodes[0].name)
-    one = len(idle.nodes) == 1
-    who = f"{idle.nodes[0].name} does not use" if one else f"none of its {len(idle.nodes)} nodes uses"
-    message = f"remap of '{source}' has no effect: {who} that name"
-    if meant is None:
-        return rule.finding(
-            f"{message} {idle.known_by}",
+    node = idle.nodes[0].name
+    said = say(_OF_ONE, name=source, node=node)
+    if len(idle.nodes) > 1:
+        said = say(_OF_SEVERAL, name=source, number=len(idle.nodes))
+    known = doubts(
+        FROM_SOURCE=node if idle.known_by == BY_SOURCE else "",
+        CATALOGUE=node if idle.known_by == BY_CATALOGUE else "",
+    )
+    if meant is None or written:
+        why = _lone_doubts(idle) if meant is None else doubts(IN_USE=True, NO_DIFFERENCE=True)
+        return rule.claim(
+            said.followed_by(
+                " {known_by}{written}",
+                known_by=idle.known_by,
+                written="; a source of its package has the name" if meant is not None else "",
+            ),
             remap.source_location,
-            severity=_lone_severity(idle),
-            confidence="possible",
-            related=include_chain(remap.origin),
-        )
-    if written:
-        return rule.finding(
-            f"{message} {idle.known_by}; a source of its package has the name",
-            remap.source_location,
-            severity="hint",
-            confidence="possible",
+            subject=Subject("remap", source),
+            doubts=(*known, *doubts(DEPENDS=node), *why),
             related=include_chain(remap.origin),
         )
     evidence = f"did you mean '{_given(meant)}', which it {_DOES[meant.endpoint.role]}"
@@ -69,10 +76,14 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
         evidence += f"? {other.node.name} {does} '{other.name}' ({other.endpoint.type})"
     else:
         evidence += " and which is unconnected?"
-    return rule.finding(
-        f"{message}; {evidence}",
+    sure = idle.partner is not None and idle.sure and not meant.endpoint.uncertain
+    return rule.claim(
+        said.followed_by("; {evidence}", evidence=evidence),
         remap.source_location,
-        confidence="likely" if idle.partner is not None and idle.sure and not meant.endpoint.uncertain else "possible",
+        subject=Subject("remap", source),
+        kind="near",
+        doubts=(*known, *doubts(DEPENDS="" if sure else node)),
+        candidates=(_given(meant),),
         related=(
             *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
             *include_chain(remap.origin),
@@ -82,17 +93,15 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
     )
 
 
-def _lone_severity(idle: IdleRemap) -> Severity:
+def _lone_doubts(idle: IdleRemap) -> tuple[Doubt, ...]:
     """By the catalogue's word a name below a namespace that the node has nothing in is that of another node: the remap
-    stands at the wrong one. A plain name is mostly there out of habit."""
-    if idle.known_by != BY_CATALOGUE:
-        return "hint"
+    stands at the wrong one. A plain name is mostly there out of habit, and one of an image is made by a library."""
     node, source = idle.nodes[0].name, idle.remap.source
-    if source.endswith(IMAGE_TRANSPORTS):
-        return "hint"  # a library makes it
+    if idle.known_by != BY_CATALOGUE or source.endswith(IMAGE_TRANSPORTS):
+        return doubts(NO_DIFFERENCE=True)
     above = names.parent(names.resolve(source, node))
     foreign = source.strip("/").count("/") > 0 and not source.startswith("~")
-    return "warning" if foreign and not node.startswith(above) else "info"
+    return doubts(INTENDED=not foreign or node.startswith(above))
 
 
 def _given(connection: Connection) -> str:
@@ -111,18 +120,12 @@ def _fix(document: Document | None, location: Location, meant: Connection) -> tu
 RULE = Rule(
     id="TOP004",
     name="remap-without-effect",
-    severity="warning",
-    what="Checks for a remap whose `from` is not a topic, service or parameter of its nodes. All of these nodes "
-    "were run up to their event loop, or static analysis describes them completely. The finding is a warning if a "
-    "node has an unconnected endpoint of a similar name, or a single one that fits the remap's `to`, or if the "
-    "source of the node has an unconnected endpoint that is called as the remap's `to`, and another node has the "
-    "`from` (they are swapped). It is "
-    "information if only the catalogue knows the node and no argument decides what it does. It is a warning if "
-    "`from` is also in a namespace without any name of the node. A remap from a name to itself is reported if the "
-    "node has an unconnected endpoint with the same last part, or of the type that another node uses under the name. "
-    "Otherwise it is a hint, as it is if a source of the package has the name, because the node or a library "
-    "may use the name later. Namespaces of names in use, and "
-    "names below one, count as used: actions, image transports and `dynamic_reconfigure` create such names.",
+    effect="no-effect",
+    kind="absent",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.NO_DIFFERENCE, Reason.INTENDED, Reason.IN_USE, Reason.DEPENDS, Reason.FROM_SOURCE),
+    what="Checks for a remap whose `from` is not a topic, service or parameter of its nodes. Namespaces of names in "
+    "use, and names below one, count as used: actions and image transports create such names.",
     why="A remap of an unused name is ignored without an error, and the node keeps its own name.",
     example='<!-- the node subscribes to cmd_vel_in -->\n<remap from="input_cmd_vel" to="cmd_vel_nav"/>',
     instead='<remap from="cmd_vel_in" to="cmd_vel_nav"/>',

@@ -3,29 +3,30 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.findings.finding import Finding, Severity
+from preflight_analysis.findings.claim import say
+from preflight_analysis.findings.clipping import clipped
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.policy import doubted
 from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_transform
 
 _STATE = frozenset({"nav_msgs/OccupancyGrid", "nav_msgs/MapMetaData", "sensor_msgs/CameraInfo"})
 """Types of which a latched message is the state of the world: there is one."""
-_STREAMS: Mapping[str, Severity] = {
-    "sensor_msgs/Image": "warning",
-    "sensor_msgs/CameraInfo": "warning",
-    "sensor_msgs/LaserScan": "info",
-    "sensor_msgs/Imu": "info",
-    "nav_msgs/Odometry": "info",
-}
-"""Types of which a topic has one source: an image belongs to the calibration beside it. Two range finders of one robot
-may be read from one topic, by those who look at the frame of each scan."""
+_STREAMS = frozenset({"sensor_msgs/Image", "sensor_msgs/CameraInfo"})
+"""Types of which a topic has one source: an image belongs to the calibration beside it."""
+_WITH_FRAME = frozenset({"sensor_msgs/LaserScan", "sensor_msgs/Imu", "nav_msgs/Odometry"})
+"""Likewise, but two range finders of one robot may be read from one topic, by those who look at the frame of each."""
+_SAID = "'{name}' has {number} publishers ({node}{more}): {happens}"
 _SHARED = ("visualization_msgs/", "diagnostic_msgs/", "actionlib_msgs/", "dynamic_reconfigure/")
 """Types whose messages say whose they are: many publish them on one topic."""
 
@@ -48,21 +49,17 @@ def _of_channel(channel: Channel, rule: Rule) -> Finding | None:
         if connection.endpoint.qos.get("latch") is True and not _is_shared(connection)
     ]
     if channel.name == "/clock" and len(connections) > 1:
-        return _finding(rule, channel, connections, "warning", "time jumps between them")
+        return _finding(rule, channel, connections, "time jumps between them")
     if len(latched) > 1:
-        severity: Severity = "warning" if latched[0].endpoint.type in _STATE else "info"
+        why = doubts(INTENDED=latched[0].endpoint.type not in _STATE)
         consequence = "each latches its last message, and a new subscriber receives all of them in any order"
-        return _finding(rule, channel, latched, severity, consequence)
-    if len(connections) > 1 and (stream := _one_stream(connections)) is not None:
-        severity = "info" if _is_of_copies(channel, connections) else stream
-        return _finding(rule, channel, connections, severity, "a subscriber receives the messages of all in turn")
-    return None
-
-
-def _one_stream(connections: list[Connection]) -> Severity | None:
-    """How severe it is that these publish on one topic, None where they may."""
+        return _finding(rule, channel, latched, consequence, why)
     types = {connection.endpoint.type for connection in connections}
-    return _STREAMS.get(types.pop() or "") if len(types) == 1 else None
+    if len(connections) > 1 and len(types) == 1 and not types.isdisjoint(_STREAMS | _WITH_FRAME):
+        copies = connections[0].node.name if _is_of_copies(channel, connections) else ""
+        why = doubts(INTENDED=not types.isdisjoint(_WITH_FRAME), ASSUMED=copies)
+        return _finding(rule, channel, connections, "a subscriber receives the messages of all in turn", why)
+    return None
 
 
 def _is_of_copies(channel: Channel, connections: list[Connection]) -> bool:
@@ -78,16 +75,16 @@ def _is_shared(connection: Connection) -> bool:
 
 
 def _finding(
-    rule: Rule, channel: Channel, connections: list[Connection], severity: Severity, consequence: str
+    rule: Rule, channel: Channel, connections: list[Connection], consequence: str, why: tuple[Doubt, ...] = ()
 ) -> Finding:
-    connections = sorted(connections, key=lambda connection: connection.is_placed)
-    sure = not any(connection.endpoint.uncertain for connection in connections)
-    return rule.finding(
-        f"'{channel.name}' has {len(connections)} publishers ({' and '.join(c.node.name for c in connections)}): "
-        f"{consequence}",
+    first, *others = connections = sorted(connections, key=lambda connection: connection.is_placed)
+    more = "".join(f" and {each.node.name}" for each in others)
+    told = {each.reason for each in why}
+    return rule.claim(
+        say(_SAID, name=channel.name, number=len(connections), node=first.node.name, more=more, happens=consequence),
         connection_location(connections[-1]),
-        severity="info" if any(connection.endpoint.assumed for connection in connections) else severity,
-        confidence="likely" if sure else "possible",
+        subject=subject_of(first),
+        doubts=(*why, *(each for each in doubts_of_ends(*connections) if each.reason not in told)),
         related=(
             *(related_endpoint(connection, "publishes") for connection in connections[:-1]),
             *include_chain(connections[-1].node.origin),
@@ -109,19 +106,19 @@ def _imported_by_all(context: Context, channel: Channel) -> str | None:
 
 
 def _of_module(finding: Finding, module: str) -> Finding:
-    message = f"{finding.message}, if both use it: '{os.path.basename(module)}' makes it on import"
-    return replace(finding, severity="info", message=message)
+    file = os.path.basename(module)
+    text = finding.text.followed_by(", if both use it: '{file}' makes it on import", file=file)
+    return replace(doubted(finding, Doubt(Reason.ASSUMED, file)), text=text, message=clipped(str(text)))
 
 
 RULE = Rule(
     id="TOP005",
     name="several-publishers",
-    severity="warning",
+    effect="misbehaves",
+    kind="duplicate",
+    sometimes=(Reason.INTENDED, *OF_ENDS),
     what="Checks for several publishers of a topic that should have one: `/clock`, latched topics and sensor data. "
-    "The finding is a warning for latched maps, and for images and their calibration. It is information for other "
-    "latched topics, scans, inertial measurements and odometry. Transforms, markers and diagnostics name their "
-    "source in each message, and are not reported. It is information if a module makes the publisher in each program "
-    "that imports it, or if only the catalogue knows the copies of one program to which nobody subscribes.",
+    "Transforms, markers and diagnostics name their source in each message, and are not reported.",
     why="Subscribers treat a latched message as the state of the world. With two publishers the state depends on "
     "the order of arrival.",
     example='<node pkg="map_server" type="map_server" name="map_server"/> <!-- both publish /map -->\n'

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
+from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.rules.well_known import is_transform, may_dangle
 
 _Kind = tuple[str, str]
 """Package and executable of a node."""
+_SAID = "'{name}' is outside of the namespaces of both robots: {node} receives from {theirs} and {mine}"
 _Pair = tuple[Connection, Connection]
 _SHARED = (
     "visualization_msgs/",
@@ -67,20 +71,19 @@ def _same(pair: _Pair, mine: Connection, theirs: Connection) -> bool:
 def _finding(rule: Rule, context: Context, channel: Channel, saying: _Pair, hearing: _Pair) -> Finding:
     mine, theirs = saying
     listener = next(connection for connection in hearing if connection.node.namespace == mine.node.namespace)
-    names = f"{theirs.node.name} and {mine.node.name}"
     connections = (*saying, *hearing)
     # A name like `/fleet/poses` that the code itself has is rather meant so than `/cmd_vel`.
     meant = channel.name.count("/") > 1 and not any(connection.remap for connection in connections)
-    assumed = any(connection.endpoint.assumed for connection in connections)
     related = [
         related_endpoint(mine, "publishes"),
         *(related_endpoint(connection, "subscribes") for connection in hearing),
     ]
-    return rule.finding(
-        f"'{channel.name}' is outside of the namespaces of both robots: {listener.node.name} receives from {names}",
+    nodes = {"node": listener.node.name, "theirs": theirs.node.name, "mine": mine.node.name}
+    return rule.claim(
+        say(_SAID, name=channel.name, **nodes),
         connection_location(theirs),
-        severity="info" if assumed or meant else None,
-        confidence="possible" if meant else "likely",
+        subject=subject_of(theirs),
+        doubts=(*doubts(INTENDED=meant), *doubts_of_ends(*connections)),
         related=(*related, *include_chain(theirs.node.origin)),
         fixes=_fixes(context, theirs),
         endpoints=endpoints_of(*connections),
@@ -99,12 +102,12 @@ def _fixes(context: Context, connection: Connection) -> tuple[Fix, ...]:
 RULE = Rule(
     id="TOP006",
     name="shared-by-robots",
-    severity="warning",
+    effect="misbehaves",
+    kind="conflict",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.INTENDED, *OF_ENDS),
     what="Checks for a topic outside of the namespaces of two robots that each robot publishes and subscribes to "
-    "with different nodes. Two robots are the same executables in two namespaces. The topic has an absolute name, "
-    "in a remap or in the code. A name of several parts in the code (`/fleet/poses`) may be intended, and is "
-    "information. Transforms, the clock, markers and diagnostics are shared on purpose and not reported. The same "
-    "applies to a node that subscribes to its own topic.",
+    "with different nodes. Two robots are the same executables in two namespaces.",
     why="A namespace separates robots only while names are relative. With an absolute name the commands of one "
     "robot move the other as well.",
     example='<group>\n  <push_ros_namespace namespace="robot1"/>\n'

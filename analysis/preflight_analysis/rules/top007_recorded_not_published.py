@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
@@ -17,6 +19,7 @@ from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.request import split_args
 
+_SAID = "recorded topic '{name}' has no publisher in this launch; did you mean '{near}', published by {node}?"
 _TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
 _FLAG = re.compile(
     r"-[ahqpj]+|--(?:all(?:-topics|-services|-actions)?|bz2|lz4|quiet|publish|split|tcpnodelay|udp|repeat-latched|help"
@@ -42,12 +45,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             place, known = argument_location(context, node, written), graph.likely_complete_beside(node)
             provider = graph.topics[near].providers[0]
-            yield rule.finding(
-                f"recorded topic '{topic}' has no publisher in this launch; did you mean '{near}', published by "
-                f"{provider.node.name}?",
+            yield rule.claim(
+                say(_SAID, name=topic, near=near, node=provider.node.name),
                 place,
-                severity=None if known else "info",
-                confidence="likely" if known else "possible",
+                subject=Subject("topic", topic),
+                doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known),
+                candidates=(near,),
                 related=(related_endpoint(provider, "publishes"), *include_chain(node.origin)),
                 fixes=rename(context, place, written.lstrip("/"), near.lstrip("/")) if written == topic else (),
             )
@@ -62,10 +65,11 @@ def _of_convention(
     if meant is None or leaf in _CONVENTIONS or topic in graph.topics:
         return
     place = argument_location(context, node, written)
-    yield rule.finding(
+    yield rule.claim(
         f"recorded topic '{topic}' ends in '{leaf}'; did you mean '{meant}'?",
         place,
-        confidence="likely",
+        subject=Subject("topic", topic),
+        candidates=(meant,),
         related=include_chain(node.origin),
         fixes=rename(context, place, leaf, meant),
     )
@@ -114,11 +118,12 @@ def _topics(words: Sequence[str]) -> Iterator[str]:
 RULE = Rule(
     id="TOP007",
     name="recorded-not-published",
-    severity="warning",
-    what="Checks for a topic in the arguments of `rosbag record` or `ros2 bag record` without publisher and "
-    "subscriber in the launch. A node publishes a topic of a similar name. The finding is information if not all "
-    "nodes are known. It also checks for a typo in a last part that libraries give, such as `compressedDepth`. Other "
-    "topics of a recorder may come from another launch and are not reported.",
+    effect="misbehaves",
+    kind="near",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED),
+    what="Checks for a topic in the arguments of `rosbag record` or `ros2 bag record` that the launch lacks, while a "
+    "node publishes one of a similar name. It also checks for a typo in a last part that libraries give.",
     why="The recorder waits for the topic without an error, and the recording lacks it.",
     example='<node pkg="rosbag" type="record" name="record" args="/scna /odom"/>',
     instead='<node pkg="rosbag" type="record" name="record" args="/scan /odom"/>',

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Connection, Graph
@@ -17,6 +19,9 @@ from preflight_analysis.rules.problems import include_chain, rename
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.request import split_args
 
+_SAID = (
+    "played topic '{name}' has no subscriber in this launch; did you mean '{near}' (subscriber: {node}, no publisher)?"
+)
 _TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
 _PREFIX = re.compile(r"-p|--prefix(?:=.*)?")
 """Of a text that goes in front of all names (ROS 1)."""
@@ -35,12 +40,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             place = argument_location(context, node, written)
             known = graph.likely_complete_beside(node)
-            yield rule.finding(
-                f"played topic '{topic}' has no subscriber in this launch; did you mean '{consumer.name}' (subscriber: "
-                f"{consumer.node.name}, no publisher)?",
+            yield rule.claim(
+                say(_SAID, name=topic, near=consumer.name, node=consumer.node.name),
                 place,
-                severity=None if known else "info",
-                confidence="likely" if known else "possible",
+                subject=Subject("topic", topic),
+                doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known),
+                candidates=(consumer.name,),
                 related=(related_endpoint(consumer, "subscribes to"), *include_chain(node.origin)),
                 fixes=rename(context, place, written.lstrip("/"), consumer.name.lstrip("/")),
             )
@@ -98,10 +103,12 @@ def _after(words: Sequence[str], options: Sequence[str]) -> list[str]:
 RULE = Rule(
     id="TOP008",
     name="played-not-subscribed",
-    severity="warning",
+    effect="misbehaves",
+    kind="near",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED),
     what="Checks for a topic in the arguments of `rosbag play` or `ros2 bag play` that no node of the launch "
-    "subscribes to. The topic follows `--topics` or is the new name in a remap. A node subscribes to a topic of a "
-    "similar name that has no publisher. The finding is information if not all other nodes are known.",
+    "subscribes to. A node subscribes to a topic of a similar name that has no publisher.",
     why="The recording is played and the node waits for its messages. No tool reports that the names differ.",
     example='<node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scna"/>',
     instead='<node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scan"/>',

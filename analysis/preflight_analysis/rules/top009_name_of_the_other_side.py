@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation.tree import LaunchNode, Param, Remap
+from preflight_analysis.findings.claim import Subject
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.parameters import grouped
@@ -45,10 +47,10 @@ def _findings(rule: Rule, found: Iterable[tuple[_Named, _Named]], reported: set[
         if second.place in reported:
             continue
         reported.add(second.place)
-        yield rule.finding(
+        yield rule.claim(
             f"'{second.own}' has the name of the other side: '{second.given}', which '{first.own}' has too",
             second.place,
-            confidence="possible",
+            subject=Subject("name", second.own),
             related=(Related(f"'{first.own}' has it here", first.place), *include_chain(second.origin)),
         )
 
@@ -102,7 +104,9 @@ def _words(name: str) -> list[str]:
 RULE = Rule(
     id="TOP009",
     name="name-of-the-other-side",
-    severity="warning",
+    effect="misbehaves",
+    kind="duplicate",
+    always=(Reason.DEPENDS,),
     what="Checks for two remaps or two parameters of one node that differ in a side (`left`, `right`) or a number "
     "(`cam0`, `cam1`) and have the same value, which names the first side only.",
     why="The line was copied and its value was not changed. The node gets the data of one side twice.",

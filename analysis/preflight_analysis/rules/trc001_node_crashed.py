@@ -10,6 +10,8 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.findings.claim import Subject, Text, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
@@ -77,39 +79,42 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # Of a parameter that is missing another rule says more, as a warning.
         reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
         reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
-        ours = (
-            lacking is not None
-            or outcome.lacks is not None
+        sandbox = (
+            outcome.lacks is not None
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
-            or _TEMPORARY.search(told) is not None
-            or _gets_temporary_file(context, node, told)
             or _is_of_two_modules(context, telling_line(outcome.stderr_tail))
             or _OF_CALLED.search(telling_line(outcome.stderr_tail)) is not None
             or any(e.speculative for e in interface.endpoints)
             or node.kind == "test"
-            or "$(" in node.args
-            or is_unknown(node.args)
         )
         absent = absent_top_said(context.disk, told)
         made = (
             is_template(told)
+            or _TEMPORARY.search(told) is not None
+            or _gets_temporary_file(context, node, told)
             or lacks_recording(told)
             or any(is_ignored(context.disk, path) for path in paths_said(told))
         )
         empty = _empty_param(node, told) or _empty_argument(context, node, told)
-        crash, said = _message(node.name, outcome)
-        message = crash + (f"; it reads {lacking}" if lacking else "")
-        message += f"; {empty} is empty" if empty is not None else ""
-        found = rule.finding(
-            message + (f"; this machine has no '{absent}'" if absent else ""),
+        beside = f"; it reads {lacking}" if lacking else ""
+        beside += f"; {empty} is empty" if empty is not None else ""
+        beside += f"; this machine has no '{absent}'" if absent else ""
+        found = rule.claim(
+            _message(node.name, outcome, beside),
             node.location,
-            severity="info" if ours or reported or absent or made or empty or _waits(node, outcome) else None,
-            confidence="possible" if ours or absent else "likely",
+            subject=Subject("node", node.name),
+            doubts=doubts(
+                SANDBOX=node.name if sandbox else "",
+                PARTLY_READ=lacking or "$(" in node.args or is_unknown(node.args),
+                NOT_SET=empty,
+                ON_ROBOT=absent,
+                MADE_ELSEWHERE=made,
+                INTENDED=_waits(node, outcome),
+                EXPLAINED=reported,
+            ),
             related=include_chain(node.origin),
             lack=_lack(context, node, outcome),
-            node=node.name,
-            quoted=said,
         )
         yield replace(found, crash_of=node.name) if reported else found
 
@@ -290,42 +295,43 @@ def _cause(reason: str) -> str:
     return _EXCEPTION.sub("", _EXIT.sub("", reason))
 
 
-def _message(name: str, outcome: Outcome) -> tuple[str, str]:
-    """What is said of a crash, and the first of it that the node says itself."""
-    said = ""
+def _message(name: str, outcome: Outcome, beside: str) -> Text:
+    """What is said of a crash, quoted from the first of it that the node says itself."""
+    does, said = "crashes on start: ", ""
     if outcome.lacks:
-        message = f"{name} needs {outcome.lacks}; it exited"
-        if outcome.exit_code is not None:
-            message += f" with exit code {outcome.exit_code}"
+        code = f" with exit code {outcome.exit_code}" if outcome.exit_code is not None else ""
+        does = f"needs {outcome.lacks}; it exited{code}"
     elif outcome.reason:
         said = _cause(outcome.reason)
-        message = f"{name} crashes on start: {said}"
     elif outcome.signal:
-        message = f"{name} crashes on start: killed by {outcome.signal}"
+        does += f"killed by {outcome.signal}"
     else:
-        message = f"{name} crashes on start: exit code {outcome.exit_code}"
+        does += f"exit code {outcome.exit_code}"
     telling = telling_line(outcome.stderr_tail)[:REASON_COLUMNS]
-    if telling and telling not in message:
-        message, said = f"{message}; {telling}", said or telling
+    if telling and telling not in f"{name} {does}{said}":
+        said += f"; {telling}"
     conflict = telling.startswith("SyntaxError") and any(_CONFLICT.match(line) for line in outcome.stderr_tail)
-    return f"{message}; its source has marks of a merge conflict" if conflict else message, said
+    said += "; its source has marks of a merge conflict" if conflict else ""
+    return say("{node} {does}{quoted}{beside}", node=name, does=does, quoted=said, beside=beside)
 
 
 RULE = Rule(
     id="TRC001",
     name="node-crashed",
-    severity="warning",
+    effect="stops-node",
+    always=(Reason.UNSEEN,),
+    sometimes=(
+        Reason.SANDBOX,
+        Reason.PARTLY_READ,
+        Reason.NOT_SET,
+        Reason.ON_ROBOT,
+        Reason.MADE_ELSEWHERE,
+        Reason.INTENDED,
+        Reason.EXPLAINED,
+        Reason.NOT_HERE,
+    ),
     what="Checks for a node that exits with an error before its event loop. The finding quotes the line of its "
-    "standard error that gives the cause. It is information if the cause may be outside of the launch file. Such "
-    "causes are: a mock reply that the node received, a parameter that another rule reports (PRM001, PRM010, "
-    "PRM014, PRM017), an invalid value, and a missing `robot_description`. Other such causes are a top folder that "
-    "this machine lacks (`/ws/src/...` of a container), and the home folder of another user. So are a disk that is "
-    "not here, a recording, and what only the sandbox lacks. The sandbox may lack a device, a network, a display, a "
-    "browser's own sandbox, or a folder to write to. It may also lack a topic of another node, or a file that git "
-    "ignores. A module that the program reports as missing, an argument without a value, "
-    "a `<test>`, a program that a signal kills in a shell script, and another program that fails (`roslaunch`, `git`), "
-    "are information too. So is a crash that names a parameter without a known value, an argument that is empty, "
-    "or a temporary file.",
+    "standard error that gives the cause.",
     why="With these parameters and arguments the node most likely exits on the robot too. What it does "
     "later is unknown.",
     example='<param name="model" value="/home/me/model.json"/> <!-- FileNotFoundError -->',

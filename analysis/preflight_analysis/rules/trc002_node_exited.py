@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import RUNS
 from preflight_analysis.rules.problems import include_chain
@@ -15,20 +17,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         outcome = interface.outcome
         if outcome.status == "exited" and outcome.exit_code in (None, 0):
             because = f": {outcome.reason}" if outcome.reason else ""
-            yield rule.finding(
-                f"{node.name} exits before its event loop, without an error{because}",
+            yield rule.claim(
+                say("{node} exits before its event loop, without an error{quoted}", node=node.name, quoted=because),
                 node.location,
-                confidence="possible" if outcome.answers else "likely",
+                subject=Subject("node", node.name),
+                doubts=doubts(SANDBOX=node.name if outcome.answers else ""),
                 related=include_chain(node.origin),
-                node=node.name,
-                quoted=because,
             )
 
 
 RULE = Rule(
     id="TRC002",
     name="node-exited",
-    severity="info",
+    effect="note",
+    always=(Reason.UNSEEN,),
+    sometimes=(Reason.SANDBOX,),
     what="Checks for a node that exits with code 0 before its event loop.",
     why="Some nodes do their work and exit. If the node should keep running, it lacks its loop or has given up. "
     "What it does later is unknown.",

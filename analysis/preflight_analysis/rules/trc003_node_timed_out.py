@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import RUNS
 from preflight_analysis.rules.problems import include_chain
@@ -14,20 +16,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node, interface in zip(context.tree.nodes, context.graph.processes, strict=True):
         if interface.outcome.status == "timed-out":
             because = f": {interface.outcome.reason}" if interface.outcome.reason else ""
-            yield rule.finding(
-                f"{node.name} does not reach its event loop in time{because}",
+            yield rule.claim(
+                say("{node} does not reach its event loop in time{quoted}", node=node.name, quoted=because),
                 node.location,
-                confidence="likely",
+                subject=Subject("node", node.name),
                 related=include_chain(node.origin),
-                node=node.name,
-                quoted=because,
             )
 
 
 RULE = Rule(
     id="TRC003",
     name="node-timed-out",
-    severity="info",
+    effect="note",
+    always=(Reason.UNSEEN,),
     what="Checks for a node that is still starting when its time is up.",
     why="Only what it did until then is known: it may have more topics, services and parameters. A node that waits "
     "for another one gets a mock reply: a service, a message, an action server, a transform, a parameter or "

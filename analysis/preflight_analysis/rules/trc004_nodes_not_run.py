@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import ANNOTATIONS, RUNS, SECURITY
 from preflight_analysis.rules.rule import Context, Rule
@@ -16,7 +17,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.why_not_run is not None:
         if count:
             nodes = f"{count} nodes are" if count > 1 else "1 node is"
-            yield rule.finding(f"{nodes} not run: {context.why_not_run}", _root_location(context))
+            said = say("{nodes} not run: {quoted}", nodes=nodes, quoted=context.why_not_run)
+            yield rule.claim(said, _root_location(context), subject=Subject("node"))
         return
     if context.graph is None:
         return
@@ -43,8 +45,10 @@ def _where_and_why(skipped: _Skipped) -> tuple[str, str]:
 
 
 def _finding(there: tuple[_Skipped, ...], rule: Rule) -> Finding:
-    names = ", ".join(each.node.name for each in there)
-    return rule.finding(f"not run: {names}; {there[0].reason}", there[0].node.location)
+    node, *others = (each.node for each in there)
+    more = "".join(f", {each.name}" for each in others)
+    said = say("not run: {node}{more}; {quoted}", node=node.name, more=more, quoted=there[0].reason)
+    return rule.claim(said, node.location, subject=Subject("node", node.name))
 
 
 def _root_location(context: Context) -> Location:
@@ -57,7 +61,7 @@ def _root_location(context: Context) -> Location:
 RULE = Rule(
     id="TRC004",
     name="nodes-not-run",
-    severity="info",
+    effect="note",
     what="Checks for nodes that were not run, and gives the reason: the workspace is not trusted, no sandbox works "
     "on this machine, or a value is unresolved.",
     why="Their topics, services and parameters come from annotations or settings. Without those they come from a "

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from itertools import compress
 
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.further_reading import RUNS, SECURITY
 from preflight_analysis.rules.installed import lack_of_module
@@ -10,6 +12,7 @@ from preflight_analysis.rules.problems import include_chain
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import Interface
 
+_NEEDS = "{node} needs {what} '{name}', which is not installed; a stand-in replaces it"
 _WHAT = {"module": "module", "package": "package", "build": "the built package"}
 
 
@@ -20,12 +23,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     noted = context.kept.each(_is_noted, processes)
     for node, interface in compress(zip(context.tree.nodes, processes, strict=True), noted):
         for note in interface.notes:
-            yield rule.finding(f"{node.name}: {note}", node.location, related=include_chain(node.origin))
-        for lack in dict.fromkeys(filter(None, (lack_of_module(context, each) for each in interface.stand_ins))):
-            message = (
-                f"{node.name} needs {_WHAT[lack.kind]} '{lack.name}', which is not installed; a stand-in replaces it"
+            yield rule.claim(
+                say("{node}: {quoted}", node=node.name, quoted=note),
+                node.location,
+                subject=Subject("node", node.name),
+                related=include_chain(node.origin),
             )
-            yield rule.finding(message, node.location, related=include_chain(node.origin), lack=lack)
+        for lack in dict.fromkeys(filter(None, (lack_of_module(context, each) for each in interface.stand_ins))):
+            yield rule.claim(
+                say(_NEEDS, node=node.name, what=_WHAT[lack.kind], name=lack.name),
+                node.location,
+                subject=Subject("module", lack.name),
+                kind="absent",
+                related=include_chain(node.origin),
+                lack=lack,
+            )
 
 
 def _is_noted(interface: Interface) -> bool:
@@ -35,10 +47,10 @@ def _is_noted(interface: Interface) -> bool:
 RULE = Rule(
     id="TRC005",
     name="run-notes",
-    severity="info",
+    effect="note",
+    sometimes=(Reason.NOT_HERE,),
     what="Checks for events in the run of a node in the sandbox: a refused write, no exit on request, too much "
-    "output, a mock reply, or a name that is random in each run. An import that is missing on this machine, and "
-    "replaced by a stand-in, is a hint.",
+    "output, a mock reply, a name that is random in each run, or an import that a stand-in replaced.",
     why="The sandbox stopped these effects; on the robot they happen. After a refusal or a mock reply the "
     "node may behave differently than on the robot.",
     example="open('/home/me/.calibration', 'w')",

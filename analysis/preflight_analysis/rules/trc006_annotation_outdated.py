@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare, remove_item
@@ -13,6 +15,9 @@ from preflight_analysis.rules.problems import fix, include_chain, replacement
 from preflight_analysis.rules.rule import Context, Rule
 from preflight_analysis.tracing.interface import DOES, Endpoint, Interface, ParamUse
 
+_CONFLICT = "annotation of '{name}' has another type than the run of {node}: {type}"
+_UNMADE = "annotation of '{name}' is not confirmed: the run of {node} does not show that it {does} it{near}"
+_MISSING = "annotation of {node} is incomplete: in its run it {shown}{more}"
 _MOST = 5
 """How many names a message has."""
 
@@ -43,9 +48,14 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
     fixes = (Fix(f"Update the annotation of '{node.name}' from its run", edits, preferred=True),) if edits else ()
     chain = include_chain(node.origin)
     for item, type_ in outdated.conflicts:
-        message = f"annotation of '{item.what.name}' has another type than the run of {node.name}: {type_}"
-        yield rule.finding(
-            message, context.location(file, item.values["type"]), confidence="likely", related=chain, fixes=fixes
+        yield rule.claim(
+            say(_CONFLICT, name=item.what.name, node=node.name, type=type_),
+            context.location(file, item.values["type"]),
+            subject=Subject("annotation", item.what.name),
+            kind="conflict",
+            candidates=(type_,),
+            related=chain,
+            fixes=fixes,
         )
     for item in outdated.unmade:
         name, place = item.what.name, context.location(file, item.values["name"])
@@ -53,23 +63,26 @@ def _findings(rule: Rule, context: Context, file: str, node: LaunchNode, outdate
         mends = fix(f"Remove '{name}' from the annotation", (remove_item(item, document),))
         if meant is not None:
             mends = (*replacement(context, place, meant, f"Replace '{name}' with '{meant}'"), *mends)
-        yield rule.finding(
-            f"annotation of '{name}' is not confirmed: the run of {node.name} does not show that it "
-            f"{_does(item.what)} it{did_you_mean(meant)}",
+        yield rule.claim(
+            say(_UNMADE, name=name, node=node.name, does=_does(item.what), near=did_you_mean(meant)),
             place,
-            severity="info" if meant is not None else "hint",
-            confidence="likely" if meant is not None else "possible",
+            subject=Subject("annotation", name),
+            kind="absent" if meant is None else "near",
+            effect="note" if meant is not None else "style",
+            doubts=doubts(DEPENDS=node.name if meant is None else ""),
+            candidates=(meant,),
             related=chain,
             fixes=mends,
         )
     if outdated.missing:
-        shown = [f"{_does(what)} '{what.name}'" for what in outdated.missing[:_MOST]]
+        shown = ", ".join(f"{_does(what)} '{what.name}'" for what in outdated.missing[:_MOST])
         more = f" and {len(outdated.missing) - _MOST} more" if len(outdated.missing) > _MOST else ""
-        yield rule.finding(
-            f"annotation of {node.name} is incomplete: in its run it {', '.join(shown)}{more}",
+        yield rule.claim(
+            say(_MISSING, node=node.name, shown=shown, more=more),
             context.location(file, outdated.groups[0].head),
-            severity="hint",
-            confidence="likely",
+            subject=Subject("annotation", node.name),
+            kind="absent",
+            effect="style",
             related=chain,
             fixes=fixes,
         )
@@ -82,10 +95,12 @@ def _does(what: Endpoint | ParamUse) -> str:
 RULE = Rule(
     id="TRC006",
     name="annotation-outdated",
-    severity="warning",
-    what="Checks the `<topics>`, `<services>`, `<actions>` and `<params>` that annotate a node against its run. A "
-    "different type is a warning. What the run did not show before the event loop, and what the annotation lacks, "
-    "are hints. Missing parameters are reported only if some are annotated.",
+    effect="misbehaves",
+    kind="conflict",
+    always=(Reason.UNSEEN,),
+    sometimes=("note", "style", Reason.DEPENDS),
+    what="Checks the `<topics>`, `<services>`, `<actions>` and `<params>` that annotate a node against its run. "
+    "Missing parameters are reported only if some are annotated.",
     why="The annotation applies where the node cannot be run: on another machine, in an untrusted workspace, "
     "without hardware. Errors in it cause wrong findings there. It may describe more than the run on purpose.",
     example='<!-- <topics><topic name="scan" type="sensor_msgs/PointCloud" class="pub"/></topics> -->',
