@@ -122,8 +122,8 @@ RULE = Rule(
     kind="near",
     always=(Reason.UNSEEN,),
     sometimes=(Reason.OUTSIDE, Reason.NOT_ANALYSED),
-    what="Checks for a topic in the arguments of `rosbag record` or `ros2 bag record` that the launch lacks, while a "
-    "node publishes one of a similar name. It also checks for a typo in a last part that libraries give.",
+    what="Checks for a recorded topic of `rosbag record` or `ros2 bag record` that the launch lacks, while a node "
+    "publishes one of a similar name. It also checks for a typo in a last part that libraries give.",
     why="The recorder waits for the topic without an error, and the recording lacks it.",
     example='<node pkg="rosbag" type="record" name="record" args="/scna /odom"/>',
     instead='<node pkg="rosbag" type="record" name="record" args="/scan /odom"/>',

@@ -107,8 +107,8 @@ RULE = Rule(
     effect="misbehaves",
     kind="duplicate",
     always=(Reason.DEPENDS,),
-    what="Checks for two remaps or two parameters of one node that differ in a side (`left`, `right`) or a number "
-    "(`cam0`, `cam1`) and have the same value, which names the first side only.",
+    what="Checks for two remaps or parameters of one node that differ in a side (`left`, `right`) or a number. Both "
+    "have the same value, which names the first side only.",
     why="The line was copied and its value was not changed. The node gets the data of one side twice.",
     example='<remap from="left/image" to="/stereo/left/image_raw"/>\n'
     '<remap from="right/image" to="/stereo/left/image_raw"/>',

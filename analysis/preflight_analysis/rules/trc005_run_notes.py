@@ -49,8 +49,8 @@ RULE = Rule(
     name="run-notes",
     effect="note",
     sometimes=(Reason.NOT_HERE,),
-    what="Checks for events in the run of a node in the sandbox: a refused write, no exit on request, too much "
-    "output, a mock reply, a name that is random in each run, or an import that a stand-in replaced.",
+    what="Checks for events in the run of a node in the sandbox, such as a refused write, no exit on request, or a "
+    "mock reply. An import that this machine lacks is replaced by a stand-in.",
     why="The sandbox stopped these effects; on the robot they happen. After a refusal or a mock reply the "
     "node may behave differently than on the robot.",
     example="open('/home/me/.calibration', 'w')",
