@@ -26,12 +26,11 @@ class RuleDescription:
     why: str
     example: str
     instead: str
-    effect: Effect = "misbehaves"
-    kind: Kind = "invalid"
+    effect: Effect
+    kind: Kind
     always: tuple[Reason, ...] = ()
     sometimes: tuple[Effect | Reason, ...] = ()
-    severity: Severity = field(default="")  # type: ignore[arg-type]  # given by rules that make no claims yet
+    severity: Severity = field(init=False)
 
     def __post_init__(self) -> None:
-        if not self.severity:
-            object.__setattr__(self, "severity", judge(self.effect, map(Doubt, self.always))[0])
+        object.__setattr__(self, "severity", judge(self.effect, map(Doubt, self.always))[0])

@@ -135,6 +135,7 @@ RULE = Rule(
     id="BRG003",
     name="malformed-bridge",
     effect="breaks",
+    kind="invalid",
     always=(Reason.FROM_SOURCE,),
     sometimes=("stops-node", "no-effect", Reason.NOT_SET),
     what="Checks for what `ros_gz_bridge` refuses: arguments of `parameter_bridge` that are not "

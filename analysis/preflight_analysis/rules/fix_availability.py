@@ -17,7 +17,7 @@ AVAILABILITY: Mapping[Availability, str] = {
     "never": "No fix is available.",
 }
 _HOME = "preflight_analysis.rules."
-_MAKERS = ("claim", "problem_claim", "finding", "problem_finding")
+_MAKERS = ("claim", "problem_claim")
 """The functions that make findings; `fixes` is a keyword of each."""
 
 

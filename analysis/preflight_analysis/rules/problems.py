@@ -15,7 +15,7 @@ from preflight_analysis.edits.writer import replaced
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.claim import Effect, Kind, Subject, Text, say
 from preflight_analysis.findings.doubt import Doubt
-from preflight_analysis.findings.finding import Confidence, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.rules.rule import Check, Context, Rule
@@ -44,32 +44,6 @@ def _by_kind(context: Context) -> dict[type[ProblemKind], list[tuple[int, Proble
     for numbered in enumerate(context.tree.problems):
         found.setdefault(type(numbered[1].kind), []).append(numbered)
     return found
-
-
-def problem_finding(
-    rule: Rule,
-    problem: Problem[ProblemKind],
-    message: str,
-    *,
-    severity: Severity | None = None,
-    confidence: Confidence = "certain",
-    related: Iterable[Related] = (),
-    fixes: Iterable[Fix] = (),
-    lack: Lack | None = None,
-    quoted: str = "",
-) -> Finding:
-    """The finding for a problem, at its place, with the includes that lead there; `quoted` as in `Rule.finding`."""
-    return rule.finding(
-        message,
-        problem.location,
-        severity=severity,
-        confidence=confidence,
-        related=(*related, *include_chain(problem.origin)),
-        fixes=fixes,
-        stops_launch=problem.fatal,
-        lack=lack,
-        quoted=quoted,
-    )
 
 
 def problem_claim(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Protocol, TypeVar
@@ -18,10 +17,10 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.files import Executables
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchTree
-from preflight_analysis.findings.claim import Effect, Kind, Subject, Text, as_text, say
+from preflight_analysis.findings.claim import Effect, Kind, Subject, Text, as_text
 from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.doubt import Doubt, Reason
-from preflight_analysis.findings.finding import Alike, Confidence, EndpointRef, Finding, Fix, Related, Severity
+from preflight_analysis.findings.finding import Alike, EndpointRef, Finding, Fix, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.findings.policy import judge
 from preflight_analysis.findings.rule_description import RuleDescription
@@ -223,50 +222,6 @@ class Rule(RuleDescription):
             candidates=tuple(filter(None, candidates)),
             text=text,
         )
-
-    def finding(
-        self,
-        message: str,
-        location: Location,
-        *,
-        severity: Severity | None = None,
-        confidence: Confidence = "certain",
-        related: Iterable[Related] = (),
-        fixes: Iterable[Fix] = (),
-        stops_launch: bool = False,
-        endpoints: Iterable[EndpointRef] = (),
-        lack: Lack | None = None,
-        every_root: bool = False,
-        alike: Alike | None = None,
-        node: str = "",
-        quoted: str = "",
-    ) -> Finding:
-        """What rules use that make no claims yet. It goes with the last of them."""
-        own = message[: message.index(quoted)] if quoted else message
-        about = node or (found[0] if (found := _NODE.search(own)) else "")
-        at = re.search(rf"(?<![\w'\"./~$-]){re.escape(about)}(?![\w/.'-])", own) if about else None
-        text = say("{before}{quoted}", before=own, quoted=message[len(own) :])
-        if at is not None:
-            values = {"node": about, "after": own[at.end() :], "quoted": message[len(own) :]}
-            text = say("{before}{node}{after}{quoted}", before=own[: at.start()], **values)
-        made = self.claim(
-            text,
-            location,
-            subject=Subject("name", "x") if _NAMED.search(message) else Subject("name"),
-            related=related,
-            fixes=fixes,
-            stops_launch=stops_launch,
-            endpoints=endpoints,
-            lack=lack,
-            every_root=every_root,
-            alike=alike,
-        )
-        weight: Severity = "hint" if lack is not None else severity or self.severity
-        return replace(made, severity=weight, confidence=confidence)
-
-
-_NODE = re.compile(r"(?:(?<![\w'\"./~$-])/[A-Za-z_]\w*(?:/\w+)*(?![\w/.':-])|\A/[A-Za-z_]\w*(?:/\w+)*(?=: ))")
-_NAMED = re.compile(r"'|(?<!<)/\w")
 
 
 def in_root(finding: Finding, root: str) -> Finding:

@@ -319,6 +319,7 @@ RULE = Rule(
     id="TRC001",
     name="node-crashed",
     effect="stops-node",
+    kind="invalid",
     always=(Reason.UNSEEN,),
     sometimes=(
         Reason.SANDBOX,

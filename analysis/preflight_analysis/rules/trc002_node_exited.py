@@ -30,6 +30,7 @@ RULE = Rule(
     id="TRC002",
     name="node-exited",
     effect="note",
+    kind="invalid",
     always=(Reason.UNSEEN,),
     sometimes=(Reason.SANDBOX,),
     what="Checks for a node that exits with code 0 before its event loop.",

@@ -28,6 +28,7 @@ RULE = Rule(
     id="TRC003",
     name="node-timed-out",
     effect="note",
+    kind="invalid",
     always=(Reason.UNSEEN,),
     what="Checks for a node that is still starting when its time is up.",
     why="Only what it did until then is known: it may have more topics, services and parameters. A node that waits "

@@ -62,6 +62,7 @@ RULE = Rule(
     id="TRC004",
     name="nodes-not-run",
     effect="note",
+    kind="invalid",
     what="Checks for nodes that were not run, and gives the reason: the workspace is not trusted, no sandbox works "
     "on this machine, or a value is unresolved.",
     why="Their topics, services and parameters come from annotations or settings. Without those they come from a "

@@ -48,6 +48,7 @@ RULE = Rule(
     id="TRC005",
     name="run-notes",
     effect="note",
+    kind="invalid",
     sometimes=(Reason.NOT_HERE,),
     what="Checks for events in the run of a node in the sandbox, such as a refused write, no exit on request, or a "
     "mock reply. An import that this machine lacks is replaced by a stand-in.",
