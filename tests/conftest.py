@@ -71,14 +71,14 @@ def findings_show_nothing_of_ours(request: pytest.FixtureRequest, monkeypatch: p
         yield
         return
     said: dict[str, None] = {}
-    make = Rule.finding
+    make = Rule.claim
 
     def noted(*args: Any, **options: Any) -> Finding:
         finding = make(*args, **options)
         said.update(dict.fromkeys(texts_of((finding,))))
         return finding
 
-    monkeypatch.setattr(Rule, "finding", noted)
+    monkeypatch.setattr(Rule, "claim", noted)
     yield
     assert shown_internals(said) == []
 

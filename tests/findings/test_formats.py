@@ -83,7 +83,10 @@ def test_sarif_has_the_place_the_other_places_and_the_fixes() -> None:
         "file:///opt/other%2C%20100%25.launch",
     ]
     assert fix["artifactChanges"][0]["replacements"][0]["insertedContent"] == {"text": "chatter"}
-    assert first["properties"] == {"severity": "warning", "confidence": "likely", "roots": ["a b.launch"]}
+    assert first["properties"] == {
+        **{"severity": "warning", "confidence": "likely", "roots": ["a b.launch"]},
+        **{"effect": "misbehaves", "kind": "invalid", "decidedBy": "misbehaves", "doubts": []},
+    }
     assert several_lines["locations"][0]["physicalLocation"]["region"]["endLine"] == 2
     assert no_text["locations"][0]["physicalLocation"]["region"]["startLine"] == 1
     rules = run["tool"]["driver"]["rules"]

@@ -65,11 +65,14 @@ def test_json() -> None:
     }
     message = finding.pop("message")
     assert "'/chater'" in message
+    assert [each["name"] for each in finding.pop("doubts")] == ["UNSEEN"]
     assert finding == {
         "rule": "TOP001",
         "name": "subscribed-not-published",
         "severity": "warning",
         "confidence": "likely",
+        **{"effect": "misbehaves", "kind": "near", "node": "/listener", "candidates": ["/chatter"]},
+        "subject": {"kind": "topic", "name": "/chater"},
         "file": "/main.launch",
         "range": {"start": {"line": 4, "column": 31}, "end": {"line": 4, "column": 37}},
         "related": [
