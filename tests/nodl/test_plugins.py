@@ -18,14 +18,13 @@ def test_those_of_the_catalogue() -> None:
     known = index("jazzy")
     plugins = [name for path in packages.INTERFACES.rglob("*.json") for name in known.names(path.stem) if "::" in name]
     assert len(plugins) > 60
-    assert all((found := known.plugin(name)) is not None and found.likely for name in plugins)
+    assert all((found := known.plugin(name)) is not None for name in plugins)
     assert known.plugin("nav2_costmap_2d/ObstacleLayer") == known.plugin("nav2_costmap_2d::ObstacleLayer") is not None
 
 
 def test_another_distribution_may_have_others() -> None:
     found = index("humble").plugin("nav2_navfn_planner::NavfnPlanner")
     assert found is not None
-    assert not found.likely
     assert found.params["tolerance"] == 0.5
 
 
