@@ -11,10 +11,14 @@ from support.locations import location
 _TEXT = '<launch><node pkg="gazbo" type="t" name="a"/><node pkg="q" type="u" name="b"/></launch>'
 _NAME = location("/a.launch", _TEXT.index("gazbo"), _TEXT.index("gazbo") + 5)
 
+_NO_T = "executable 't' not found in package 'gazebo'"
 
-def _said(rule: str, where: str, file: str = "/a.launch", severity: Severity = "error") -> Finding:
+
+def _said(
+    rule: str, where: str, message: str = "", *, file: str = "/a.launch", severity: Severity = "error"
+) -> Finding:
     at = _TEXT.replace("gazbo", "gazebo").index(where)
-    return Finding(rule, "some", severity, "certain", f"{rule} of {where}", location(file, at, at + len(where)))
+    return Finding(rule, "some", severity, "certain", message or rule, location(file, at, at + len(where)))
 
 
 def _wrong(rule: str, new: str, after: Iterable[Finding]) -> str | None:
@@ -36,12 +40,14 @@ def test_what_counts_against_a_fix() -> None:
 @pytest.mark.parametrize(
     ("rule", "error", "counts"),
     [
-        ("PKG001", _said("PKG002", '"t"'), False),  # of a package that was not found nothing was looked up
-        ("LCH027", _said("PKG002", '"t"'), False),
-        ("PKG001", _said("PKG002", '"u"'), True),  # another tag
-        ("ARG001", _said("PKG002", '"t"'), True),  # the package was found before
-        ("PKG001", _said("LCH016", '"a"'), True),  # nothing that is looked up
-        ("PKG001", _said("PKG002", '"t"', "/b.launch"), False),  # a file that was not read before
+        ("PKG001", _said("PKG002", '"t"', _NO_T), False),  # in a package that was not found nothing was looked up
+        ("PKG001", _said("LCH013", '"gazebo"'), False),  # the path in which it is named
+        ("LCH027", _said("PKG002", '"t"', _NO_T), False),
+        ("PKG001", _said("PKG002", '"u"', "executable 'u' not found in package 'q'"), True),  # another package
+        ("PKG001", _said("PRM002", '"t"'), True),  # another path, in the same tag
+        ("ARG001", _said("PKG002", '"t"', _NO_T), True),  # the package was found before
+        ("PKG001", _said("LCH016", '"gazebo"'), True),  # nothing that is looked up
+        ("PKG001", _said("LCH016", '"gazebo"', file="/b.launch"), False),  # a file that was not read before
     ],
 )
 def test_an_error_of_what_was_not_evaluated_before_is_not_new(rule: str, error: Finding, counts: bool) -> None:

@@ -36,6 +36,21 @@ def test_a_package_that_is_not_there_and_the_nearest_one() -> None:
     assert "$(find rospy_tutorials)/x" in apply(text, find.fixes[0].edits)["/main.launch"]
 
 
+def test_a_package_of_a_node_of_which_something_else_is_not_known() -> None:
+    check("""
+        <launch>
+          <node pkg="rospy_tutorial" type="talker" name="n" args="$(env UNSET)">
+                     ^^^^^^^^^^^^^^ error[PKG001] did you mean 'rospy_tutorials'?
+                                                                  ^^^^^^^^^^^^ hint[LCH012] 'UNSET' is not set
+            <rosparam file="$(find rospy_tutorial)/a.yaml"/>
+                            ^^^^^^^^^^^^^^^^^^^^^^ error[PKG001] did you mean 'rospy_tutorials'?
+          </node>
+        </launch>
+        //- /rospy_tutorials/package.xml
+        <package/>
+    """)
+
+
 def test_a_name_from_before_a_rename(tmp_path: Path) -> None:
     (tmp_path / "ca_tools" / "config").mkdir(parents=True)
     (tmp_path / "ca_tools" / "config" / "joy_.yaml").write_text("axis: 1\n")

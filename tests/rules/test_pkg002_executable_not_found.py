@@ -165,6 +165,29 @@ def test_a_node_of_which_no_more_is_known_than_its_program(tmp_path: Path, name:
     assert "did you mean 'driver'?" in finding.message
 
 
+@pytest.mark.parametrize(
+    "rest",
+    [
+        ' args="$(env UNSET)"/>',
+        ' output="$(arg undeclared)"/>',
+        '><rosparam file="$(env UNSET)/a.yaml"/></node>',
+        '><param name="a" value="$(env UNSET)"/></node>',
+        '><remap from="a" to="$(env UNSET)"/></node>',
+        '><env name="A" value="$(env UNSET)"/></node>',
+    ],
+)
+def test_a_node_whose_program_is_known_whatever_else_is_not(launch: Path, rest: str) -> None:
+    """In ROS 1: what is wrong beside the program does not hide that this is not there."""
+    findings = judge(launch, "listner", rest)
+    (finding,) = (each for each in findings if each.rule == "PKG002")
+    assert (finding.severity, finding.message.rpartition("; ")[2]) == ("error", "did you mean 'listener'?")
+
+
+@pytest.mark.silent
+def test_a_node_whose_program_is_not_known(launch: Path) -> None:
+    assert [each.rule for each in judge(launch, "$(env UNSET)")] == ["LCH012"]
+
+
 def test_a_blank_name() -> None:
     (finding,) = (
         each

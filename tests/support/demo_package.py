@@ -21,9 +21,9 @@ def create_demo_package(folder: Path) -> Path:
     return folder / "demo" / "demo.launch"
 
 
-def judge(launch: Path, executable: str) -> list[Finding]:
-    """The findings of a launch file with one node of the package `demo`."""
-    launch.write_text(f'<launch><node pkg="demo" type="{executable}" name="n"/></launch>')
+def judge(launch: Path, executable: str, rest: str = "/>") -> list[Finding]:
+    """The findings of a launch file with one node of the package `demo`; its tag ends with `rest`."""
+    launch.write_text(f'<launch><node pkg="demo" type="{executable}" name="n"{rest}</launch>')
     share = str(launch.parent)
     packages = {"demo": Package("demo", share, f"{share}/package.xml")}
     environment = Environment(1, "noetic", {}, (str(launch.parent.parent),), packages, {}, (), (), None)

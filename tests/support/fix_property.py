@@ -4,8 +4,9 @@ An error is new if it is said of something that was evaluated before, too. Two k
 fix, which has only come to them:
 
 - those of a file that the launch did not read before, as its include was not found;
-- those of what a package has, in the very tag in which the fix corrects the name of the package. Nothing is looked up
-  in a package that is not found: whether it has that executable or file was not asked before (`_LOOKED_UP`).
+- those of what the package has whose name the fix corrects. Nothing is looked up in a package that is not found:
+  whether it has that executable or file was not asked before (`_LOOKED_UP`). They name the package, or are of the path
+  in which the fix is; those of the rest of the tag count.
 
 Each try is a line of the file that `FIX_TALLY` names, where it is set: `tests/tools/fixes.py` counts them.
 """
@@ -91,19 +92,19 @@ def _wrong(
     after = list(again(texts))
     if _count(after)[_key(finding)] >= _count(before)[_key(finding)]:
         return "the finding is still there"
-    uncovered = {id(each) for each in after if _only_uncovered(each, finding, fix, texts)}
+    uncovered = {id(each) for each in after if _only_uncovered(each, finding, fix)}
     errors = _errors((each for each in after if id(each) not in uncovered), read) - _errors(before, read)
     return f"new errors: {sorted(errors)}" if errors else None
 
 
-def _only_uncovered(error: Finding, mended: Finding, fix: Fix, texts: Mapping[str, str]) -> bool:
-    """Whether an error is of what could not be looked up before, in the tag in which the fix names another package."""
-    text = texts.get(error.location.file)
-    if text is None or mended.rule not in _PACKAGE_NAMES or error.rule not in _LOOKED_UP or len(fix.edits) != 1:
+def _only_uncovered(error: Finding, mended: Finding, fix: Fix) -> bool:
+    """Whether an error is of what could not be looked up before, in the package that the fix names."""
+    if mended.rule not in _PACKAGE_NAMES or error.rule not in _LOOKED_UP or len(fix.edits) != 1:
         return False
-    start, end = sorted((fix.edits[0].location.span.start, error.location.span.start))
-    between = text[start:end] if text[start] != "<" else text[start + 1 : end]
-    return "<" not in between and ">" not in between
+    (edit,) = fix.edits
+    start, end = error.location.span
+    is_of_path = error.location.file == edit.location.file and start <= edit.location.span.start < end
+    return is_of_path or f"package {edit.text!r}" in error.message
 
 
 def _errors(findings: Iterable[Finding], read: Collection[str]) -> Counter[tuple[str, str, str]]:

@@ -31,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     executables, known = context.executables, dict[tuple[str, str], _Program]()
     for node in context.tree.nodes:
         found = node.resolved
-        if node.executable.isspace() and not node.unknowns:
+        if node.executable.isspace() and program_known(node):
             place = attribute_location(context, node, context.tree.ros.executable)
             yield rule.claim(
                 say("executable name of {node} is blank", node=node.name),

@@ -23,9 +23,8 @@ _KINDS: Mapping[Role, Literal["topic", "service", "action"]] = {
     "action_client": "action",
 }
 
-_BESIDE_PROGRAM = frozenset({"name", "namespace", "the node"})
-"""What of a node of ROS 2 may be unknown while it is known what is started; the node itself: its file was not run, and
-its text says this much."""
+_PROGRAM = frozenset({"pkg", "type", "exec"})
+"""The attributes that say what is started."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +44,7 @@ def known_by_source(context: Context) -> frozenset[int]:
 
 def program_known(node: LaunchNode) -> bool:
     """Whether the package and the executable of a node are known, whatever else is not."""
-    return all(each.what in _BESIDE_PROGRAM for each in node.unknowns)
+    return all(each.what not in _PROGRAM for each in node.unknowns)
 
 
 def attribute_location(context: Context, node: LaunchNode, name: str) -> Location:

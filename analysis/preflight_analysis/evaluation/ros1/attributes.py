@@ -28,21 +28,24 @@ class Attributes:
 
     def __init__(self, state: State, scope: Scope, action: Action) -> None:
         self.state, self.scope, self.action = state, scope, action
-        self.all_known = True
-        """Whether everything asked for so far could be resolved."""
         self._found: dict[str, Resolved] = {}
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """The names of those asked for so far that could not be resolved."""
+        return tuple(name for name, found in self._found.items() if not found.known)
+
+    @property
+    def all_known(self) -> bool:
+        """Whether everything asked for so far could be resolved."""
+        return not self.unknown
 
     def get(self, name: str) -> Resolved | None:
         """The resolved value, None where there is no such attribute. It is resolved the first time it is asked for:
         ask in the order in which roslaunch does, so that the first problem noted is the one that it stops at."""
-        if name in self._found:
-            return self._found[name]
-        value = self.action.value(name)
-        if value is None:
-            return None
-        result = self._found[name] = resolve(self.state, self.scope, value)
-        self.all_known = self.all_known and result.known
-        return result
+        if name not in self._found and (value := self.action.value(name)) is not None:
+            self._found[name] = resolve(self.state, self.scope, value)
+        return self._found.get(name)
 
     def strip(self, name: str) -> None:
         """Read this attribute without the blanks around it, as they are written: those of substitutions stay."""
@@ -52,8 +55,7 @@ class Attributes:
             return
         start = value.span.start + value.text.index(text)
         stripped = parse_value(SpannedText(text, Span(start, start + len(text))))
-        result = self._found[name] = resolve(self.state, self.scope, stripped)
-        self.all_known = self.all_known and result.known
+        self._found[name] = resolve(self.state, self.scope, stripped)
 
     def text(self, name: str) -> str | None:
         """Its text, with unresolved substitutions in it where it is not known."""

@@ -43,7 +43,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
     required = attributes.require("pkg", "type")
     if required is None:
         return
-    package, executable = (found.text for found in required)
+    package, executable = (each.text for each in required)
     options = _options(attributes)
     full = names.canonicalize(re.sub("//+", "/", names.join(inside.ns, name.text)))
     unknown_before = len(state.unknowns)
@@ -55,13 +55,13 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
         return
     unknowns = state.unknowns[unknown_before:]
     if not attributes.all_known:
-        unknown = Unknown(f"node {full}", "an attribute of it is not known", scope.location(action.kind_span))
-        unknowns.append(unknown)
-        state.unknowns.append(unknown)
+        at = scope.location(action.kind_span)
+        unknowns += (Unknown(name, "it is not known", at) for name in attributes.unknown)
+        state.unknowns.append(Unknown(f"node {full}", "an attribute of it is not known", at))
     origin = scope.origin(action.head_span)
     if not is_test and name.text and not _claim_name(state, full, origin[-1], scope, action):
         return
-    is_wanted = attributes.all_known and not state.outline
+    is_wanted = all(each.known for each in required) and not state.outline
     resolved = state.executables.find(package, executable) if is_wanted else Executable(None)
     if resolved.path is not None:
         target = Location.of_file(resolved.path)
