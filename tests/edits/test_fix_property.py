@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import pytest
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.finding import Finding, Fix, Severity
-from support.fix_property import tries
+from support.fix_property import Launch, tries
 from support.locations import location
 
 _TEXT = '<launch><node pkg="gazbo" type="t" name="a"/><node pkg="q" type="u" name="b"/></launch>'
@@ -24,7 +24,8 @@ def _said(
 def _wrong(rule: str, new: str, after: Iterable[Finding]) -> str | None:
     fix = Fix("Write it", (Edit(_NAME, new),), True)
     finding = Finding(rule, "some", "error", "certain", "not found", _NAME, fixes=(fix,))
-    (tried,) = tries([finding], {"/a.launch": _TEXT}.get, lambda _: after, read=["/a.launch"])
+    launch = Launch("a.launch", [finding], {"/a.launch"})
+    (tried,) = tries([finding], {"/a.launch": _TEXT}.get, lambda *_: (each for each in [after]), launch)
     return tried.wrong
 
 

@@ -19,6 +19,40 @@ def test_a_parameter_file_that_is_not_there(tmp_path: Path) -> None:
     assert [edit.text for edit in finding.fixes[0].edits] == ["teleop.yaml"]
 
 
+@pytest.mark.parametrize(
+    ("file", "others", "fixed"),
+    [
+        ("config/$(arg a).yaml", ["old/given.yaml"], ["/old/"]),
+        ("config/$(arg a).yaml", ["old/given.yaml", "config/other.yaml"], []),  # right for a:=other
+        ("config/$(arg a).yaml", ["old/given.yaml", "config/other.txt"], ["/old/"]),
+        ("config/v_$(arg a).yaml", ["old/v_given.yaml", "config/v_other.yaml"], []),
+        ("$(arg a)/arm.yaml", ["given/arms.yaml"], ["arms.yaml"]),
+        ("$(arg a)/arm.yaml", ["given/arms.yaml", "other/arm.yaml"], []),
+        ("$(arg config)/arm.yaml", ["config/arms.yaml", "other/arm.yaml"], []),
+        ("config/arm.yaml", ["config/arms.yaml", "other/leg.yaml"], ["arms.yaml"]),
+    ],
+)
+def test_a_path_that_another_launch_makes_of_other_arguments(
+    tmp_path: Path, file: str, others: list[str], fixed: list[str]
+) -> None:
+    """What is corrected for one value of an argument does not break those of others."""
+    for each in others:
+        (tmp_path / each).parent.mkdir(exist_ok=True)
+        (tmp_path / each).write_text("a: 1")
+    (finding,) = check(f"""
+        <launch>
+          <arg name="a" default="given"/>
+          <arg name="config" default="config"/>
+          <param name="both" value="$(arg a) $(arg config)"/>
+          <rosparam file="$(find robot)/{file}"/>
+                          {"^" * len(f"$(find robot)/{file}")} error[PRM002] did you mean
+        </launch>
+        //- {tmp_path}/package.xml
+        <package><name>robot</name></package>
+    """)
+    assert [edit.text for fix in finding.fixes for edit in fix.edits] == fixed
+
+
 def test_parameter_files_that_are_not_there() -> None:
     """launch goes on without that of a node."""
     check("""

@@ -26,7 +26,7 @@ import json
 import os
 import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import PurePosixPath
@@ -66,7 +66,7 @@ from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
 
 from support.claims import undeclared
-from support.fix_property import tries
+from support.fix_property import Launch, tries
 from support.messages import wording
 
 _FILE = re.compile(r"//- (\S+)\s*\Z")
@@ -268,13 +268,14 @@ def check(text: str, **options: Any) -> list[Finding]:
 
 
 def _check_fixes(fixture: Fixture, findings: Sequence[Finding], context: Context, options: Mapping[str, Any]) -> None:
-    def again(texts: Mapping[str, str]) -> list[Finding]:
+    def again(texts: Mapping[str, str], _: Sequence[Launch]) -> Generator[list[Finding]]:
         after = replace(fixture, files={**fixture.files, **texts})
-        return run_rules(analyse(after, **{**options, "sources": None, "edited": True}))
+        yield run_rules(analyse(after, **{**options, "sources": None, "edited": True}))
 
     # What a command makes of an edited file the fixture does not say.
     told = frozenset(fixture.files) - context.launch_files.keys() if fixture.commands else frozenset()
-    tried = tries(findings, lambda path: _text_of(context, path), again, unlooked=told, read=context.documents)
+    launch = Launch(fixture.root, findings, context.documents.keys())
+    tried = tries(findings, lambda path: _text_of(context, path), again, launch, unlooked=told)
     wrong = [f"{each.rule}, {each.title}: {each.wrong}" for each in tried if each.wrong is not None]
     assert not wrong or os.environ.get("FIX_TALLY"), "\n" + "\n".join(wrong)
 

@@ -16,7 +16,9 @@ from __future__ import annotations
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
@@ -32,8 +34,20 @@ _LOOKED_UP = ("LCH013", "PKG002", "PRM002", "PRM005", "PRM008")
 """Errors of what is looked up in a package: files, executables and what a command makes of such a file."""
 
 TextOf = Callable[[str], str | None]
-Again = Callable[[Mapping[str, str]], Iterable[Finding]]
-"""The findings with these texts in place of those of before."""
+
+
+@dataclass(frozen=True)
+class Launch:
+    """A launch file in which fixes are tried: what is found in it, and the files that it reads. What is wrong in other
+    files, to which only a fix leads, was so before."""
+
+    name: str
+    found: Sequence[Finding]
+    read: AbstractSet[str]
+
+
+Again = Callable[[Mapping[str, str], Sequence[Launch]], Generator[Iterable[Finding]]]
+"""The findings in each launch with these texts in place of those of before."""
 
 
 @dataclass(frozen=True)
@@ -50,18 +64,17 @@ def tries(
     findings: Sequence[Finding],
     text_of: TextOf,
     again: Again,
-    before: Sequence[Finding] | None = None,
+    launch: Launch,
+    others: Sequence[Launch] = (),
     unlooked: Collection[str] = (),
-    read: Collection[str] = (),
 ) -> list[Try]:
-    """All fixes of the findings, each tried by itself. `before` are all findings, where that are not all; edits of the
-    files `unlooked` are only parsed. `read` are the files that the launch reads: what is wrong in others, to which only
-    the fix leads, was so before."""
+    """All fixes of findings of a launch, each tried by itself, there and in those of the `others` that read what it
+    edits. Edits of the files `unlooked` are only parsed."""
 
     def wrong(finding: Finding, fix: Fix) -> str | None:
         if any(edit.location.file in unlooked for edit in fix.edits):
             return refusal(fix.edits, text_of)
-        return _wrong(finding, fix, before or findings, text_of, again, read)
+        return _wrong(finding, fix, text_of, again, launch, others)
 
     found = [
         Try(finding.rule, _format(fix), fix.title, wrong(finding, fix)) for finding in findings for fix in finding.fixes
@@ -83,18 +96,26 @@ def _format(fix: Fix) -> str:
 
 
 def _wrong(
-    finding: Finding, fix: Fix, before: Sequence[Finding], text_of: TextOf, again: Again, read: Collection[str]
+    finding: Finding, fix: Fix, text_of: TextOf, again: Again, launch: Launch, others: Sequence[Launch]
 ) -> str | None:
     why = refusal(fix.edits, text_of)
     if why is not None:
         return why
     texts = {file: applied(text_of(file) or "", edits) for file, edits in by_file(fix.edits).items()}
-    after = list(again(texts))
-    if _count(after)[_key(finding)] >= _count(before)[_key(finding)]:
-        return "the finding is still there"
-    uncovered = {id(each) for each in after if _only_uncovered(each, finding, fix)}
-    errors = _errors((each for each in after if id(each) not in uncovered), read) - _errors(before, read)
-    return f"new errors: {sorted(errors)}" if errors else None
+    launches = [launch, *(other for other in others if texts.keys() & other.read)]
+    with closing(again(texts, launches)) as found_again:
+        for each, found in zip(launches, found_again, strict=True):
+            after = list(found)
+            if each is launch and _count(after)[_key(finding)] >= _count(launch.found)[_key(finding)]:
+                return "the finding is still there"
+            if errors := _new_errors(finding, fix, each, after):
+                return f"new errors in {each.name}: {errors}"
+    return None
+
+
+def _new_errors(mended: Finding, fix: Fix, launch: Launch, after: Iterable[Finding]) -> list[tuple[str, str, str]]:
+    looked_up = (each for each in after if not _only_uncovered(each, mended, fix))
+    return sorted(_errors(looked_up, launch.read) - _errors(launch.found, launch.read))
 
 
 def _only_uncovered(error: Finding, mended: Finding, fix: Fix) -> bool:
@@ -107,7 +128,7 @@ def _only_uncovered(error: Finding, mended: Finding, fix: Fix) -> bool:
     return is_of_path or f"package {edit.text!r}" in error.message
 
 
-def _errors(findings: Iterable[Finding], read: Collection[str]) -> Counter[tuple[str, str, str]]:
+def _errors(findings: Iterable[Finding], read: AbstractSet[str]) -> Counter[tuple[str, str, str]]:
     """Those of the files that were read, but for what this machine lacks: only of a package that is known can it be."""
     wrong = (each for each in findings if each.severity == "error" and each.lack is None)
     return _count(each for each in wrong if each.location.file in read)

@@ -19,9 +19,9 @@ import shutil
 import sys
 import tempfile
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
@@ -29,10 +29,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))  # tests/, as pytest has it
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.packages import MANIFEST
+from preflight_analysis.findings.contexts import RootFindings
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.workspace.merged import merged
 from preflight_analysis.workspace.workspace import Analysis
 from preflight_server.cli.project import OpenWorkspace, open_workspace, run_nodes_together
-from support.fix_property import Try, tries
+from support.fix_property import Launch, Try, tries
 
 _LAUNCH = re.compile(r".*(\.launch|\.launch\.(py|xml|yaml|yml)|_launch\.(py|xml|yaml))\Z")
 
@@ -95,9 +97,7 @@ def tried_in(
     found: list[Try] = []
     number, parts = part
     for jobs_of_one in sorted(workspaces.values(), key=len, reverse=True)[number::parts]:
-        launches = opened(jobs_of_one[0], run=run)
-        for job in jobs_of_one:
-            found += tried_of(launches, job, known, str(folder), run=run, rules=rules)
+        found += _tried_in_workspace(jobs_of_one, known, folder, run=run, rules=rules)
     return found
 
 
@@ -107,39 +107,59 @@ def opened(job: Job, *, run: bool) -> OpenWorkspace:
     return open_workspace(environment, argparse.Namespace(no_run=not run), similar=False)
 
 
-def tried_of(
-    launches: OpenWorkspace, job: Job, known: set[object], base: str, *, run: bool, rules: str = ""
-) -> list[Try]:
-    """What comes of the fixes of one launch file that were not tried in another one."""
-    sources = launches.workspace.sources
-    analysis = look(launches, job)
-    findings = analysis.findings
-    wanted = [each for each in findings if re.match(rules, each.rule)]
-    new = [each for each in wanted if not _written(each) <= known]
-    known.update(written for each in new for written in _written(each))
+def _tried_in_workspace(of_one: Sequence[Job], known: set[object], folder: Path, *, run: bool, rules: str) -> list[Try]:
+    """The fixes of the findings that are shown of the launch files of one workspace. Each is tried in a launch that
+    has the finding, and in all others that read what it edits; in no other one of a manifest, which nearly all read."""
+    opened_before = opened(of_one[0], run=run)
+    jobs_by_name = {_name(job, folder): job for job in of_one}
+    launches: list[Launch] = []
+    for name, job in jobs_by_name.items():
+        analysis = look(opened_before, job)
+        launches.append(Launch(name, analysis.findings, frozenset(analysis.documents)))
+    sources = opened_before.workspace.sources
 
     def text_of(path: str) -> str | None:
         found = sources.text(path)
         return found.text if isinstance(found, Document) else None
 
-    def again(texts: Mapping[str, str]) -> Sequence[Finding]:
+    def again(texts: Mapping[str, str], launches: Sequence[Launch]) -> Generator[Sequence[Finding]]:
         before = {path: Path(path).read_bytes() for path in texts}
         try:
             for path, text in texts.items():
                 Path(path).write_bytes(text.encode())
-            launches.workspace.refresh()
-            anew = any(Path(path).name == MANIFEST for path in texts)
-            return look(opened(job, run=run) if anew else launches, job).findings
+            opened_before.workspace.refresh()
+            workspace = opened(of_one[0], run=run) if _has_manifest(texts) else opened_before
+            for launch in launches:
+                yield look(workspace, jobs_by_name[launch.name]).findings
         finally:
             for path, content in before.items():
                 Path(path).write_bytes(content)
-            launches.workspace.refresh()
+            opened_before.workspace.refresh()
 
-    tried = tries(new, text_of, again, findings, read=analysis.documents)
-    for each in tried:
-        if each.wrong is not None:
-            print(f"{os.path.relpath(job.file, base)}: {each.rule} {each.title}: {each.wrong}", flush=True)
+    reports = (RootFindings(each.name, frozenset(each.read), tuple(each.found)) for each in launches)
+    tried: list[Try] = []
+    for finding in (each for found in merged(reports).values() for each in found if re.match(rules, each.rule)):
+        if _written(finding) <= known:
+            continue
+        known |= _written(finding)
+        # Of launches that word it differently one is shown.
+        having = (each for each in launches if each.name in finding.roots)
+        launch = next(each for each in having if finding in (replace(f, roots=finding.roots) for f in each.found))
+        only_there = _has_manifest(edit.location.file for fix in finding.fixes for edit in fix.edits)
+        others = [] if only_there else [each for each in launches if each is not launch]
+        for each in tries([finding], text_of, again, launch, others):
+            tried.append(each)
+            if each.wrong is not None:
+                print(f"{launch.name}: {each.rule} {each.title}: {each.wrong}", flush=True)
     return tried
+
+
+def _name(job: Job, folder: Path) -> str:
+    return " ".join((os.path.relpath(job.file, folder), *(f"{name}:={value}" for name, value in job.args)))
+
+
+def _has_manifest(paths: Iterable[str]) -> bool:
+    return any(os.path.basename(path) == MANIFEST for path in paths)
 
 
 def _written(finding: Finding) -> set[object]:

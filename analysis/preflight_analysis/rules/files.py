@@ -40,6 +40,7 @@ _TEMPLATE = re.compile(r"(?<!\w)(?:__[A-Z][A-Z0-9]*(?:_[A-Z0-9]+)*__|@[A-Z][A-Z0
 
 _HOME = re.compile(r"\bHOME\b|\bexpanduser\b|\.home\(\)")
 _OPTIONAL = re.compile(r"\$\(optenv (\w+) *\)")
+_SUBSTITUTION = re.compile(r"\$\([^()]*\)")
 _GAP = re.compile(r"(?:\A()(?=[._-])|([._-])(?=[._-]))")
 """Where the name of a file lacks a part: `_map.yaml`, `map_.yaml`."""
 
@@ -274,9 +275,12 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
     """A fix that makes what is written at `location`, and came to `path`, lead to `near`.
 
     None if the names of the files are more than a slip apart, or if the text does not hold what differs: the name of
-    the file, or of its folders below the package.
+    the file, or of its folders below the package. Nor if the text leads to another file for other values of its
+    arguments.
     """
     old, new = Path(path), Path(near)
+    if _leads_elsewhere(context, location, old):
+        return ()
     if old.name != new.name and not is_slip(_stem(old.name), _stem(new.name)):
         return ()
     if old.parent == new.parent:
@@ -293,6 +297,21 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
     text = "/" if below == Path() else f"/{below}/"
     place = context.location(location.file, Span(start, start + len(folders)))
     return replacement(context, place, text, f"Replace '{folders}' with '{text}'")
+
+
+def _leads_elsewhere(context: Context, location: Location, path: Path) -> bool:
+    """Whether there are files that fit a text which came to `path`, with anything in the place of what the text does
+    not hold, as another launch may give it: `maps/hall.yaml` for `maps/$(arg map).yaml`."""
+    root = package_folder(str(path), context.environment) or path.parent
+    written = _SUBSTITUTION.sub("$", context.text(location))
+    parts = path.relative_to(root).parts
+    held = [re.search(rf"(?<![\w$.-]){re.escape(part)}(?![\w$.-])", written) is not None for part in parts]
+    if all(held):
+        return False
+    *folders, last = (re.escape(part) if there else "[^/]*" for part, there in zip(parts, held, strict=True))
+    suffix = "" if held[-1] else re.escape(path.suffix)
+    fits = re.compile("/".join((re.escape(str(root)), *folders, f"{last}{suffix}")))
+    return any(map(fits.fullmatch, files_in(context.disk, str(root), deep=True)))
 
 
 def package_folder(path: str, environment: Environment) -> Path | None:
