@@ -166,6 +166,40 @@ def test_a_node_of_which_no_more_is_known_than_its_program(tmp_path: Path, name:
 
 
 @pytest.mark.parametrize(
+    ("package", "executable", "fixed"),
+    [
+        ("demo", "listner", ["listener"]),
+        ("$(arg of)", "listner", []),
+        ("demo", "filter", ["other"]),
+        ("demo", "$(arg what)", []),
+    ],
+)
+def test_a_program_that_another_launch_makes_of_other_arguments(
+    launch: Path, package: str, executable: str, fixed: list[str]
+) -> None:
+    """What is corrected for one value of an argument does not break those of others."""
+    other = launch.parent.parent / "other" / "nodes"
+    other.mkdir(parents=True)
+    (other / "filter").write_text("#!/bin/sh\n")
+    (other / "filter").chmod(0o755)
+    launch.write_text(f"""
+        <launch>
+          <arg name="of" default="demo"/>
+          <arg name="what" default="filter"/>
+          <node pkg="{package}" type="{executable}" name="n" args="$(arg of) $(arg what)"/>
+        </launch>
+    """)
+    packages = {
+        "demo": Package("demo", str(launch.parent), "", frozenset({"other"})),
+        "other": Package("other", str(other.parent), ""),
+    }
+    environment = Environment(1, "noetic", {}, (str(launch.parent.parent),), packages, {}, (), (), None)
+    (finding,) = Workspace(environment, Sources(), str(launch.parent)).static(str(launch)).findings
+    assert finding.rule == "PKG002"
+    assert [edit.text for fix in finding.fixes for edit in fix.edits] == fixed
+
+
+@pytest.mark.parametrize(
     "rest",
     [
         ' args="$(env UNSET)"/>',

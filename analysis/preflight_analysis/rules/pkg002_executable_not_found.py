@@ -92,10 +92,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if holder is not None:
             hint, meant = f"; package '{holder}' has it", holder
             fixes = rename(context, attribute_location(context, node, "pkg"), node.package, holder)
+            meant_for_all = _is_literal(node, context.tree.ros.executable)
         else:
             hint, meant = did_you_mean(near), near
             slip = near is not None and any(is_slip(key(node.executable), key(near)) for key in (str, _stem, _plain))
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
+            meant_for_all = _is_literal(node, "pkg")
         against: tuple[Doubt, ...] = ()
         if node.executable.startswith("/dev/") or says_not_set(node.executable):
             against, hint = doubts(NOT_SET="the argument that names it"), "; set the argument that names it"
@@ -116,8 +118,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             doubts=(*against, *doubts(BRANCHES=bool(node.unknowns))),
             candidates=(meant,),
             related=chain,
-            fixes=fixes,
+            # What another launch starts here, with other arguments, may be there.
+            fixes=fixes if meant_for_all else (),
         )
+
+
+def _is_literal(node: LaunchNode, attribute: str) -> bool:
+    value = node.action.value(attribute)
+    return value is None or value.is_literal
 
 
 class _Program(NamedTuple):
