@@ -6,8 +6,9 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from support.fix_property import Try
 from support.mistakes import write_mistakes
-from tools.fixes import table, tried_in
+from tools.fixes import report, table, tried_in
 
 _FIXTURES = Path(__file__).parents[2] / "fixtures"
 
@@ -26,6 +27,11 @@ def test_fixes_of_simple_mistakes_in_each_language(tmp_path: Path) -> None:
         assert (form, "Write 'max_speed' as a double") in titles
     for title in ("Put the values below 'ros__parameters'", "Replace 'ros_parameters' with 'ros__parameters'"):
         assert (".yaml", title) in titles
+
+
+def test_the_exit_code_is_0_only_if_all_are_right() -> None:
+    right, wrong = Try("PKG001", ".launch", "Replace it", None), Try("PKG001", ".launch", "Replace it", "new errors")
+    assert [report(tried) for tried in ([right], [right, wrong], [])] == [0, 1, 1]
 
 
 @pytest.mark.slow

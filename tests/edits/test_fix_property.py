@@ -1,6 +1,6 @@
 """What counts against a fix: a file that does not parse, a finding that is still there, an error that is new."""
 
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable, Sequence
 
 import pytest
 from preflight_analysis.edits.edit import Edit
@@ -53,3 +53,27 @@ def test_what_counts_against_a_fix() -> None:
 )
 def test_an_error_of_what_was_not_evaluated_before_is_not_new(rule: str, error: Finding, counts: bool) -> None:
     assert (_wrong(rule, "gazebo", [error]) is not None) == counts
+
+
+def test_a_fix_is_tried_in_all_launches_that_read_what_it_edits() -> None:
+    fix = Fix("Write it", (Edit(_NAME, "gazebo"),), True)
+    finding = Finding("PKG001", "some", "error", "certain", "not found", _NAME, fixes=(fix,))
+    error = _said("ARG004", '"a"')
+    after = {"a.launch": [], "b.launch": [error], "known.launch": [error]}
+    launches = [
+        Launch("a.launch", [finding], {"/a.launch"}),
+        Launch("known.launch", [error], {"/a.launch"}),
+        Launch("other.launch", [], {"/other.launch"}),
+    ]
+
+    def wrong(*others: Launch) -> str | None:
+        (tried,) = tries([finding], {"/a.launch": _TEXT}.get, again, launches[0], others)
+        return tried.wrong
+
+    def again(_: object, asked: Sequence[Launch]) -> Generator[Iterable[Finding]]:
+        yield from (after[each.name] for each in asked)
+
+    assert wrong(*launches[1:]) is None
+    found = wrong(*launches[1:], Launch("b.launch", [], {"/a.launch", "/b.launch"}))
+    assert found is not None
+    assert found.startswith("new errors in b.launch: [('ARG004'")

@@ -2,10 +2,11 @@
 
   python tests/tools/fixes.py FOLDER... [--run] [--sample N] [--only REGEX] [--rules REGEX] [--processes N]
 
-A FOLDER is a workspace (its launch files are those that nothing includes), or one with a `jobs*.jsonl` of launch files
-with arguments and package paths, or one with cases (`<id>/buggy`). Each is copied, and after each fix looked at again:
-every file parses, the finding is gone, and no error is new. Nothing is run but, with --run, Python launch files and
-commands. Prints what failed, and a table by rule and format.
+A FOLDER is a workspace, or one with a `jobs*.jsonl` of launch files with arguments and package paths, or one with cases
+(`<id>/buggy`). Each is copied, and after each fix looked at again, in all launches that read what it edits: every file
+parses, the finding is gone, and no error is new. Nothing is run but, with --run, Python launch files and commands.
+Prints what failed, how many fixes were tried in each workspace, and a table by rule and format. The exit code is 0 only
+if all are right.
 """
 
 from __future__ import annotations
@@ -61,9 +62,7 @@ def main() -> int:
     tasks = [(folder, part, options) for folder in options.folders for part in range(options.processes)]
     with ProcessPoolExecutor(options.processes) as pool:
         tried = [each for found in pool.map(_in_a_copy, tasks) for each in found]
-    print(table(tried))
-    wrong = [each for each in tried if each.wrong is not None]
-    return int(bool(wrong))
+    return report(tried)
 
 
 def _in_a_copy(task: tuple[Path, int, argparse.Namespace]) -> list[Try]:
@@ -151,6 +150,9 @@ def _tried_in_workspace(of_one: Sequence[Job], known: set[object], folder: Path,
             tried.append(each)
             if each.wrong is not None:
                 print(f"{launch.name}: {each.rule} {each.title}: {each.wrong}", flush=True)
+    if tried:
+        where = os.path.commonpath([os.path.dirname(job.file.relative_to(folder)) for job in of_one])
+        print(f"{os.path.join(folder.name, where)}: {len(launches)} launches, {_counted(tried)}", flush=True)
     return tried
 
 
@@ -194,12 +196,22 @@ def jobs(folder: Path) -> Iterator[Job]:
         yield from (Job(path) for path in sorted(folder.rglob("*")) if _LAUNCH.match(path.name) and path.is_file())
 
 
+def report(tried: Sequence[Try]) -> int:
+    """Print the table; the exit code, which is 0 only if there were fixes and all are right."""
+    print(table(tried))
+    return int(not tried or any(each.wrong is not None for each in tried))
+
+
 def table(tried: Sequence[Try]) -> str:
     """How many fixes were tried and how many are wrong, by rule and format."""
     total = Counter((each.rule, each.format) for each in tried)
     wrong = Counter((each.rule, each.format) for each in tried if each.wrong is not None)
     rows = [f"{rule}  {form:<24} {count:>5} {wrong[rule, form]:>5}" for (rule, form), count in sorted(total.items())]
-    return "\n".join([*rows, f"{len(tried)} fixes tried, {sum(wrong.values())} wrong"])
+    return "\n".join([*rows, _counted(tried)])
+
+
+def _counted(tried: Sequence[Try]) -> str:
+    return f"{len(tried)} fixes tried, {sum(each.wrong is not None for each in tried)} wrong"
 
 
 if __name__ == "__main__":
