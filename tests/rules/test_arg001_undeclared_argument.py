@@ -126,6 +126,23 @@ def test_an_argument_that_the_files_which_include_this_one_have(tmp_path: Path, 
     assert finding.severity == severity
 
 
+@pytest.mark.parametrize(("included", "fixes"), [("part", 0), ("another_part", 1)])
+def test_a_file_that_others_include_does_not_declare_what_they_would_have_to_pass(
+    tmp_path: Path, included: str, fixes: int
+) -> None:
+    """In ROS 2 the others, in any package, may have configured it without passing it."""
+    for package in ("p", "q"):
+        (tmp_path / package).mkdir()
+        (tmp_path / package / "package.xml").write_text(f"<package><name>{package}</name></package>")
+    including = f'<launch><arg name="map"/><include file="$(find-pkg-share p)/{included}.launch.xml"/></launch>'
+    (tmp_path / "q" / "whole.launch.xml").write_text(including)
+    path = tmp_path / "p" / "part.launch.xml"
+    path.write_text('<launch><log message="$(var map)"/></launch>')
+    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "2"}, (str(tmp_path),)), Sources())
+    (finding,) = [each for each in workspace.static(str(path)).findings if each.rule == "ARG001"]
+    assert len(finding.fixes) == fixes
+
+
 def test_the_command_line_gives_what_is_not_declared_where_it_reaches() -> None:
     """As real roslaunch has it: see `arg_given.txt` and `include_pass_all.txt` of `fixtures/ros1/meaning`."""
     check("""

@@ -128,8 +128,9 @@ def _tried_in_workspace(of_one: Sequence[Job], known: set[object], folder: Path,
                 Path(path).write_bytes(text.encode())
             opened_before.workspace.refresh()
             workspace = opened(of_one[0], run=run) if _has_manifest(texts) else opened_before
-            for launch in launches:
-                yield look(workspace, jobs_by_name[launch.name]).findings
+            for number, launch in enumerate(launches):
+                # In the others what conditions leave out is as it was: to evaluate that anew takes most of the time.
+                yield look(workspace, jobs_by_name[launch.name], branches=number == 0).findings
         finally:
             for path, content in before.items():
                 Path(path).write_bytes(content)
@@ -172,11 +173,11 @@ def _written(finding: Finding) -> set[object]:
     }
 
 
-def look(launches: OpenWorkspace, job: Job) -> Analysis:
+def look(launches: OpenWorkspace, job: Job, *, branches: bool = True) -> Analysis:
     """The analysis of a launch file and of what it leaves out, with what is known of nodes without a run."""
     project = launches.analysed(str(job.file), dict(job.args))
-    branches = launches.branches(project.analysis)
-    launches.workspace.set_branches(project.analysis.launch, branches)
+    if branches:
+        launches.workspace.set_branches(project.analysis.launch, launches.branches(project.analysis))
     run_nodes_together([project], argparse.Namespace(no_run=True, jobs=1))
     return project.with_results()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Mapping
 
@@ -13,6 +14,7 @@ from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
 from preflight_analysis.rules.problems import fix, rename
 from preflight_analysis.rules.rule import Context
+from preflight_analysis.rules.written_elsewhere import in_workspace
 
 _FAR = 40
 """Characters between the name of a parameter and its value."""
@@ -65,12 +67,20 @@ def remove_at(context: Context, location: Location, title: str) -> tuple[Fix, ..
 
 def declare(context: Context, origin: Origin, name: str) -> tuple[Fix, ...]:
     """A fix that declares an argument at the beginning of the launch file at the end of `origin`. None where an include
-    leads there that does not pass it: it would have to."""
+    leads there that does not pass it: it would have to. Nor in ROS 2 where any launch file of the workspace includes
+    it: there the argument may be known from a scope around the include."""
     launch_file = context.launch_files.get(origin[-1].file)
     if launch_file is None or launch_file.root is None or (len(origin) > 1 and not _is_given(context, origin, name)):
         return ()
+    if context.tree.ros.shared_configurations and _is_included(context, launch_file.path):
+        return ()
     edits = launch_file.document.once(writer_of).declare_argument(launch_file.root, name)
     return fix(f"Declare argument '{name}'", edits)
+
+
+def _is_included(context: Context, path: str) -> bool:
+    name = re.escape(os.path.basename(path))
+    return in_workspace(context, (re.compile(rf"""[/\s"']({name})["')\s]"""),))
 
 
 def _is_given(context: Context, origin: Origin, name: str) -> bool:
