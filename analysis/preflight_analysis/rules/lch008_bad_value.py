@@ -65,7 +65,7 @@ RULE = Rule(
     effect="stops-launch",
     kind="invalid",
     sometimes=(Reason.NOT_SET, Reason.NOT_HERE),
-    what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is no truth "
+    what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is not a truth "
     "value, or an unknown choice.",
     why="The launcher stops and starts nothing. The value is checked after its substitutions are resolved.",
     example='<node pkg="camera" type="driver" name="camera" output="scren"/>',

@@ -180,7 +180,7 @@ RULE = Rule(
     always=(Reason.UNSEEN,),
     sometimes=(Reason.OUTSIDE, Reason.OTHER_LAUNCH),
     what="Checks for a `<load_composable_node>` (`LoadComposableNodes`) whose target is not a node of the launch "
-    "(ROS 2). In ROS 1 it checks for a nodelet whose manager is no nodelet manager.",
+    "(ROS 2). In ROS 1 it checks for a nodelet whose manager is not a nodelet manager.",
     why="The loader waits for the service of the container without end, and loads nothing.",
     example='<push_ros_namespace namespace="robot"/>\n'
     '<node_container pkg="rclcpp_components" exec="component_container" name="vision" namespace=""/>\n'
