@@ -71,7 +71,7 @@ def test_json() -> None:
         "name": "subscribed-not-published",
         "severity": "warning",
         "confidence": "likely",
-        **{"effect": "misbehaves", "kind": "near", "node": "/listener", "candidates": ["/chatter"]},
+        **{"effect": "breaks", "kind": "near", "node": "/listener", "candidates": ["/chatter"]},
         "subject": {"kind": "topic", "name": "/chater"},
         "file": "/main.launch",
         "range": {"start": {"line": 4, "column": 31}, "end": {"line": 4, "column": 37}},
