@@ -11,8 +11,9 @@ from pathlib import Path
 import jsonschema
 import pytest
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
 from preflight_analysis.rules import registry
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_server.cli.main import main
 from preflight_server.mcp.results import summary
 from support.sarif_schema import SARIF_SCHEMA

@@ -8,7 +8,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import digest
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.evaluation.lua_options import assignments, included
-from preflight_analysis.rules.frames import frames_of
+from preflight_analysis.model.frames import frames_of
 from preflight_analysis.workspace.workspace import Analysis
 from support.package_elsewhere import analysed
 

@@ -5,7 +5,7 @@ import json
 import pytest
 from preflight_analysis.frames.forest import Branch, forest
 from preflight_analysis.frames.model import Frames
-from preflight_analysis.rules.frames import frames_of, place_of_edge
+from preflight_analysis.model.frames import frames_of, place_of_edge
 from support.check import analyse, read_fixture
 
 _PACKAGES = "".join(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from preflight_analysis.rules.frames import frames_of
+from preflight_analysis.model.frames import frames_of
 from support.package_elsewhere import analysed
 
 

@@ -8,8 +8,8 @@ import pytest
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.files import nearest_file
-from preflight_analysis.rules.nearest import is_slip
+from preflight_analysis.model.files import nearest_file
+from preflight_analysis.model.nearest import is_slip
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import check, findings_of

@@ -7,8 +7,8 @@ import cProfile
 import json
 import pstats
 
+from preflight_analysis.model.context import Context
 from preflight_analysis.rules.registry import all_rules, run_rules
-from preflight_analysis.rules.rule import Context
 from support.check import analyse, read_fixture
 
 KINDS = 5

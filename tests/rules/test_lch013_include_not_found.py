@@ -7,7 +7,7 @@ from textwrap import dedent
 import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.elsewhere import depends_on_build
+from preflight_analysis.model.elsewhere import depends_on_build
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import check, findings_of

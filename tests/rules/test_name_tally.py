@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 from preflight_analysis.evaluation.names import with_namespaces
-from preflight_analysis.rules.name_tally import NO_NAMES
+from preflight_analysis.model.name_tally import NO_NAMES
 
 _NAMES = st.lists(st.sampled_from(["/a", "/a/b", "/a/b/c", "/a/b/d", "/a/e/f/g", "/h", "/", "/h/i"]), max_size=8)
 

@@ -11,8 +11,8 @@ import pytest
 from preflight_analysis.graph.domains import Domains
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.rules.near_miss import NearMiss
-from preflight_analysis.rules.near_miss_search import near_misses
+from preflight_analysis.model.near_miss import NearMiss
+from preflight_analysis.model.near_miss_search import near_misses
 from preflight_analysis.tracing.interface import Endpoint
 
 WORDS = ("camera", "front", "image", "raw", "points", "cmd", "vel", "cmdvel", "odom", "c_am", "came", "scan", "scan1")

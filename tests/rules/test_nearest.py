@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from preflight_analysis.rules.nearest import is_word_more, likeness, nearest
+from preflight_analysis.model.nearest import is_word_more, likeness, nearest
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Hashable
 
-from preflight_analysis.rules.nearest_memory import NOTHING, Hit, Pools, search
+from preflight_analysis.model.nearest_memory import NOTHING, Hit, Pools, search
 
 POOLS = 4
 

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.rules.param_matching import Asked, Matched, asked_by, matched
-from preflight_analysis.rules.parameters import namespace_of
+from preflight_analysis.model.param_matching import Asked, Matched, asked_by, matched
+from preflight_analysis.model.parameters import namespace_of
 from preflight_analysis.tracing.interface import ParamUse
 
 _NODES = ("/n", "/a/m", "/b", "/n")

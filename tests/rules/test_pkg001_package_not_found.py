@@ -10,8 +10,8 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.below_packages import asked_below
-from preflight_analysis.rules.installed import lack_of_package
+from preflight_analysis.model.below_packages import asked_below
+from preflight_analysis.model.installed import lack_of_package
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import analyse, apply, check, findings_of, read_fixture

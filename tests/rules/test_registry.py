@@ -15,10 +15,11 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import ProblemKind
+from preflight_analysis.model.context import Context
 from preflight_analysis.rules import reference
 from preflight_analysis.rules.fix_availability import fix_availability
 from preflight_analysis.rules.registry import all_rules, rule_by_id, run_rules
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import analyse, check, read_fixture

@@ -8,7 +8,7 @@ import pytest
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Package, Packages
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.installed import lack_of_build, lack_of_made, lack_said
+from preflight_analysis.model.installed import lack_of_build, lack_of_made, lack_said
 from preflight_analysis.tracing.interface import telling_line
 from support.check import analyse, check, findings_of, read_fixture, run_rules
 

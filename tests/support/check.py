@@ -46,10 +46,10 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
+from preflight_analysis.model.context import Context
 from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, run_rules
-from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import (
     NOT_RUN,
     Endpoint,

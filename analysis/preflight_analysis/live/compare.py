@@ -27,7 +27,7 @@ from preflight_analysis.live.model import (
     State,
     is_builtin,
 )
-from preflight_analysis.rules.nearest import nearest
+from preflight_analysis.model.nearest import nearest
 from preflight_analysis.tracing.interface import Endpoint, Role
 
 _ANONYMOUS = re.compile(r"([^/]+?)_ANON\d+")

@@ -12,7 +12,7 @@ from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import topic_endpoints
 from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.live.model import Expected, ExpectedEndpoint, ExpectedNode
-from preflight_analysis.rules.places import connection_location
+from preflight_analysis.model.places import connection_location
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.nodelets import manager_of
 

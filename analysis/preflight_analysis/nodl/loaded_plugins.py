@@ -19,9 +19,9 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.params import given_within
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.model.plugin_params import KIND, LISTED
 from preflight_analysis.nodl.catalogued import Catalogued, catalogued, may_be_newer, typed_end
 from preflight_analysis.nodl.plugins import package_of
-from preflight_analysis.rules.plugin_params import KIND, LISTED
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy, TypedBy

@@ -8,7 +8,7 @@ from functools import lru_cache
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.rules.rule import Plugin
+from preflight_analysis.model.context import Plugin
 from preflight_analysis.source.analyse import SourceAnalysis
 
 _GENERATION = 2

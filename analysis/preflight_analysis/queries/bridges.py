@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.findings.markdown import code
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.model.gazebo_bridges import Bridge, bridges
 from preflight_analysis.queries.hover_text import Hover
-from preflight_analysis.rules.gazebo_bridges import Bridge, bridges
 from preflight_analysis.workspace.workspace import Analysis
 
 _TITLES = {

@@ -14,6 +14,7 @@ from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.launch.schema import Attribute
+from preflight_analysis.model.context import ExecutableNames
 from preflight_analysis.queries.completion_annotation import annotation_place, complete_annotation
 from preflight_analysis.queries.completion_handed_over import complete_handed_over
 from preflight_analysis.queries.completion_items import Completion, Item
@@ -25,7 +26,6 @@ from preflight_analysis.queries.handed_over import is_handed_over
 from preflight_analysis.queries.language import Language, language_of, place_in
 from preflight_analysis.queries.param_file_completion import complete_param_file
 from preflight_analysis.queries.param_files import is_param_file
-from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.workspace import Analysis
 
 TRIGGERS = ("<", " ", '"', "'", "/", "$", "(", ":", ">")

@@ -13,12 +13,12 @@ from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_tree import arguments
 from preflight_analysis.launch.schema import Kind
+from preflight_analysis.model.context import ExecutableNames
 from preflight_analysis.queries.arguments import accepted, argument_values, resolved
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
 from preflight_analysis.queries.completion_values import Asked, argument_detail, argument_doc, whole_values
 from preflight_analysis.queries.cursor_python import PythonKind, PythonPlace, place_at_python
-from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
 

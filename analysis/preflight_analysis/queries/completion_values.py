@@ -15,6 +15,7 @@ from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.references import NAMES
 from preflight_analysis.launch.schema import Attribute, Kind
+from preflight_analysis.model.context import ExecutableNames
 from preflight_analysis.queries import completion_graph as from_graph
 from preflight_analysis.queries.arguments import accepted, argument_values, included_file, resolved, visible
 from preflight_analysis.queries.completion_items import Completion, Item
@@ -22,7 +23,6 @@ from preflight_analysis.queries.completion_paths import listed
 from preflight_analysis.queries.cursor import Place
 from preflight_analysis.queries.language import Language, language_of
 from preflight_analysis.queries.param_texts import value_text
-from preflight_analysis.rules.rule import ExecutableNames
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
 

@@ -9,7 +9,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.launch.model import Action, Value
-from preflight_analysis.rules.rule import Context
+from preflight_analysis.model.context import Context
 
 _CONDITIONS = ("if", "unless")
 _NAMESPACES = ("ns", "namespace")

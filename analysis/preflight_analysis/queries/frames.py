@@ -10,11 +10,11 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.frames.edges import plain
 from preflight_analysis.frames.model import Edge, Frames
+from preflight_analysis.model.frames import frames_of, place_of_edge, place_of_mention, place_of_use
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.places import place
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.robot.sources import place_of
-from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_mention, place_of_use
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN = 8

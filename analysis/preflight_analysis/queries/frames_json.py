@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from preflight_analysis.frames.model import Edge, Frames, Use
-from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_use
+from preflight_analysis.model.frames import frames_of, place_of_edge, place_of_use
 from preflight_analysis.workspace.tree_json import place_json
 from preflight_analysis.workspace.workspace import Analysis
 

@@ -16,9 +16,9 @@ from preflight_analysis.evaluation.tree import CommandValue, Include, LaunchNode
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.frames.forest import Branch, forest
 from preflight_analysis.launch.model import NODE_KINDS, Action
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import frames_of, place_of_edge
 from preflight_analysis.queries.places import shown_path
-from preflight_analysis.rules.frames import frames_of, place_of_edge
-from preflight_analysis.rules.rule import Context
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
 

@@ -12,12 +12,12 @@ from preflight_analysis.evaluation.ros2.param_files import FileParam, Section, r
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.recognize import is_yaml
+from preflight_analysis.model.plugin_params import declared_of_plugins
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
 from preflight_analysis.queries.places import link, place
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import made_at
-from preflight_analysis.rules.plugin_params import declared_of_plugins
 from preflight_analysis.tracing.interface import NOT_RUN, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 

@@ -8,9 +8,9 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Unknown
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.parameters import OF_ALL_NODES
 from preflight_analysis.queries.symbol_at import own_parameter, settings_of
-from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.parameters import OF_ALL_NODES
 from preflight_analysis.tracing.interface import ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 

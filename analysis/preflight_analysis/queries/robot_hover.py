@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from preflight_analysis.findings.markdown import code, escaped
+from preflight_analysis.model.controllers import place_of
 from preflight_analysis.queries.frames import frame_lines
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.places import place
 from preflight_analysis.queries.robot_names import RobotName, frames_named, groups_with, name_at, users_of
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import semantics_of
-from preflight_analysis.rules.controllers import place_of
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN = 8

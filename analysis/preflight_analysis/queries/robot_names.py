@@ -12,13 +12,13 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.frames.model import Edge
+from preflight_analysis.model import controllers
+from preflight_analysis.model.frames import frames_of
+from preflight_analysis.model.moveit import known_to_moveit
 from preflight_analysis.queries.frames import FrameSymbol, named_at
 from preflight_analysis.robot.of_launch import Described, Robot, SemanticRobot, robots_of, semantics_of
 from preflight_analysis.robot.semantic import NAMING_GROUPS, NAMING_JOINTS, NAMING_LINKS
 from preflight_analysis.robot.sources import AROUND, SourceFile, Written, files_of, named_file, place_of
-from preflight_analysis.rules import controllers
-from preflight_analysis.rules.frames import frames_of
-from preflight_analysis.rules.moveit import known_to_moveit
 from preflight_analysis.workspace.workspace import Analysis
 
 Kind = Literal["link", "joint", "group"]

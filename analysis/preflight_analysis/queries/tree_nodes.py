@@ -9,10 +9,10 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.findings.markdown import code, escaped
+from preflight_analysis.model.behavior_trees import Loaded, Part, path_of, trees_of
+from preflight_analysis.model.tree_nodes_in_sources import OwnNodes, own_nodes
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.places import link, shown_path
-from preflight_analysis.rules.behavior_trees import Loaded, Part, path_of, trees_of
-from preflight_analysis.rules.tree_nodes_in_sources import OwnNodes, own_nodes
 from preflight_analysis.trees.known_nodes import BUILT_IN, NAV_DISTRIBUTIONS, NAV_NODES, loads_by_default
 from preflight_analysis.trees.ports import ports_of
 from preflight_analysis.trees.read import Used

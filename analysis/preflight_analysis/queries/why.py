@@ -18,11 +18,11 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.domains import differences, domain_of, processes_of
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.qos import policies
+from preflight_analysis.model.clock import publishes_clock
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.places import attribute_location, connection_location
+from preflight_analysis.model.variables import setting_of
 from preflight_analysis.queries.enclosing import conditions_of, namespaces_of
-from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
-from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.places import attribute_location, connection_location
-from preflight_analysis.rules.variables import setting_of
 from preflight_analysis.tracing.interface import DOES, Endpoint, Interface
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -385,7 +385,8 @@ def _clock(graph: Graph, provider: LaunchNode, consumer: LaunchNode) -> Iterator
     on = [node for node in (provider, consumer) if uses[id(node)] is not None]
     if not on:
         return
-    if len(on) == 1 and provider is not consumer and publishes_clock(provider) == publishes_clock(consumer):
+    alike = publishes_clock(graph, provider) == publishes_clock(graph, consumer)
+    if len(on) == 1 and provider is not consumer and alike:
         off = consumer if on[0] is provider else provider
         clocks = (each.node for each in graph.providers_for(on[0], "topics", "/clock"))
         if not any(each is off for each in clocks):
@@ -394,7 +395,7 @@ def _clock(graph: Graph, provider: LaunchNode, consumer: LaunchNode) -> Iterator
     node, param = on[-1], uses[id(on[-1])]
     place = param.place if param is not None else node.location
     publishing = {each.node.name for each in graph.providers_for(node, "topics", "/clock")}
-    publishers = sorted(publishing | {each.name for each in graph.tree.nodes if publishes_clock(each)})
+    publishers = sorted(publishing | {each.name for each in graph.tree.nodes if publishes_clock(graph, each)})
     if publishers:
         text = f"{node.name} uses simulated time; /clock is published by {listed(publishers)}"
         yield Link("clock", "ok", text, place)

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.graph.model import ChannelKind
 from preflight_analysis.live.model import LiveEndpoint, Observation
+from preflight_analysis.model.nearest import nearest
 from preflight_analysis.queries.why import Chain, Link, listed, qos_links
-from preflight_analysis.rules.nearest import nearest
 from preflight_analysis.tracing.interface import DOES, Endpoint, Role
 
 _ROLES: Mapping[ChannelKind, tuple[Role, Role]] = {

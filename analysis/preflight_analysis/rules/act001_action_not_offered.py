@@ -6,15 +6,16 @@ from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
-from preflight_analysis.rules.channels import not_all_known
-from preflight_analysis.rules.dangling import dangling_consumers
+from preflight_analysis.model.channels import not_all_known
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.dangling import dangling_consumers
+from preflight_analysis.model.moveit import known_to_moveit, unserved
+from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
+from preflight_analysis.model.near_miss_search import near_misses
+from preflight_analysis.model.places import Verbs, subject_of
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
-from preflight_analysis.rules.moveit import known_to_moveit, unserved
-from preflight_analysis.rules.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
 from preflight_analysis.rules.near_miss_fixes import fixes_in
-from preflight_analysis.rules.near_miss_search import near_misses
-from preflight_analysis.rules.places import Verbs, subject_of
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
 _VERBS = Verbs("serves", "is a client of")

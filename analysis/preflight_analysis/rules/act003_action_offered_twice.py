@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import connection_location, endpoints_of, related_endpoint, subject_of
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SAID = "action '{name}' has {number} servers ({node}{more}): each executes every goal"
 

@@ -11,12 +11,14 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.model import Action
-from preflight_analysis.rules.arguments import declarations, declare, passes_all
+from preflight_analysis.model.arguments import declarations, declare, passes_all
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.parts_of_launches import is_configured_elsewhere, is_part
+from preflight_analysis.model.problems import problems_of, quoted, rename
 from preflight_analysis.rules.further_reading import LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ARG
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.parts_of_launches import is_configured_elsewhere, is_part
-from preflight_analysis.rules.problems import problem_claim, problems_of, quoted, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _TEXTS = re.compile(r"readme\b|.*\.(?:md|rst|txt|sh)\Z", re.IGNORECASE)

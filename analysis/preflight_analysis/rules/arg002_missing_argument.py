@@ -6,12 +6,14 @@ from preflight_analysis.evaluation.problems import MissingArgument
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.arguments import pass_on, passes_all, rename_passed
-from preflight_analysis.rules.catalogued import by_catalogue, doubts_of_file
+from preflight_analysis.model.arguments import pass_on, passes_all, rename_passed
+from preflight_analysis.model.catalogued import by_catalogue, doubts_of_file
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.problems import problems_of, shown
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG, ROSLAUNCH_INCLUDE
-from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.problems import problem_claim, problems_of, shown
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -5,10 +5,12 @@ from collections.abc import Iterator
 from preflight_analysis.evaluation.problems import RedeclaredArgument
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.arguments import remove_at
+from preflight_analysis.model.arguments import remove_at
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import problems_of
 from preflight_analysis.rules.further_reading import ROSLAUNCH_ARG
-from preflight_analysis.rules.problems import problem_claim, problems_of
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -16,12 +16,13 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
-from preflight_analysis.rules.arguments import declarations, pass_on
+from preflight_analysis.model.arguments import declarations, pass_on
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.problems import all_of, fix, problems_of, shown
+from preflight_analysis.model.written_elsewhere import in_package
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG
-from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.problems import all_of, fix, problems_of, shown
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.written_elsewhere import in_package
+from preflight_analysis.rules.rule import Rule
 
 _REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
 _EVAL = re.compile(r"\$\(\s*eval\b(.*)", re.DOTALL)

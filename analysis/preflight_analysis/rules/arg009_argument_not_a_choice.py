@@ -6,11 +6,13 @@ from preflight_analysis.evaluation.problems import ArgumentNotAChoice
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.catalogued import by_catalogue, doubts_of_file
+from preflight_analysis.model.catalogued import by_catalogue, doubts_of_file
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import problems_of, rename
 from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, LAUNCH_SUBSTITUTIONS
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

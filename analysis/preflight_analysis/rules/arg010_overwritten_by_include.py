@@ -6,9 +6,10 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchTree, Use
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, LAUNCH_DESIGN
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -11,12 +11,13 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.knowledge.conversions import gazebo_types
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.gazebo_bridges import type_pairs
+from preflight_analysis.model.gazebo_side import gazebo_of, to_gazebo
+from preflight_analysis.model.nearest import is_slip, nearest
+from preflight_analysis.model.problems import include_chain, quoted, rename
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
-from preflight_analysis.rules.gazebo_bridges import type_pairs
-from preflight_analysis.rules.gazebo_side import gazebo_of, to_gazebo
-from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import include_chain, quoted, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -12,14 +12,15 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.channels import not_all_known
+from preflight_analysis.model.channels import not_all_known
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.gazebo_bridges import Bridge, bridges
+from preflight_analysis.model.gazebo_side import Gazebo, gazebo_of, plain
+from preflight_analysis.model.near_miss import not_analysed
+from preflight_analysis.model.places import related_endpoint
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
-from preflight_analysis.rules.gazebo_bridges import Bridge, bridges
-from preflight_analysis.rules.gazebo_side import Gazebo, gazebo_of, plain
-from preflight_analysis.rules.near_miss import not_analysed
-from preflight_analysis.rules.places import related_endpoint
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SENSED = frozenset(
     [

@@ -15,12 +15,13 @@ from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.gazebo_bridges import Entry, entries, not_listed
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.places import argument_location
+from preflight_analysis.model.problems import include_chain, quoted, rename
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
-from preflight_analysis.rules.gazebo_bridges import Entry, entries, not_listed
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.places import argument_location
-from preflight_analysis.rules.problems import include_chain, quoted, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ")
 _TYPES = ("ros_type_name", "gz_type_name")

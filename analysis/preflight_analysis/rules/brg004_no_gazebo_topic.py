@@ -10,12 +10,13 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.gazebo_bridges import Bridge
+from preflight_analysis.model.gazebo_side import ANY, ENDS, Gazebo, GazeboTopic, gazebo_of, plain, to_gazebo
+from preflight_analysis.model.nearest import is_slip
+from preflight_analysis.model.problems import enumerated, include_chain, rename
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
-from preflight_analysis.rules.gazebo_bridges import Bridge
-from preflight_analysis.rules.gazebo_side import ANY, ENDS, Gazebo, GazeboTopic, gazebo_of, plain, to_gazebo
-from preflight_analysis.rules.nearest import is_slip
-from preflight_analysis.rules.problems import enumerated, include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _BY_HAND = frozenset({"Twist", "Int32", "StringMsg", "Empty", "Boolean", "Double", "Float"})
 """What a plugin of Gazebo's window, or a person at a terminal, publishes."""

@@ -10,11 +10,12 @@ from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.claim import Kind, Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.behavior_trees import FOLDERS, Loaded, folder_of, trees_of
+from preflight_analysis.model.behavior_trees import FOLDERS, Loaded, folder_of, trees_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _WITH_FOLDERS = frozenset({"lyrical", "rolling"})
 """Where bt_navigator takes trees from the other files of a folder, too (`bt_search_directories`)."""

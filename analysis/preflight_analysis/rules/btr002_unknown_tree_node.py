@@ -12,12 +12,13 @@ from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
+from preflight_analysis.model.behavior_trees import Loaded, has_only_nodes_of_nav, trees_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip
+from preflight_analysis.model.problems import fix
+from preflight_analysis.model.tree_nodes_in_sources import own_nodes
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.nearest import did_you_mean, is_slip
-from preflight_analysis.rules.problems import fix
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.trees.known_nodes import (
     BUILT_IN,
     NAV_DISTRIBUTIONS,

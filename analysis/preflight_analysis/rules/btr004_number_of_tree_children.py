@@ -10,10 +10,11 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.behavior_trees import is_version_4, trees_of
+from preflight_analysis.model.behavior_trees import is_version_4, trees_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.tree_nodes_in_sources import own_nodes
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.trees.children import children_of
 
 

@@ -15,11 +15,12 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.behavior_trees import Loaded, is_version_4, trees_of
+from preflight_analysis.model.behavior_trees import Loaded, is_version_4, trees_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.tree_nodes_in_sources import own_nodes
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.tree_nodes_in_sources import own_nodes
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.trees.known_nodes import BUILT_IN, NAV_NODES
 from preflight_analysis.trees.port_types import NEEDED, Kind, is_object, is_output, is_text_of, kind_of, kind_of_cpp
 from preflight_analysis.trees.ports import is_port

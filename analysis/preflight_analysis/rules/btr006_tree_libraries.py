@@ -15,11 +15,12 @@ from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.behavior_trees import LIBRARIES, has_own_nav, is_navigator, libraries_of
+from preflight_analysis.model.behavior_trees import LIBRARIES, has_own_nav, is_navigator, libraries_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip_of_words
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import BEHAVIOR_TREES
-from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS, NAV_LIBRARIES, NAV_NODES, loads_by_default
 
 _LISTS = f"'{LIBRARIES}' of {{node}} lists {{what}}"

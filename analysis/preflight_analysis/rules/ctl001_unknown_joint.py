@@ -12,9 +12,8 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.robot.model import Description
-from preflight_analysis.robot.of_launch import unread_of
-from preflight_analysis.rules.controllers import (
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import (
     Controller,
     controllers_of,
     joints_of_ros1,
@@ -22,11 +21,13 @@ from preflight_analysis.rules.controllers import (
     robot_of,
     simulated_of_ros1,
 )
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.robots import robots
+from preflight_analysis.robot.model import Description
+from preflight_analysis.robot.of_launch import unread_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.robots import robots
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 IN_NO_OTHER_FILE = "joint '{}' is in no other file; did you mean '{}', as in {} files nearby?"
 

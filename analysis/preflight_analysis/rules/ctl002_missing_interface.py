@@ -13,10 +13,11 @@ from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.controllers import Controller, controllers_of, place_of, robot_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import Controller, controllers_of, place_of, robot_of
+from preflight_analysis.model.problems import quoted
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
-from preflight_analysis.rules.problems import quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _AS_DESCRIBED = re.compile(r"(?:mock_components|fake_components|gz_ros2_control|ign_ros2_control|gazebo_ros2_control)/")
 """Before the names of hardware that has the interfaces of the description and no others."""

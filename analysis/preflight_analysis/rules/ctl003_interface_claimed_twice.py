@@ -12,9 +12,10 @@ from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.controllers import Claim, Controller, controllers_of, place_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import Claim, Controller, controllers_of, place_of
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SIDES = (("left_wheel", "right_wheel"), ("left_wheel_names", "right_wheel_names"))
 """Parameters of drive controllers that list joints, in ROS 1 and in ROS 2."""

@@ -15,19 +15,20 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.robot.of_launch import DESCRIPTION, robots_of, unread_of
-from preflight_analysis.rules.controllers import (
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import (
     GAZEBO_PLUGIN_ROS1,
     SPAWN_ROS1,
     controllers_of,
     managers_of,
     robot_of_manager,
 )
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain, quoted
+from preflight_analysis.model.robots import robots
+from preflight_analysis.robot.of_launch import DESCRIPTION, robots_of, unread_of
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.robots import robots
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _WITHOUT = frozenset(
     {

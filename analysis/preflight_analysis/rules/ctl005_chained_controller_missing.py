@@ -10,11 +10,12 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.controllers import controllers_of, place_of, robot_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import controllers_of, place_of, robot_of
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import quoted, rename
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import quoted, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SAID = "chained controller '{controller}' does not exist: '{name}' claims '{joint}'"
 

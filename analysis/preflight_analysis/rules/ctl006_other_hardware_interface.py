@@ -14,12 +14,13 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import joints_of_ros1, simulated_of_ros1
+from preflight_analysis.model.robots import written
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.of_launch import Robot
-from preflight_analysis.rules.controllers import joints_of_ros1, simulated_of_ros1
 from preflight_analysis.rules.further_reading import ROS_CONTROL_GAZEBO
-from preflight_analysis.rules.robots import written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _ASKED = {
     "effort_controllers": "EffortJointInterface",

@@ -11,12 +11,13 @@ from preflight_analysis.evaluation.ros2.spawners import asked_of, is_hardware_sp
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.controllers import managers_of, robot_of_manager
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import managers_of, robot_of_manager
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain, quoted
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
-from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

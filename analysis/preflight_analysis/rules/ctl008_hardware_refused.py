@@ -13,11 +13,12 @@ from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.robots import LENIENT_ROS2_CONTROL, robots, written
 from preflight_analysis.robot.model import ControlJoint, ControlSystem, Description
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
-from preflight_analysis.rules.robots import LENIENT_ROS2_CONTROL, robots, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

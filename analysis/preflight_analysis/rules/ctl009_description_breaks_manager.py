@@ -14,12 +14,13 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.robots import robots
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.robot.sources import files_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_GAZEBO
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.robots import robots
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _AFFECTED = ("humble", "iron", None)
 _PLUGIN = "gazebo_ros2_control"

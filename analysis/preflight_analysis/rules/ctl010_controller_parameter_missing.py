@@ -15,10 +15,11 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.controllers import Controller, controllers_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import Controller, controllers_of
+from preflight_analysis.model.problems import include_chain, quoted
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _NEEDED = {
     "diff_drive_controller/DiffDriveController": ("left_wheel_names", "right_wheel_names"),

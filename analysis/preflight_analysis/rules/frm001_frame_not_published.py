@@ -9,12 +9,13 @@ from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.frames.model import Frames
 from preflight_analysis.frames.uses import OF_LOCALIZATION
-from preflight_analysis.rules.frames import frames_of, in_words, place_of_mention, place_of_use
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import frames_of, in_words, place_of_mention, place_of_use
+from preflight_analysis.model.missing_frames import MissingFrame, mentioned_slips, missing_frames
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.missing_frames import MissingFrame, mentioned_slips, missing_frames
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SAID = "frame '{frame}' has no publisher: {node}{does}{near}{root}{aside}"
 

@@ -9,9 +9,10 @@ from preflight_analysis.findings.claim import Subject, Text, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.frames.model import Edge, Frames
-from preflight_analysis.rules.frames import frames_of, place_of_edge
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import frames_of, place_of_edge
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SYSTEM = "::systems::"
 """In the names of plugins of Gazebo that are no nodes of ROS: what they send comes to it by a bridge alone."""

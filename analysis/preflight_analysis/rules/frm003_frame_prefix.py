@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.frames import place_of_edge, place_of_use
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import place_of_edge, place_of_use
+from preflight_analysis.model.missing_frames import missing_frames
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.missing_frames import missing_frames
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -12,11 +12,12 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.frames import frames_of, place_of_mention, place_of_param, place_of_use
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import frames_of, place_of_mention, place_of_param, place_of_use
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.well_known import is_transform
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import is_transform
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import BUFFER
 
 _REFUSE = re.compile(rf"{BUFFER}::|[a-z]+_")

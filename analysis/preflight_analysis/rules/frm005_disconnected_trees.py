@@ -11,11 +11,12 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.frames.model import Frames, Use
 from preflight_analysis.frames.uses import OF_LOCALIZATION
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.rules.frames import frames_of, in_words, place_of_edge, place_of_use
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import frames_of, in_words, place_of_edge, place_of_use
+from preflight_analysis.model.missing_frames import is_base_beside
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.missing_frames import is_base_beside
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _MOST = 20
 """Frames that a node uses; whoever has more of them names them in lists of all frames."""

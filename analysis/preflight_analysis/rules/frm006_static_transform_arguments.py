@@ -14,11 +14,12 @@ from typing import NamedTuple
 from preflight_analysis.findings.claim import Effect, Subject, say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.tf_frames import begins_with_number, static_transform_words
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.places import argument_location, attribute_location
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import FRAMES, TF2
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.places import argument_location, attribute_location
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _EULER, _QUATERNION = ("--roll", "--pitch", "--yaw"), ("--qx", "--qy", "--qz", "--qw")
 _FRAMES = ("--frame-id", "--child-frame-id")

@@ -11,13 +11,14 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.domains import Difference, Domains, differences, processes_of
 from preflight_analysis.graph.model import PROVIDERS, Channel, Connection
-from preflight_analysis.rules.channels import OF_ENDS, channels_of, doubts_of_ends
+from preflight_analysis.model.channels import OF_ENDS, channels_of, doubts_of_ends
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import endpoints_of, related_endpoint, subject_of
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.variables import setting_of
 from preflight_analysis.rules.further_reading import DOMAINS, MASTER
 from preflight_analysis.rules.further_reading import MIDDLEWARE as ABOUT_MIDDLEWARE
-from preflight_analysis.rules.places import endpoints_of, related_endpoint, subject_of
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.variables import setting_of
+from preflight_analysis.rules.rule import Rule
 
 _Pair = tuple[Connection, Connection, Difference]
 """A consumer, a provider, and what keeps them apart."""

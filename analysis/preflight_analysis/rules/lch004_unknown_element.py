@@ -8,12 +8,14 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import UnknownElement
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import has_ros
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import fix, problems_of
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
-from preflight_analysis.rules.installed import has_ros
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import fix, problem_claim, problems_of
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _OF_OTHERS = {"rtactivate": "rtmlaunch", "rtconnect": "rtmlaunch"}
 """Tags of launchers that use roslaunch's files (https://wiki.ros.org/openrtm_tools)."""

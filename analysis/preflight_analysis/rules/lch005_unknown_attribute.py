@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Kind, Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import UnknownAttribute
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.misspelt_attributes import explained
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import problems_of, rename
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
-from preflight_analysis.rules.misspelt_attributes import explained
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import MissingAttribute
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.misspelt_attributes import misspelt
+from preflight_analysis.model.problems import problems_of, rename
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
-from preflight_analysis.rules.misspelt_attributes import misspelt
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -8,10 +8,12 @@ from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import ConflictingAttributes
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import all_of, fix, problems_of, quoted
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import ROSLAUNCH, ROSLAUNCH_PARAM
-from preflight_analysis.rules.problems import all_of, fix, problem_claim, problems_of, quoted
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

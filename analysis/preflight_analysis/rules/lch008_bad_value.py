@@ -9,12 +9,14 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.problems import BadValue
-from preflight_analysis.rules.arguments import empty_arguments
-from preflight_analysis.rules.asked_variables import lack_of_asked
+from preflight_analysis.model.arguments import empty_arguments
+from preflight_analysis.model.asked_variables import lack_of_asked
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import problems_of, quoted, rename, shortened
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import problem_claim, problems_of, quoted, rename, shortened
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _TRUTH = {
     **dict.fromkeys(("1", "yes", "y", "on", "t"), "true"),

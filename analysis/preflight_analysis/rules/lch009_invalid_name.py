@@ -12,11 +12,13 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
-from preflight_analysis.rules.arguments import empty_arguments
+from preflight_analysis.model.arguments import empty_arguments
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import all_of, as_written, fix, problems_of, quoted, replacement
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.problems import all_of, as_written, fix, problem_claim, problems_of, quoted, replacement
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _ILLEGAL = re.compile(r"[^A-Za-z0-9_/]+")
 

@@ -7,11 +7,13 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.problems import BadSubstitution
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.parts_of_launches import is_part
+from preflight_analysis.model.problems import problems_of, rename
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.parts_of_launches import is_part
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _RENAMED: Mapping[int, Mapping[str, str]] = {
     1: {},

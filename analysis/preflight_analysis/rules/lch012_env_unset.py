@@ -6,11 +6,13 @@ from preflight_analysis.evaluation.problems import AssumedVariable, UnsetVariabl
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import lack_of_variable, near_variable, unset_variable
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import problems_of, rename
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS
-from preflight_analysis.rules.installed import lack_of_variable, near_variable, unset_variable
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -8,12 +8,14 @@ from preflight_analysis.evaluation.problems import IncludeNotCatalogued, Include
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.rules.catalogued import catalogue_doubts, is_of_distribution
-from preflight_analysis.rules.files import check_missing_files
+from preflight_analysis.model.catalogued import catalogue_doubts, is_of_distribution
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import is_slip, nearest
+from preflight_analysis.model.problems import problems_of, rename
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
-from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.missing_files import check_missing_files
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _check_here = check_missing_files({IncludeNotFound: "included file", LaunchedFileNotFound: "launched file"})
 

@@ -12,12 +12,14 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.rules.catalogued import doubts_of_file
+from preflight_analysis.model.catalogued import doubts_of_file
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain, problems_of, rename, shortened
+from preflight_analysis.model.python_branches import made_twice
+from preflight_analysis.model.python_description import always_twice
 from preflight_analysis.rules.further_reading import LAUNCH_DESIGN, NAMES, NODES
-from preflight_analysis.rules.problems import include_chain, problem_claim, problems_of, rename, shortened
-from preflight_analysis.rules.python_branches import made_twice
-from preflight_analysis.rules.python_description import always_twice
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -12,9 +12,11 @@ from preflight_analysis.evaluation.problems import (
 )
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import problems_of
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, RUNS, SECURITY
-from preflight_analysis.rules.problems import problem_claim, problems_of
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _KINDS = (CommandNotRun, LaunchFileNotRun, EvalNotAllowed, UnexpandedEntity, NestedTooDeeply, ValueTooLong)
 

@@ -5,11 +5,12 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.suppression import Suppression, read_suppressions
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import rename
 from preflight_analysis.rules import registry
 from preflight_analysis.rules.further_reading import ANNOTATIONS
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -8,9 +8,10 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import annotated_groups, read_annotation
 from preflight_analysis.graph.bare_types import KINDS, full_types, is_bare
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import ANNOTATIONS
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Endpoint
 
 _MOST = 3

@@ -10,10 +10,11 @@ from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
-from preflight_analysis.rules.files import in_named_package
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.files import in_named_package
+from preflight_analysis.model.problems import replacement
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, FILE_SYSTEM, LAUNCH_SUBSTITUTIONS
-from preflight_analysis.rules.problems import replacement
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _HOME = re.compile(r"(?:/home/[^/]+|/Users/[^/]+|/root)/|~")
 _ROS = re.compile(r"/opt/ros/[a-z]+/")

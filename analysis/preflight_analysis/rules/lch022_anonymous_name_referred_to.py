@@ -15,10 +15,11 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import Value
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, NAMES
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _ANON = re.compile(r"\$\(anon\s+([^()\s]+)\s*\)")
 _GRAPH_NAME = re.compile(r"(?<![\w/$(:.])/[A-Za-z][\w/]*")

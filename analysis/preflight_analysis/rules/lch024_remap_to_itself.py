@@ -9,11 +9,12 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.idle_remaps import idle_remaps
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.syntax import Tags, removal
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
-from preflight_analysis.rules.idle_remaps import idle_remaps
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags, removal
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

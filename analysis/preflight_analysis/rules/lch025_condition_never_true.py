@@ -15,10 +15,11 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.substitutions import is_eval
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix
+from preflight_analysis.model.syntax import CONDITIONS, has_condition
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, ROSLAUNCH_ARG
-from preflight_analysis.rules.problems import fix
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import CONDITIONS, has_condition
+from preflight_analysis.rules.rule import Rule
 
 
 @dataclass(frozen=True, slots=True)

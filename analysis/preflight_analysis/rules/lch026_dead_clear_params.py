@@ -8,10 +8,11 @@ from preflight_analysis.documents.span import Origin
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Use
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain, quoted
+from preflight_analysis.model.syntax import Tag, Tags
 from preflight_analysis.rules.further_reading import ROSLAUNCH_ARCHITECTURE, ROSLAUNCH_GROUP
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tag, Tags
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

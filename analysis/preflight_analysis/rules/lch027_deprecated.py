@@ -13,12 +13,13 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import has_ros
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import all_of, fix, include_chain, rename, replacement, shown
+from preflight_analysis.model.retired import OLDER_THAN_NOETIC, RETIRED_IN, Retired, retired
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
-from preflight_analysis.rules.installed import has_ros
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import all_of, fix, include_chain, rename, replacement, shown
-from preflight_analysis.rules.retired import OLDER_THAN_NOETIC, RETIRED_IN, Retired, retired
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _OLDER_THAN_MELODIC = OLDER_THAN_NOETIC[:-1]
 _PERIOD = re.compile(r"\s+[\d.]+\s*\Z")

@@ -11,9 +11,11 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.problems import StrayText
 from preflight_analysis.launch.schema_ros1 import TAGS
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix, problems_of, shortened
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XML_STANDARD
-from preflight_analysis.rules.problems import fix, problem_claim, problems_of, shortened
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _TAG = re.compile(rf"(?:{'|'.join(TAGS)})(?=\s+[\w-]+\s*=)")
 _REMARK = re.compile(r"(?:#|//)")

@@ -22,11 +22,13 @@ from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.problems import SubstitutionAsText
 from preflight_analysis.launch.substitutions import SUBSTITUTIONS
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
-from preflight_analysis.rules.arguments import declarations
+from preflight_analysis.model.arguments import declarations
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix, include_chain, problems_of, replacement
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import ANONYMOUS_NAMES, LAUNCH_SUBSTITUTIONS, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import fix, include_chain, problem_claim, problems_of, replacement
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
 _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")

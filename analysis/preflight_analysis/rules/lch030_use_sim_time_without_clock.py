@@ -5,28 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.clock import has_clock
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.written_elsewhere import in_workspace
 from preflight_analysis.rules.further_reading import CLOCK
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.written_elsewhere import in_workspace
-
-_SIMULATORS = (
-    "gazebo",
-    "gzserver",
-    "stage",
-    "morse",
-    "webots",
-    "carla",
-    "coppelia",
-    "vrep",
-    "airsim",
-    "isaac",
-    "mujoco",
-)
+from preflight_analysis.rules.rule import Rule
 
 _OF_TIME = (
     re.compile(r"""["'(/ ](gazebo_ros|gzserver|stage_ros|stageros|morse|webots_ros|vrep_\w+|carla_\w+)\b"""),
@@ -42,12 +29,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     if param.value is not True and param.value != 1:
         return
-    clock = graph.topics.get("/clock")
-    if (
-        (clock is not None and clock.providers)
-        or graph.is_external("/clock")
-        or any(map(publishes_clock, graph.tree.nodes))
-    ):
+    if has_clock(graph):
         return
     # Beside it another launch of the project runs the simulator, or plays a recording.
     beside = in_workspace(context, _OF_TIME)
@@ -59,12 +41,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         doubts=doubts(OUTSIDE=beside, NOT_ANALYSED=not graph.complete),
         related=include_chain(param.origin),
     )
-
-
-def publishes_clock(node: LaunchNode) -> bool:
-    """Whether the node is a simulator or plays a bag with its time: neither does so before it runs for a while."""
-    name = f"{node.package}/{node.executable}".lower()
-    return any(word in name for word in _SIMULATORS) or "--clock" in node.args.split()
 
 
 RULE = Rule(

@@ -16,21 +16,23 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.asked_variables import lack_of_asked
-from preflight_analysis.rules.elsewhere import (
+from preflight_analysis.model.asked_variables import lack_of_asked
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.elsewhere import (
     absent_top,
     absent_top_said,
     asks_for_unbuilt_package,
     names_folder_of_build,
 )
-from preflight_analysis.rules.files import is_below_own_home, nearest_file
+from preflight_analysis.model.files import is_below_own_home, nearest_file
+from preflight_analysis.model.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import fix, problems_of, shown
+from preflight_analysis.model.python_imports import absent_module, slip_of
+from preflight_analysis.model.python_keywords import UnknownKeyword, unknown_keywords
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
-from preflight_analysis.rules.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import fix, problem_claim, problems_of, shown
-from preflight_analysis.rules.python_imports import absent_module, slip_of
-from preflight_analysis.rules.python_keywords import UnknownKeyword, unknown_keywords
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
 _RAISE = re.compile(r"\s*raise\b")

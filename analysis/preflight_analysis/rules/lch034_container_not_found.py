@@ -13,13 +13,14 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.graph.build import effective_remaps
-from preflight_analysis.rules.containers_elsewhere import called_elsewhere
+from preflight_analysis.model.containers_elsewhere import called_elsewhere
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, has_all_words, likeness, share_words
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import COMPOSITION, NODELET
-from preflight_analysis.rules.nearest import did_you_mean, has_all_words, likeness, share_words
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.request import split_args
 
 

@@ -5,12 +5,13 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.lifecycle import inactive_nodes
+from preflight_analysis.model.named_nodes import managed_by
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain, quoted
 from preflight_analysis.rules.further_reading import LIFECYCLE, LIFECYCLE_MANAGER
-from preflight_analysis.rules.lifecycle import inactive_nodes
-from preflight_analysis.rules.named_nodes import managed_by
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface
 
 

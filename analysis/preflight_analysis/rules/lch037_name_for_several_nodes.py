@@ -7,9 +7,10 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import all_of, fix, include_chain, quoted
 from preflight_analysis.rules.further_reading import COMMAND_LINE, REMAPPING_DESIGN
-from preflight_analysis.rules.problems import all_of, fix, include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

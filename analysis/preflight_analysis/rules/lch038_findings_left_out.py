@@ -7,8 +7,9 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.clipping import MAX_FINDINGS
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
 from preflight_analysis.rules.further_reading import SECURITY
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -16,9 +16,10 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix, include_chain, quoted, shortened
 from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import fix, include_chain, quoted, shortened
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _BOOLEAN = re.compile(r"true|false", re.IGNORECASE)
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")

@@ -14,10 +14,11 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix, shortened
+from preflight_analysis.model.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames
 from preflight_analysis.rules.further_reading import FORMATS, LAUNCH_SUBSTITUTIONS
-from preflight_analysis.rules.problems import fix, shortened
-from preflight_analysis.rules.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _BEFORE = ("foxy", "galactic")
 """The distributions whose launch does not have these substitutions yet."""

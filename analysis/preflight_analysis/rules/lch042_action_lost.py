@@ -13,9 +13,10 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.python_names import BoundNames
 from preflight_analysis.rules.further_reading import FORMATS
-from preflight_analysis.rules.python_names import BoundNames
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _ACTIONS = frozenset(
     {

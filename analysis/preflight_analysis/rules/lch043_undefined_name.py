@@ -16,10 +16,11 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import fix, problems_of
 from preflight_analysis.rules.further_reading import FORMATS
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import fix, problems_of
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _KNOWN = {*dir(builtins), "__file__", "__path__", "__annotations__", "WindowsError"}
 _MADE_AT_RUN_TIME = ("globals", "vars", "locals", "exec", "eval", "setattr")

@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.named_nodes import missing_nodes
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import LIFECYCLE_MANAGER
-from preflight_analysis.rules.named_nodes import missing_nodes
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

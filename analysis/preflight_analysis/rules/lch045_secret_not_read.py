@@ -6,9 +6,11 @@ from preflight_analysis.documents.secrets import REMEDY
 from preflight_analysis.evaluation.problems import WithheldFile, WithheldVariable
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import problems_of, shown
 from preflight_analysis.rules.further_reading import SECURITY
-from preflight_analysis.rules.problems import problem_claim, problems_of, shown
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -22,6 +22,9 @@ from preflight_analysis.findings.doubt import doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.joint_names import meant_around
+from preflight_analysis.model.params_in_sources import meant_in_one_file
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules import ctl001_unknown_joint as ctl001
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
@@ -29,9 +32,6 @@ from preflight_analysis.rules import prm016_parameter_file_refused as prm016
 from preflight_analysis.rules import prm018_listed_not_configured as prm018
 from preflight_analysis.rules import prm022_parameter_of_plugin as prm022
 from preflight_analysis.rules import prm023_parameter_not_in_sources as prm023
-from preflight_analysis.rules.joint_names import meant_around
-from preflight_analysis.rules.params_in_sources import meant_in_one_file
-from preflight_analysis.rules.rule import Context
 
 _SUFFIXES = (".yaml", ".yml")
 _FOLDERS = frozenset({"config", "configs", "param", "params", "parameters", "cfg", "launch"})

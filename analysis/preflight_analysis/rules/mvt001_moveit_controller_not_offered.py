@@ -11,11 +11,12 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.moveit import Known, Loaded, unserved
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.yaml_places import place_in_yaml
 from preflight_analysis.rules.further_reading import MOVEIT_CONTROLLERS
-from preflight_analysis.rules.moveit import Known, Loaded, unserved
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.yaml_places import place_in_yaml
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -11,13 +11,14 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.moveit import Known, Loaded, known_to_moveit
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import quoted, rename
+from preflight_analysis.model.yaml_places import place_in_yaml
 from preflight_analysis.robot.of_launch import given_robot, semantics_of
 from preflight_analysis.rules.further_reading import MOVEIT_CONTROLLERS
-from preflight_analysis.rules.moveit import Known, Loaded, known_to_moveit
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import quoted, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.yaml_places import place_in_yaml
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -16,12 +16,13 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.yaml_places import place_in_yaml
 from preflight_analysis.robot.of_launch import SemanticRobot, given_robot, semantics_of
 from preflight_analysis.rules.further_reading import MOVEIT_KINEMATICS
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.yaml_places import place_in_yaml
+from preflight_analysis.rules.rule import Rule
 
 _KINEMATICS = re.compile(r"robot_description_kinematics[./]([^./]+)[./]kinematics_solver")
 _PLANNERS = re.compile(r"(?:.+[./])?([^./]+)[./]planner_configs")

@@ -12,9 +12,9 @@ from preflight_analysis.evaluation.tree import Remap
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.finding import Fix
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.near_miss import NearMiss
-from preflight_analysis.rules.places import connection_location
-from preflight_analysis.rules.rule import Context
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.near_miss import NearMiss
+from preflight_analysis.model.places import connection_location
 
 
 def fixes(near: NearMiss, consumers: Document | None, providers: Document | None) -> tuple[Fix, ...]:

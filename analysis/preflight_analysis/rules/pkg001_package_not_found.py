@@ -15,20 +15,21 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
-from preflight_analysis.rules.below_packages import has_what_is_asked_of, lacks_what_is_asked_of
-from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
-from preflight_analysis.rules.installed import (
+from preflight_analysis.model.below_packages import has_what_is_asked_of, lacks_what_is_asked_of
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import (
     debian_package_of,
     is_of_family,
     lack_of_package,
     near_package,
     words_of_folders,
 )
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.places import attribute_location, program_known
-from preflight_analysis.rules.problems import enumerated, include_chain, problems_of, rename
-from preflight_analysis.rules.retired import was_removed
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.places import attribute_location, program_known
+from preflight_analysis.model.problems import enumerated, include_chain, problems_of, rename
+from preflight_analysis.model.retired import was_removed
+from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
+from preflight_analysis.rules.rule import Rule
 
 _GENERIC = frozenset(
     ("cpp", "driver", "msgs", "node", "py", "ros", "ros2", "srvs",

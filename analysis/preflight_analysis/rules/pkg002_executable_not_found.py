@@ -12,15 +12,16 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context, ExecutableNames
+from preflight_analysis.model.files import says_not_set
+from preflight_analysis.model.installed import lack_of_build, lack_of_package
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.places import attribute_location, program_known
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.retired import was_removed
 from preflight_analysis.rules.catalogued import slips
-from preflight_analysis.rules.files import says_not_set
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH_NODE
-from preflight_analysis.rules.installed import lack_of_build, lack_of_package
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.places import attribute_location, program_known
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.retired import was_removed
-from preflight_analysis.rules.rule import Context, ExecutableNames, Rule
+from preflight_analysis.rules.rule import Rule
 
 _NO_PROGRAMS = (".h", ".hh", ".hpp", ".c", ".cc", ".cpp", ".cxx", ".txt", ".md", ".rst", ".launch", ".xml", ".yaml")
 """Files that may be executable, by some slip, and that nobody means as one."""

@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import ROSLAUNCH_NODE
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -19,9 +19,10 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
-from preflight_analysis.rules.problems import fix
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _FORMAT = re.compile(r"<package\b[^<>]*\bformat\s*=\s*[\"']([23])[\"']")
 _FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")

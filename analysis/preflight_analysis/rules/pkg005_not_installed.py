@@ -16,9 +16,10 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, LARGE_PROJECTS
-from preflight_analysis.rules.problems import fix
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPackageShare")
 """A program may name the folder anywhere."""

@@ -5,12 +5,13 @@ from collections.abc import Iterator, Sequence
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest_class
+from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.catalogued import slips
 from preflight_analysis.rules.further_reading import COMPOSITION
-from preflight_analysis.rules.nearest import did_you_mean, nearest_class
-from preflight_analysis.rules.places import attribute_location
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _MOST = 3
 """Names in a message."""

@@ -15,11 +15,12 @@ from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import is_of_family, near_package
+from preflight_analysis.model.nearest import did_you_mean, is_slip_of_words, nearest
+from preflight_analysis.model.problems import all_of, fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
-from preflight_analysis.rules.installed import is_of_family, near_package
-from preflight_analysis.rules.nearest import did_you_mean, is_slip_of_words, nearest
-from preflight_analysis.rules.problems import all_of, fix
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
 

@@ -7,11 +7,12 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import has_ros, lack_of_package, near_package
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import MIDDLEWARE
-from preflight_analysis.rules.installed import has_ros, lack_of_package, near_package
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

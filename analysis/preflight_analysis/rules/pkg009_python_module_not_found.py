@@ -6,11 +6,12 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.python_imports import Absent, imports_of
 from preflight_analysis.rules.further_reading import ROSDEP
-from preflight_analysis.rules.nearest import did_you_mean
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.python_imports import Absent, imports_of
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -13,16 +13,17 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Alike, Finding, Related
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.missing_params import missing_params
+from preflight_analysis.model.nearest import nearest_typo
+from preflight_analysis.model.parameters import namespace_of, renamed
+from preflight_analysis.model.params_in_sources import is_asked_beside
+from preflight_analysis.model.places import known_by_source, related_node, related_param_read
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.unread_params import Unread, fits, unread_params, would_change
+from preflight_analysis.model.well_known import is_for_tools
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, ROSLAUNCH_PARAM
-from preflight_analysis.rules.missing_params import missing_params
-from preflight_analysis.rules.nearest import nearest_typo
-from preflight_analysis.rules.parameters import namespace_of, renamed
-from preflight_analysis.rules.params_in_sources import is_asked_beside
-from preflight_analysis.rules.places import known_by_source, related_node, related_param_read
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import Unread, fits, unread_params, would_change
-from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface
 
 _ARGUMENT = re.compile(r"_[A-Za-z]\w*")

@@ -2,8 +2,8 @@
 
 from preflight_analysis.evaluation.problems import UnreadableParameterFile
 from preflight_analysis.findings.doubt import Reason
-from preflight_analysis.rules.files import check_unreadable_files
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_ROSPARAM
+from preflight_analysis.rules.missing_files import check_unreadable_files
 from preflight_analysis.rules.rule import Rule
 
 RULE = Rule(

@@ -6,10 +6,12 @@ from preflight_analysis.evaluation.problems import BadYaml
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.rules.files import says_not_set
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.files import says_not_set
+from preflight_analysis.model.problems import problems_of
 from preflight_analysis.rules.further_reading import ROSLAUNCH_ROSPARAM, YAML_STANDARD
-from preflight_analysis.rules.problems import problem_claim, problems_of
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

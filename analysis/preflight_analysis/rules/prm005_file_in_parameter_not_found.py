@@ -20,15 +20,17 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
-from preflight_analysis.rules.elsewhere import depends_on_working_folder
-from preflight_analysis.rules.files import correct_path, nearest_file, package_folder
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.elsewhere import depends_on_working_folder
+from preflight_analysis.model.files import nearest_file, package_folder
+from preflight_analysis.model.given_in_vain import others_in_vain
+from preflight_analysis.model.installed import is_made_of_template, may_be_made
+from preflight_analysis.model.meant import meant_values
+from preflight_analysis.model.places import argument_location
+from preflight_analysis.model.problems import include_chain, shown
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_PARAM
-from preflight_analysis.rules.given_in_vain import others_in_vain
-from preflight_analysis.rules.installed import is_made_of_template, may_be_made
-from preflight_analysis.rules.meant import meant_values
-from preflight_analysis.rules.places import argument_location
-from preflight_analysis.rules.problems import include_chain, shown
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.missing_files import correct_path
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.request import split_args
 
 _LONGEST = 4096

@@ -13,11 +13,13 @@ from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, 
 from preflight_analysis.findings.claim import Effect, Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.arguments import gives
+from preflight_analysis.model.arguments import gives
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import as_written, include_chain, problems_of, shortened
+from preflight_analysis.model.syntax import Tag, Tags, has_condition
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS, ROSLAUNCH_PARAM, ROSLAUNCH_ROSPARAM
-from preflight_analysis.rules.problems import as_written, include_chain, problem_claim, problems_of, shortened
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tag, Tags, has_condition
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _OVERRIDDEN = "overridden: parameter '{name}' of {node} {why} to {value}, not {old}"
 _DEAD_ARGUMENT = (

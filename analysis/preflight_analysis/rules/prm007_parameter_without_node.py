@@ -14,14 +14,15 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.name_tally import NO_NAMES, NameTally
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.parameters import namespace_of
+from preflight_analysis.model.places import related_node
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.well_known import is_for_tools
 from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER
-from preflight_analysis.rules.name_tally import NO_NAMES, NameTally
-from preflight_analysis.rules.nearest import nearest
-from preflight_analysis.rules.parameters import namespace_of
-from preflight_analysis.rules.places import related_node
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import is_for_tools
+from preflight_analysis.rules.rule import Rule
 
 _FAR = 2000
 """How far above a parameter the YAML key of its dictionary is looked for."""

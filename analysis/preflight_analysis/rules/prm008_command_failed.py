@@ -14,9 +14,9 @@ from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.launch.problems import ProblemKind
-from preflight_analysis.rules.files import in_namesake
-from preflight_analysis.rules.further_reading import ROSLAUNCH_PARAM, SECURITY, XACRO
-from preflight_analysis.rules.installed import (
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.files import in_namesake
+from preflight_analysis.model.installed import (
     lack_of_build,
     lack_of_file,
     lack_of_made,
@@ -24,9 +24,11 @@ from preflight_analysis.rules.installed import (
     lack_of_variable,
     lack_said,
 )
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import include_chain, problem_claim, problems_of, quoted, rename, shown
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import include_chain, problems_of, quoted, rename, shown
+from preflight_analysis.rules.further_reading import ROSLAUNCH_PARAM, SECURITY, XACRO
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
 _ERROR = re.compile(r"\berror\b", re.IGNORECASE)

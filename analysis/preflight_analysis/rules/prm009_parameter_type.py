@@ -17,11 +17,12 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.model import action_at
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.parameters import changed_names
+from preflight_analysis.model.places import related_param_read
+from preflight_analysis.model.problems import fix, include_chain, shortened
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, ROSLAUNCH_PARAM
-from preflight_analysis.rules.parameters import changed_names
-from preflight_analysis.rules.places import related_param_read
-from preflight_analysis.rules.problems import fix, include_chain, shortened
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _BOOLEAN_WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "y", "n", "t", "f"})
 _OTHER_NUMBER = re.compile(

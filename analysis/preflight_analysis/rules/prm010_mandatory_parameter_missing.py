@@ -19,15 +19,16 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.missing_params import missing_params
+from preflight_analysis.model.nearest import likeness, nearest
+from preflight_analysis.model.parameters import grouped, namespace_of, renamed
+from preflight_analysis.model.places import related_param_read
+from preflight_analysis.model.problems import include_chain, problems_of, quoted
+from preflight_analysis.model.unread_params import unread_params
+from preflight_analysis.model.written_elsewhere import around
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
-from preflight_analysis.rules.missing_params import missing_params
-from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
-from preflight_analysis.rules.places import related_param_read
-from preflight_analysis.rules.problems import include_chain, problems_of, quoted
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import unread_params
-from preflight_analysis.rules.written_elsewhere import around
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _UNREAD = (ParameterFileNotFound, UnreadableParameterFile, WithheldFile, BadYaml)

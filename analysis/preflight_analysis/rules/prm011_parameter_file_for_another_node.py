@@ -15,11 +15,12 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import likeness, nearest
+from preflight_analysis.model.problems import enumerated, include_chain, quoted, replacement
+from preflight_analysis.model.written_elsewhere import around
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
-from preflight_analysis.rules.nearest import likeness, nearest
-from preflight_analysis.rules.problems import enumerated, include_chain, quoted, replacement
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.written_elsewhere import around
+from preflight_analysis.rules.rule import Rule
 
 _SHOWN = 3
 _OF_OTHERS = "section '{section}' applies to no node that gets this file (only {node}{others})"

@@ -10,9 +10,10 @@ from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
-from preflight_analysis.rules.problems import fix
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 MESSAGE = "parameter '{}' is not below '{}'; rcl refuses the whole file"
 

@@ -11,13 +11,14 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Alike, Finding, Fix
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.parameters import OF_ALL_NODES
+from preflight_analysis.model.places import related_node
+from preflight_analysis.model.problems import include_chain, replacement
+from preflight_analysis.model.unread_params import reports_params
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.parameters import OF_ALL_NODES
-from preflight_analysis.rules.places import related_node
-from preflight_analysis.rules.problems import include_chain, replacement
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import reports_params
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _PREFIXES = ("qos_overrides.",)

@@ -9,11 +9,13 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.rules.files import is_template
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.files import is_template
+from preflight_analysis.model.parameters import OF_ALL_NODES
+from preflight_analysis.model.problems import fix, shortened
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
-from preflight_analysis.rules.parameters import OF_ALL_NODES, OF_REFUSALS, refusal
-from preflight_analysis.rules.problems import fix, shortened
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.refusals import OF_REFUSALS, refusal
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _TYPES = {bool: "bool", int: "integer", float: "double", str: "string"}

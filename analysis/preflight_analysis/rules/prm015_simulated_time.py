@@ -9,11 +9,12 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param, Use
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
-from preflight_analysis.rules.arguments import gives
+from preflight_analysis.model.arguments import gives
+from preflight_analysis.model.clock import has_clock, publishes_clock
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import CLOCK_AND_TIME, PARAMETERS
-from preflight_analysis.rules.lch030_use_sim_time_without_clock import publishes_clock
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SHOWN = 3
 _APART = "'use_sim_time' is true for {node}, which has {variable} {other}; '/clock' is published with {one}"
@@ -31,11 +32,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     on = [(node, param) for node in nodes if (param := _sim_time(node)) is not None and param.value is True]
     if not on:
         return
-    clock = graph.topics.get("/clock")
-    has_clock = (
-        (clock is not None and bool(clock.providers)) or graph.is_external("/clock") or any(map(publishes_clock, nodes))
-    )
-    if not has_clock:
+    is_running = has_clock(graph)
+    if not is_running:
         node, param = on[0]
         given = _given(context, param.place)
         related = include_chain(node.origin)
@@ -50,6 +48,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             doubts=doubts(OUTSIDE=True),
             related=related,
         )
+    clock = graph.topics.get("/clock")
     published = clock.providers if clock is not None else ()
     for node, param in on if published else ():
         difference = graph.domains.apart(published[0].node, node)
@@ -71,9 +70,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             break
     simulated = {id(node) for node, _ in on}
     off = [
-        node for node in nodes if id(node) not in simulated and _has_times(node) and not _publishes_clock(node, context)
+        node for node in nodes if id(node) not in simulated and _has_times(node) and not publishes_clock(graph, node)
     ]
-    if has_clock and off and len(off) <= len(on):
+    if is_running and off and len(off) <= len(on):
         others = "".join(f", {node.name}" for node in off[1:_SHOWN]) + (" and others" if len(off) > _SHOWN else "")
         yield rule.claim(
             say(_DIFFER, node=off[0].name, others=others, count=_counted(len(on))),
@@ -116,11 +115,6 @@ def _has_times(node: LaunchNode) -> bool:
 
 def _counted(number: int) -> str:
     return "1 node" if number == 1 else f"{number} nodes"
-
-
-def _publishes_clock(node: LaunchNode, context: Context) -> bool:
-    clock = context.graph.topics.get("/clock") if context.graph is not None else None
-    return publishes_clock(node) or (clock is not None and any(provider.node is node for provider in clock.providers))
 
 
 RULE = Rule(

@@ -10,9 +10,10 @@ from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SHOWN = 5
 _ONE = "{what}; rcl refuses the whole file, and {node} does not start"

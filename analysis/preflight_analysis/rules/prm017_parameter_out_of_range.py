@@ -9,9 +9,10 @@ from textwrap import shorten
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
-from preflight_analysis.rules.parameters import OF_REFUSALS, refusal
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.refusals import OF_REFUSALS, refusal
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import ParamUse, Range
 
 _OUTSIDE = "parameter '{name}' is {value}, {outside}: {node} declares {range} and exits"

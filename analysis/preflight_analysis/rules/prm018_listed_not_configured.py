@@ -17,10 +17,11 @@ from preflight_analysis.evaluation.ros2.param_files import Section, read_param_f
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import getters_of
+from preflight_analysis.model.problems import include_chain, quoted
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
-from preflight_analysis.rules.places import getters_of
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _KINDS = ("plugin", "type")
 _MOVEIT = "moveit_simple_controller_manager"

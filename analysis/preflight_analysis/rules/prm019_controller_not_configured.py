@@ -24,10 +24,11 @@ from preflight_analysis.findings.claim import Subject, Text, as_text, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import is_slip, nearest
+from preflight_analysis.model.problems import include_chain, quoted, rename
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
-from preflight_analysis.rules.nearest import is_slip, nearest
-from preflight_analysis.rules.problems import include_chain, quoted, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SHOWN = 3
 

@@ -9,10 +9,12 @@ from preflight_analysis.evaluation.problems import NothingToReplace
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.problems import problems_of, rename, shown
 from preflight_analysis.rules.further_reading import FORMATS, NAV2
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.problems import problem_claim, problems_of, rename, shown
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.problems import problem_claim
+from preflight_analysis.rules.rule import Rule
 
 _KEY = re.compile(r"^[ \t-]*[\"']?([\w./-]+)[\"']?[ \t]*:", re.MULTILINE)
 _MARKED = re.compile(r"<[\w/-]+>|\{[\w/-]+\}|\$[\w/-]+\$|%[\w/-]+%|@[\w/-]+@")

@@ -19,11 +19,12 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip
+from preflight_analysis.model.places import getters_of
+from preflight_analysis.model.problems import rename
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
-from preflight_analysis.rules.nearest import did_you_mean, is_slip
-from preflight_analysis.rules.places import getters_of
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _ALIKE = 0.6

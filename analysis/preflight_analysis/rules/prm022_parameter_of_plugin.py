@@ -18,12 +18,13 @@ from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context, Plugin, Plugins
+from preflight_analysis.model.nearest import is_slip
+from preflight_analysis.model.places import getters_of
+from preflight_analysis.model.plugin_params import KIND, LISTED, declared_below
+from preflight_analysis.model.problems import rename
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
-from preflight_analysis.rules.nearest import is_slip
-from preflight_analysis.rules.places import getters_of
-from preflight_analysis.rules.plugin_params import KIND, LISTED, declared_below
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.rule import Context, Plugin, Plugins, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 class Wrong(NamedTuple):

@@ -12,14 +12,15 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.parameters import grouped, namespace_of, renamed
+from preflight_analysis.model.params_in_sources import Asked, meant_in_one_file, meant_in_sources
+from preflight_analysis.model.places import related_node
+from preflight_analysis.model.problems import include_chain, replacement
+from preflight_analysis.model.unread_params import reports_params
+from preflight_analysis.model.well_known import is_for_tools, is_of_planning
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
-from preflight_analysis.rules.parameters import grouped, namespace_of, renamed
-from preflight_analysis.rules.params_in_sources import Asked, meant_in_one_file, meant_in_sources
-from preflight_analysis.rules.places import related_node
-from preflight_analysis.rules.problems import include_chain, replacement
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.unread_params import reports_params
-from preflight_analysis.rules.well_known import is_for_tools, is_of_planning
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.request import split_args
 

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.finding import SEVERITIES, Severity
@@ -131,6 +132,23 @@ def cases(rule: Rule) -> Iterator[tuple[Severity, str]]:
         if severity != usual:
             others.append((severity, when))
     yield from sorted(others, key=lambda case: -SEVERITIES.index(case[0]))
+
+
+def rule_json(rule: Rule) -> dict[str, Any]:
+    """The object of a rule in the contract."""
+    return {
+        "id": rule.id,
+        "name": rule.name,
+        "severity": rule.severity,
+        "what": rule.what,
+        "why": rule.why,
+        "example": rule.example,
+        "instead": rule.instead,
+        "fix": fix_availability(rule),
+        "since": rule.since,
+        "generations": list(rule.generations),
+        "references": list(rule.references),
+    }
 
 
 def write(folder: Path) -> None:

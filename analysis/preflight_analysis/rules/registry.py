@@ -29,9 +29,11 @@ from preflight_analysis.findings.instances import together, with_others
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
-from preflight_analysis.rules.catalogued import robots_by_catalogue
-from preflight_analysis.rules.problems import include_chain, numbered_problems
-from preflight_analysis.rules.rule import Context, Rule, in_root
+from preflight_analysis.model.catalogued import robots_by_catalogue
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain, numbered_problems
+from preflight_analysis.rules.loose_param_files import findings_of_loose_files
+from preflight_analysis.rules.rule import Rule, in_root
 
 _log = logging.getLogger(__name__)
 _GRAVE = ("error", "warning")
@@ -104,6 +106,12 @@ def found_in_branch(
     found, _ = _found(context, _of_branches(context.graph is not None, pause), failures)
     chains = _first_chains(context)
     return [_with_chain(each, chains.get(each.location.file, ())) for each in found]
+
+
+def found_in_loose_files(context: Context) -> Iterator[Finding]:
+    """What is wrong with parameter files of the package that no node of the launch gets. To read them takes time: it is
+    no part of what is found at a keystroke."""
+    yield from findings_of_loose_files(context)
 
 
 def _of_branches(needs_graph: bool, pause: Callable[[], object]) -> Iterator[Rule]:

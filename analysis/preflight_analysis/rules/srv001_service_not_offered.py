@@ -7,17 +7,19 @@ from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.channels import not_all_known
-from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_providers
+from preflight_analysis.model.channels import not_all_known
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.dangling import by_type, dangling_consumers, dangling_providers
+from preflight_analysis.model.idle_remaps import meant_endpoints
+from preflight_analysis.model.near_miss import OF_NEAR_MISSES, doubts_of, not_analysed
+from preflight_analysis.model.near_miss_search import near_misses
+from preflight_analysis.model.nearest import numbers_in, share_words
+from preflight_analysis.model.places import Verbs, related_endpoint, subject_of
+from preflight_analysis.model.remaps_elsewhere import BY_FILES, used_elsewhere
 from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
-from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import OF_NEAR_MISSES, doubts_of, not_analysed
 from preflight_analysis.rules.near_miss_fixes import fixes_in
-from preflight_analysis.rules.near_miss_search import near_misses
-from preflight_analysis.rules.nearest import numbers_in, share_words
-from preflight_analysis.rules.places import Verbs, related_endpoint, subject_of
-from preflight_analysis.rules.remaps_elsewhere import BY_FILES, elsewhere_finding, used_elsewhere
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
 _VERBS = Verbs("serves", "calls")

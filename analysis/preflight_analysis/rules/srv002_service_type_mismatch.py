@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import Verbs
 from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
-from preflight_analysis.rules.places import Verbs
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.rules.type_mismatch import OF_MISMATCHES, mismatches
 
 

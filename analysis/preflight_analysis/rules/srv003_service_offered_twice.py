@@ -8,11 +8,12 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import connection_location, endpoints_of, related_endpoint
+from preflight_analysis.model.problems import include_chain, quoted
 from preflight_analysis.rules.further_reading import MASTER, SERVICES, SERVICES_2
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.nodelets import manager_of
 
 _SAID = "{services} {number} servers ({node}{more}): {happens}"

@@ -7,17 +7,19 @@ from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.channels import not_all_known
-from preflight_analysis.rules.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
+from preflight_analysis.model.channels import not_all_known
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.dangling import by_type, dangling_consumers, dangling_topic_providers, lone_of_type
+from preflight_analysis.model.idle_remaps import meant_endpoints
+from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
+from preflight_analysis.model.near_miss_search import topic_near_misses
+from preflight_analysis.model.nearest import numbers_in
+from preflight_analysis.model.places import Verbs, related_endpoint, subject_of
+from preflight_analysis.model.remaps_elsewhere import BY_FILES, in_use_around, used_elsewhere
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
-from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
-from preflight_analysis.rules.near_miss_search import topic_near_misses
-from preflight_analysis.rules.nearest import numbers_in
-from preflight_analysis.rules.places import Verbs, related_endpoint, subject_of
-from preflight_analysis.rules.remaps_elsewhere import BY_FILES, elsewhere_finding, in_use_around, used_elsewhere
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.rules.unmatched import lone_finding, near_miss_finding, with_type
 
 _VERBS = Verbs("publishes", "subscribes to")

@@ -7,15 +7,17 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends, not_all_known
-from preflight_analysis.rules.dangling import dangling_topic_providers
+from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends, not_all_known
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.dangling import dangling_topic_providers
+from preflight_analysis.model.idle_remaps import meant_endpoints
+from preflight_analysis.model.near_miss_search import topic_near_misses
+from preflight_analysis.model.places import connection_location, endpoints_of
+from preflight_analysis.model.problems import include_chain, quoted
+from preflight_analysis.model.remaps_elsewhere import BY_FILES, used_elsewhere
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
-from preflight_analysis.rules.idle_remaps import meant_endpoints
-from preflight_analysis.rules.near_miss_search import topic_near_misses
-from preflight_analysis.rules.places import connection_location, endpoints_of
-from preflight_analysis.rules.problems import include_chain, quoted
-from preflight_analysis.rules.remaps_elsewhere import BY_FILES, elsewhere_finding, used_elsewhere
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding
+from preflight_analysis.rules.rule import Rule
 
 _LONE = "{topics} {have} no subscriber in this launch (publisher: {node})"
 

@@ -12,13 +12,14 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.idle_remaps import BY_CATALOGUE, BY_SOURCE, IdleRemap, idle_remaps
+from preflight_analysis.model.names_in_sources import writes_name
+from preflight_analysis.model.places import endpoints_of, related_endpoint
+from preflight_analysis.model.problems import fix, include_chain
+from preflight_analysis.model.well_known import IMAGE_TRANSPORTS
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, ROSLAUNCH_REMAP
-from preflight_analysis.rules.idle_remaps import BY_CATALOGUE, BY_SOURCE, IdleRemap, idle_remaps
-from preflight_analysis.rules.names_in_sources import writes_name
-from preflight_analysis.rules.places import endpoints_of, related_endpoint
-from preflight_analysis.rules.problems import fix, include_chain
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import IMAGE_TRANSPORTS
+from preflight_analysis.rules.rule import Rule
 
 _DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "serves", "client": "calls"}
 

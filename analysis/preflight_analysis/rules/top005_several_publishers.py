@@ -13,12 +13,13 @@ from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import connection_location, endpoints_of, related_endpoint, subject_of
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.well_known import is_transform
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import is_transform
+from preflight_analysis.rules.rule import Rule
 
 _STATE = frozenset({"nav_msgs/OccupancyGrid", "nav_msgs/MapMetaData", "sensor_msgs/CameraInfo"})
 """Types of which a latched message is the state of the world: there is one."""

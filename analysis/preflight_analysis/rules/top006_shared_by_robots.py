@@ -8,12 +8,13 @@ from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, Connection
-from preflight_analysis.rules.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.places import connection_location, endpoints_of, related_endpoint, subject_of
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.well_known import is_transform, may_dangle
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.places import connection_location, endpoints_of, related_endpoint, subject_of
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import is_transform, may_dangle
+from preflight_analysis.rules.rule import Rule
 
 _Kind = tuple[str, str]
 """Package and executable of a node."""

@@ -12,11 +12,12 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import is_slip, nearest_typo
+from preflight_analysis.model.places import argument_location, related_endpoint
+from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.rules.further_reading import ROSBAG, ROSBAG2
-from preflight_analysis.rules.nearest import is_slip, nearest_typo
-from preflight_analysis.rules.places import argument_location, related_endpoint
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.request import split_args
 
 _SAID = "recorded topic '{name}' has no publisher in this launch; did you mean '{near}', published by {node}?"

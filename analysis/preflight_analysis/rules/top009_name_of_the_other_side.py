@@ -12,10 +12,11 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param, Remap
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.parameters import grouped
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
-from preflight_analysis.rules.parameters import grouped
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _WORD = re.compile(r"[A-Za-z]+|\d+")
 _SIDES = (("left", "right"), ("front", "rear"), ("front", "back"), ("upper", "lower"), ("top", "bottom"))

@@ -15,22 +15,23 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
-from preflight_analysis.rules.asked_variables import lack_of_asked
-from preflight_analysis.rules.elsewhere import absent_top_said, lacks_recording, paths_said
-from preflight_analysis.rules.files import is_template
-from preflight_analysis.rules.further_reading import RUNS, SECURITY
-from preflight_analysis.rules.installed import (
+from preflight_analysis.model.asked_variables import lack_of_asked
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.elsewhere import absent_top_said, lacks_recording, paths_said
+from preflight_analysis.model.files import is_template
+from preflight_analysis.model.installed import (
     lack_of_made,
     lack_of_own_file,
     lack_of_python,
     lack_of_submodule_said,
     lack_said,
 )
-from preflight_analysis.rules.missing_params import missing_params
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.python_imports import absent_module
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.well_known import describes_robot, is_for_tools
+from preflight_analysis.model.missing_params import missing_params
+from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.python_imports import absent_module
+from preflight_analysis.model.well_known import describes_robot, is_for_tools
+from preflight_analysis.rules.further_reading import RUNS, SECURITY
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 from preflight_analysis.tracing.request import split_args
 

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import RUNS
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

@@ -7,8 +7,9 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
 from preflight_analysis.rules.further_reading import ANNOTATIONS, RUNS, SECURITY
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface
 
 

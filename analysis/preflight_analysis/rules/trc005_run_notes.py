@@ -6,10 +6,11 @@ from itertools import compress
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.installed import lack_of_module
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import RUNS, SECURITY
-from preflight_analysis.rules.installed import lack_of_module
-from preflight_analysis.rules.problems import include_chain
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface
 
 _NEEDS = "{node} needs {what} '{name}', which is not installed; a stand-in replaces it"

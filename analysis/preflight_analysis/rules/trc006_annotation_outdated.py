@@ -9,10 +9,11 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.outdated import Outdated, bring_up_to_date, compare, remove_item
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import fix, include_chain, replacement
 from preflight_analysis.rules.further_reading import ANNOTATIONS, RUNS
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import fix, include_chain, replacement
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import DOES, Endpoint, Interface, ParamUse
 
 _CONFLICT = "annotation of '{name}' has another type than the run of {node}: {type}"

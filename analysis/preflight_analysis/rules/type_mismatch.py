@@ -12,12 +12,13 @@ from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
-from preflight_analysis.rules.channels import OF_ENDS, channels_of, doubts_of_ends, of_all_kinds
-from preflight_analysis.rules.controllers import controllers_of
-from preflight_analysis.rules.interface_files import lacks_type
-from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
-from preflight_analysis.rules.problems import include_chain, rename
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.model.channels import OF_ENDS, channels_of, doubts_of_ends, of_all_kinds
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import controllers_of
+from preflight_analysis.model.interface_files import lacks_type
+from preflight_analysis.model.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
+from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.rules.rule import Rule
 
 _MESSAGES = "_msgs"
 _SAID = "type mismatch on '{name}': {node} {provides} {type}, {other} {consumes} {other_type}{difference}"

@@ -9,10 +9,10 @@ from preflight_analysis.findings.claim import Subject, Text
 from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.graph.model import Connection
-from preflight_analysis.rules.channels import doubts_of_ends
-from preflight_analysis.rules.near_miss import NearMiss
-from preflight_analysis.rules.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
-from preflight_analysis.rules.problems import include_chain
+from preflight_analysis.model.channels import doubts_of_ends
+from preflight_analysis.model.near_miss import NearMiss
+from preflight_analysis.model.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.rule import Rule
 
 

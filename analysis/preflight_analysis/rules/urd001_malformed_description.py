@@ -8,13 +8,14 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import fix, include_chain, shown
+from preflight_analysis.model.syntax import Tags
 from preflight_analysis.robot.model import Malformed
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of, semantics_of
 from preflight_analysis.robot.sources import files_of
 from preflight_analysis.rules.further_reading import URDF, XACRO
-from preflight_analysis.rules.problems import fix, include_chain, shown
-from preflight_analysis.rules.rule import Context, Rule
-from preflight_analysis.rules.syntax import Tags
+from preflight_analysis.rules.rule import Rule
 
 _KINDS = ("robot", "sdf", "{http://www.collada.org/2008/03/COLLADASchema}COLLADA", "COLLADA")
 """Tags of roots that robot_state_publisher takes; SDF and COLLADA by plugins (sdformat_urdf, collada_parser)."""

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.robots import robots, written
 from preflight_analysis.rules.further_reading import URDF_JOINT
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.robots import robots, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

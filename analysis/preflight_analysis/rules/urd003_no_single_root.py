@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import quoted
+from preflight_analysis.model.robots import robots, written
 from preflight_analysis.rules.further_reading import URDF
-from preflight_analysis.rules.problems import quoted
-from preflight_analysis.rules.robots import robots, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _SHOWN = 3
 

@@ -8,11 +8,12 @@ from typing import Literal
 
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.robots import robots_in_part, written
 from preflight_analysis.robot.of_launch import Robot
 from preflight_analysis.robot.sources import places_of
 from preflight_analysis.rules.further_reading import URDF
-from preflight_analysis.rules.robots import robots_in_part, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:

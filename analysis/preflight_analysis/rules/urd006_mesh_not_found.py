@@ -11,12 +11,13 @@ from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.rules.files import nearest_file
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.files import nearest_file
+from preflight_analysis.model.installed import lack_of_made, near_package
+from preflight_analysis.model.problems import rename, shown
+from preflight_analysis.model.robots import robots_in_part, written
 from preflight_analysis.rules.further_reading import URDF_LINK
-from preflight_analysis.rules.installed import lack_of_made, near_package
-from preflight_analysis.rules.problems import rename, shown
-from preflight_analysis.rules.robots import robots_in_part, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _PACKAGE = "package://"
 _FILE = "file://"

@@ -12,11 +12,12 @@ from collections.abc import Iterator
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.robots import LENIENT_ROS2_CONTROL, robots, written
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.robots import LENIENT_ROS2_CONTROL, robots, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _MOVING = frozenset({"position", "velocity", "effort", "acceleration"})
 """The interfaces of a joint that moves. One with others alone is a name for something else of the hardware."""

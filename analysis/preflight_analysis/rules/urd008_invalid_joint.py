@@ -11,11 +11,12 @@ from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import fix
+from preflight_analysis.model.robots import robots, written
 from preflight_analysis.rules.further_reading import URDF_JOINT
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import fix
-from preflight_analysis.rules.robots import robots, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _LIMITED = ("revolute", "prismatic")

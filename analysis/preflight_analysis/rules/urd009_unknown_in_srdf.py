@@ -11,13 +11,14 @@ from typing import Literal
 
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, nearest
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.robots import written
 from preflight_analysis.robot.of_launch import SemanticRobot, given_robot, semantics_of
 from preflight_analysis.robot.semantic import Named
 from preflight_analysis.rules.further_reading import MOVEIT_SRDF
-from preflight_analysis.rules.nearest import did_you_mean, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.robots import written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _HARMLESS = frozenset(
     {"disable_collisions", "enable_collisions", "disable_default_collisions", "link_sphere_approximation"}

@@ -10,11 +10,12 @@ from collections.abc import Iterator
 
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.problems import rename
+from preflight_analysis.model.robots import robots, written
 from preflight_analysis.rules.further_reading import URDF_GAZEBO
-from preflight_analysis.rules.nearest import did_you_mean, is_slip, nearest
-from preflight_analysis.rules.problems import rename
-from preflight_analysis.rules.robots import robots, written
-from preflight_analysis.rules.rule import Context, Rule
+from preflight_analysis.rules.rule import Rule
 
 _MANY = 3
 """So many further ones that are like none are not there for one reason."""

@@ -14,7 +14,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.findings.report import positions
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.rules.places import connection_location
+from preflight_analysis.model.places import connection_location
 from preflight_analysis.tracing.interface import Interface, Role
 
 Kind = Literal["topic", "service", "action"]

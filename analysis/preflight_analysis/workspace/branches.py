@@ -32,7 +32,7 @@ from preflight_analysis.findings.policy import doubted
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.launch.python_actions import OF_CODE
-from preflight_analysis.rules.syntax import CONDITIONS
+from preflight_analysis.model.syntax import CONDITIONS
 from preflight_analysis.workspace.index import Root
 
 MAX_WHAT_IFS = 24

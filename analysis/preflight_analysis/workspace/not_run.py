@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.rules.nearest import did_you_mean, nearest_class
-from preflight_analysis.rules.rule import ExecutableNames
+from preflight_analysis.model.context import ExecutableNames
+from preflight_analysis.model.nearest import did_you_mean, nearest_class
 from preflight_analysis.tracing.interface import Interface, Outcome
 from preflight_analysis.workspace.components import Containers
 

@@ -9,7 +9,7 @@ from dataclasses import field
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.incremental.query import Input
-from preflight_analysis.rules.rule import ExecutableNames
+from preflight_analysis.model.context import ExecutableNames
 from preflight_analysis.tracing.interface import PENDING, Interface
 from preflight_analysis.workspace.components import Containers
 from preflight_analysis.workspace.index import Root

@@ -39,6 +39,8 @@ from preflight_analysis.incremental.database import Cancelled, Database
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.model.behavior_trees import trees_of
+from preflight_analysis.model.context import Context
 from preflight_analysis.nodl.catalogued import from_catalogue
 from preflight_analysis.nodl.configured import with_configured
 from preflight_analysis.nodl.installed import NodlFiles
@@ -48,10 +50,7 @@ from preflight_analysis.nodl.named_endpoints import with_named_endpoints
 from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
 from preflight_analysis.robot.sources import documents_of
-from preflight_analysis.rules.behavior_trees import trees_of
-from preflight_analysis.rules.loose_param_files import findings_of_loose_files
-from preflight_analysis.rules.registry import found_in_branch, run_rules
-from preflight_analysis.rules.rule import Context
+from preflight_analysis.rules.registry import found_in_branch, found_in_loose_files, run_rules
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.fallback import Fallback
 from preflight_analysis.tracing import preload
@@ -379,7 +378,7 @@ class Workspace:
             return found
 
         found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask, ask_params)
-        found = found.with_others(findings_of_loose_files(analysis.context), self.sources)
+        found = found.with_others(found_in_loose_files(analysis.context), self.sources)
         return replace(found, failures=tuple(failures))
 
     def with_interfaces(

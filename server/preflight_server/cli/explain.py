@@ -14,6 +14,7 @@ from preflight_analysis.findings.fingerprint import fingerprints
 from preflight_analysis.findings.policy import EFFECTS
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, finding_lines, place, to_json
+from preflight_analysis.rules.reference import rule_json
 from preflight_analysis.rules.registry import all_rules
 
 from preflight_server.cli import options
@@ -22,7 +23,7 @@ from preflight_server.cli.errors import BROKEN, CLEAN, CannotDoError
 from preflight_server.cli.launches import launches
 from preflight_server.cli.output import colours, links, print_json, print_text, say_failures
 from preflight_server.cli.paths import with_paths
-from preflight_server.cli.rules import rule_ids, rule_json, rule_page, rules_named
+from preflight_server.cli.rules import rule_ids, rule_page, rules_named
 
 DESCRIPTION = """Explain a rule by its id or name, or one finding. A finding is FILE:LINE or FILE:LINE:COLUMN as
 `check` prints it, or its fingerprint in sarif, gitlab or a baseline. For a finding the command analyses the launches as

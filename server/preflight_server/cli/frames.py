@@ -11,8 +11,8 @@ from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import place
 from preflight_analysis.frames.forest import branches, forest
 from preflight_analysis.frames.model import Frames
+from preflight_analysis.model.frames import frames_of, place_of_edge, place_of_use
 from preflight_analysis.queries.frames_json import frames_json
-from preflight_analysis.rules.frames import frames_of, place_of_edge, place_of_use
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
-from preflight_analysis.rules.fix_availability import fix_availability
-from preflight_analysis.rules.reference import page
+from preflight_analysis.rules.reference import page, rule_json
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.rules.rule import Rule
 
@@ -53,23 +51,6 @@ def run(args: argparse.Namespace) -> int:
     else:
         print_text("".join(f"{rule.id}  {rule.severity:<7}  {rule.name}\n" for rule in rules))
     return CLEAN
-
-
-def rule_json(rule: Rule) -> dict[str, Any]:
-    """The object of a rule in the contract."""
-    return {
-        "id": rule.id,
-        "name": rule.name,
-        "severity": rule.severity,
-        "what": rule.what,
-        "why": rule.why,
-        "example": rule.example,
-        "instead": rule.instead,
-        "fix": fix_availability(rule),
-        "since": rule.since,
-        "generations": list(rule.generations),
-        "references": list(rule.references),
-    }
 
 
 def rule_page(rule: Rule) -> str:

@@ -1,0 +1,129 @@
+"""What may be looked at to answer a question about a launch."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Protocol
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.reading import Unreadable
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.edits.writer import Writer, writer_of
+from preflight_analysis.environment.build import Made
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.evaluation.files import Executables
+from preflight_analysis.evaluation.meanings import KnownMeanings
+from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.graph.model import Graph
+from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.incremental.once import Once
+from preflight_analysis.knowledge.model import Knowledge
+from preflight_analysis.launch.model import LaunchFile
+
+
+class ExecutableNames(Executables, Protocol):
+    """What an `environment.executables.ExecutableIndex` offers to rules."""
+
+    def names(self, package: str) -> tuple[str, ...]:
+        """All that a node of this package could name as its type, sorted; empty for an unknown package."""
+
+    def is_build_target(self, package: str, name: str) -> bool:
+        """Whether building the package will make the executable."""
+
+    def is_library_target(self, package: str, name: str) -> bool:
+        """Whether building the package will make the library."""
+
+    def names_are_all(self, package: str) -> bool:
+        """Whether the package has no others than `names`, as far as its build files can be understood."""
+
+    def components(self, package: str) -> tuple[str, ...]:
+        """The classes that a container can load of the package, sorted; empty where nothing is known of them."""
+
+    def made_of(self, package: str, name: str) -> Made | None:
+        """The file in the source of the package that the executable is made of, once it is built or installed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plugin:
+    """A plugin that nodes load by pluginlib. `params` has its parameters by their names below its own, with defaults:
+    `{sources}.topic` stands for `front.topic` where the parameter `sources` has `front` among its items, `../speed` is
+    one of what loads it. `elsewhere` are those of other versions, `evidence` says where that is from, `of_workspace`
+    whether that is the source of the workspace."""
+
+    name: str
+    params: Mapping[str, object]
+    elsewhere: frozenset[str]
+    evidence: str
+    of_workspace: bool = False
+
+
+class Plugins(Protocol):
+    """What a `nodl.plugins.PluginIndex` offers to rules."""
+
+    def plugin(self, name: str) -> Plugin | None:
+        """The plugin `package::Name`, also written `package/Name`; None where nothing is known of it."""
+
+    def names(self, package: str) -> tuple[str, ...]:
+        """The plugins of a package that is not in the workspace; none where nothing is known of it."""
+
+    def exported(self, package: str) -> tuple[str, ...]:
+        """The plugins that a package of the workspace has, by its own descriptions; none of any other package."""
+
+
+@dataclass(frozen=True, slots=True)
+class Context(Once):
+    """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
+
+    `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
+    None when they were. `executables` lists those of a package, `plugins` has what is known of plugins, `disk` files
+    that the tree does not know. `settings_problems` is what is wrong with the workspace's settings file, and where.
+    """
+
+    root: str
+    tree: LaunchTree
+    documents: Mapping[str, Document]
+    launch_files: Mapping[str, LaunchFile]
+    environment: Environment
+    executables: ExecutableNames
+    plugins: Plugins
+    disk: Disk
+    graph: Graph | None = None
+    why_not_run: str | None = None
+    settings_problems: tuple[tuple[str, Location], ...] = ()
+    own_knowledge: tuple[Knowledge, ...] = ()
+    """What the user's files say of parameters."""
+    of_branches: tuple[Finding, ...] = ()
+    """What was found in tags that the tree leaves out (`workspace/branches.py`)."""
+    kept: Kept = field(default_factory=Kept, repr=False, compare=False)
+    """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
+
+    @property
+    def known(self) -> KnownMeanings:
+        """What is known of the parameters of nodes and plugins."""
+        return KnownMeanings(self.own_knowledge, self.environment.distro, self.tree.generation)
+
+    def location(self, path: str, span: Span) -> Location:
+        """The location of a span of a document."""
+        document = self.document(path)
+        return document.location(span) if document is not None else Location.of_file(path)
+
+    def text(self, location: Location) -> str:
+        """What stands at a place; nothing where its file is not known."""
+        document = self.document(location.file)
+        return document.text[location.span.start : location.span.end] if document is not None else ""
+
+    def document(self, path: str) -> Document | None:
+        """A text; None where it is not known."""
+        document: Document | Unreadable | None = self.documents.get(path)
+        if document is None:
+            document = self.disk.text(path)
+        return document if isinstance(document, Document) else None
+
+    def writer(self, path: str) -> Writer | None:
+        """The writer of a file; None where its text is not known."""
+        document = self.document(path)
+        return document.once(writer_of) if document is not None else None

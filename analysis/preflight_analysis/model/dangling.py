@@ -1,0 +1,95 @@
+"""Ends of topics, services and actions that nobody is at the other end of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain, islice
+
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection
+from preflight_analysis.model.channels import channels_of, of_all_kinds
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.well_known import IMAGE_TRANSPORTS, may_dangle
+
+GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
+"""Types that say nothing of what is carried: that two ends have the same one is no evidence."""
+
+
+def dangling_consumers(context: Context, kind: ChannelKind) -> tuple[Connection, ...]:
+    """Subscribers or clients without any other end, but for those that may well be served from outside."""
+    return context.once(all_dangling_consumers)[kind]
+
+
+def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Connection, ...]]:
+    """Those of each kind; ask through `context.once`."""
+    lone = of_all_kinds(context, _lone_consumers, channels_of(context))
+    return {kind: _not_of_unknown(context, kind, chain.from_iterable(lone[kind])) for kind in lone}
+
+
+def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
+    """Publishers or servers without any other end, but for those that may well be used from outside."""
+    channels = context.graph.channels(kind) if context.graph is not None else {}
+    lone = context.once(_all_lone_providers)[kind]
+    transported = {name.rpartition("/")[0] for name in channels if name.endswith(IMAGE_TRANSPORTS)}
+    if transported:
+        found = zip(channels, lone, strict=True)
+        lone = tuple(() if name in transported and _read_otherwise(name, channels) else each for name, each in found)
+    return [*_not_of_unknown(context, kind, chain.from_iterable(lone))]
+
+
+def _not_of_unknown(context: Context, kind: ChannelKind, lone: Iterable[Connection]) -> tuple[Connection, ...]:
+    """Without those whose name is below that of a node of which nothing is known: it is at the other end."""
+    graph = context.graph
+    if graph is None:
+        return tuple(lone)
+    return tuple(each for each in lone if not graph.is_of_unknown(kind, each.name))
+
+
+def dangling_topic_providers(context: Context) -> list[Connection]:
+    """Those of topics, for which several rules ask: do so through `context.once`."""
+    return dangling_providers(context, "topics")
+
+
+_Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
+"""The ends of each channel of a kind, in the order of the graph."""
+
+
+def _all_lone_providers(context: Context) -> _Lone:
+    return of_all_kinds(context, _lone_providers, channels_of(context))
+
+
+def _lone_consumers(channel: Channel) -> tuple[Connection, ...]:
+    if channel.providers or channel.external or channel.provided_apart:
+        return ()  # that its providers are in another domain is said by itself
+    return tuple(c for c in channel.consumers if c.action is None and not may_dangle(channel.name, c.endpoint))
+
+
+def _lone_providers(channel: Channel) -> tuple[Connection, ...]:
+    if channel.consumers or channel.external or channel.consumed_apart:
+        return ()
+    return tuple(c for c in channel.providers if c.action is None and not may_dangle(channel.name, c.endpoint))
+
+
+def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
+    """Whether an image is read in another transport of the same publisher."""
+    others = (channels.get(name + transport) for transport in IMAGE_TRANSPORTS)
+    return any(channel.consumers and channel.providers for channel in others if channel is not None)
+
+
+def by_type(
+    context: Context, kind: ChannelKind, connections: Iterable[Connection]
+) -> Mapping[str | None, tuple[Connection, ...]]:
+    """The ends, all of a kind that dangle, by their types."""
+    return context.kept.grouped(_type, kind, connections)
+
+
+def _type(connection: Connection) -> str | None:
+    return connection.endpoint.type
+
+
+def lone_of_type(consumer: Connection, dangling: Iterable[Connection]) -> Connection | None:
+    """The only one of the dangling providers of the consumer's type, if there is exactly one and that is specific."""
+    type_ = consumer.endpoint.type
+    if type_ is None or type_ == "*" or type_.startswith(GENERIC_PACKAGES):
+        return None
+    found = list(islice((c for c in dangling if c.node is not consumer.node), 2))
+    return found[0] if len(found) == 1 else None

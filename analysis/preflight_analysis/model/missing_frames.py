@@ -1,0 +1,116 @@
+"""Frames that a node asks for and nothing is known to publish: what may be meant."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from preflight_analysis.frames.edges import is_state_publisher, prefix_of
+from preflight_analysis.frames.model import Edge, Frames, Mention, Use
+from preflight_analysis.frames.uses import OF_SENSOR
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.frames import frames_of
+from preflight_analysis.model.nearest import is_slip, nearest
+
+_LAST_WORDS = re.compile(r"(?:_?(?:link|frame|optical|sensor|id))+\Z")
+
+
+_BASES = frozenset(("base", "base_footprint", "base_link"))
+"""Frames of REP 105 and REP 120 that a robot description has."""
+
+
+class MissingFrame(NamedTuple):
+    """A frame that is asked for where nothing publishes it. `elsewhere` has it with or without a prefix, or in another
+    namespace of `/tf`; `near` is a frame of which it is a slip; `alike`, of a sensor, the only one with the same
+    name but for its last words (`laser_frame`, `laser_link`); `root`, of the base of a robot, the one that its
+    description has."""
+
+    use: Use
+    elsewhere: Edge | None
+    near: str | None
+    alike: str | None = None
+    root: str | None = None
+
+
+def missing_frames(context: Context) -> tuple[MissingFrame, ...]:
+    """Each use once; the same objects each time."""
+    return context.once(_missing)
+
+
+def _missing(context: Context) -> tuple[MissingFrame, ...]:
+    frames = frames_of(context)
+    if not frames.edges:
+        return ()
+    prefixes = _prefixes(context)
+    found: dict[tuple[str, int, str], MissingFrame] = {}
+    for use in frames.uses:
+        if not (use.looked_up or use.of_sensor) or use.frame in frames.names(use.space):
+            continue
+        elsewhere = next(_elsewhere(frames, use, prefixes), None)
+        near = _near(frames, use) if elsewhere is None else None
+        alike = _alike(frames, use) if use.of_sensor and elsewhere is None and near is None else None
+        root = _root(frames, use) if elsewhere is None and near is None else None
+        found.setdefault((use.frame, id(use.node), use.what), MissingFrame(use, elsewhere, near, alike, root))
+    return tuple(found.values())
+
+
+def mentioned_slips(context: Context) -> Iterator[tuple[Mention, str]]:
+    """The frames of sensors in the parameters of nodes of which nothing is known, that are a slip of a link or of its
+    like, each with that. Who broadcasts the frame itself may call it so."""
+    frames = frames_of(context)
+    counts = Counter(mention.frame for mention in frames.mentions)
+    for mention in frames.mentions:
+        name = mention.parameter.rpartition(".")[2]
+        names = frames.names(mention.space)
+        # What two nodes name is no slip of the keyboard.
+        if name not in OF_SENSOR or mention.frame in names or counts[mention.frame] > 1:
+            continue
+        links = {edge.child for edge in frames.edges if edge.how == "urdf" and edge.space == mention.space}
+        near = nearest(mention.frame, links)
+        if near is not None and is_slip(mention.frame, near):
+            yield mention, near
+
+
+def _prefixes(context: Context) -> frozenset[str]:
+    tree = context.tree
+    prefixes = (prefix_of(node, tree) for node in tree.nodes if is_state_publisher(node))
+    return frozenset(filter(None, prefixes))
+
+
+def _elsewhere(frames: Frames, use: Use, prefixes: frozenset[str]) -> Iterator[Edge]:
+    """The transforms that have the frame under another prefix, or elsewhere."""
+    own = {f"{prefix}{use.frame}" for prefix in prefixes}
+    # Without the prefix; a whole namespace may be one.
+    own |= {use.frame.removeprefix(prefix) for prefix in prefixes} | {use.frame.partition("/")[2]}
+    # A prefix stands before the name as it is given.
+    own |= {f"{prefix}{name}" for prefix in prefixes if (name := use.frame.removeprefix(f"{prefix}/")) != use.frame}
+    for edge in frames.edges:
+        ends = (edge.child, edge.parent)
+        if edge.sure and ((edge.space == use.space and not own.isdisjoint(ends)) or use.frame in ends):
+            yield edge
+
+
+def _near(frames: Frames, use: Use) -> str | None:
+    names = frames.names(use.space)
+    near = nearest(use.frame, names)
+    return near if near is not None and is_slip(use.frame, near) else None
+
+
+def _root(frames: Frames, use: Use) -> str | None:
+    """The root of the robot description, where a parameter asks for another frame of the robot's base."""
+    root = frames.robot_root(use.space)
+    return root if root is not None and use.looked_up and not use.call and is_base_beside(use.frame, root) else None
+
+
+def is_base_beside(frame: str, root: str) -> bool:
+    """Whether a frame is the base of a robot by its name, with the prefix that the root of the description has."""
+    prefix, _, name = frame.rpartition("/")
+    return name in _BASES and prefix == root.rpartition("/")[0]
+
+
+def _alike(frames: Frames, use: Use) -> str | None:
+    stem = _LAST_WORDS.sub("", use.frame.lower())
+    found = [each for each in frames.names(use.space) if stem and _LAST_WORDS.sub("", each.lower()) == stem]
+    return found[0] if len(found) == 1 else None

@@ -1,0 +1,75 @@
+"""The parameters of a launch by namespace: they are many, loaded from YAML by the hundred, and namespaces are few."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import compress
+from operator import is_not
+
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.tree import Param
+from preflight_analysis.findings.finding import Fix
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.problems import replacement
+from preflight_analysis.tracing.interface import ParamUse
+
+OF_ALL_NODES = {
+    "use_sim_time": ParamUse("~use_sim_time", "get", False, has_default=True, builtin=True),
+    "start_type_description_service": ParamUse(
+        "~start_type_description_service", "get", True, has_default=True, builtin=True
+    ),
+}
+"""What the client libraries of ROS 2 declare for each node, whatever is known of it; the second since Jazzy."""
+
+
+def namespaces(context: Context) -> frozenset[str]:
+    """Those in which parameters are. Ask through `context.once`."""
+    return frozenset(context.once(each_namespace))
+
+
+def namespaces_around(context: Context) -> frozenset[str]:
+    """Those in which parameters are, and all that hold these but the root. Ask through `context.once`."""
+    return frozenset(names.with_namespaces(context.once(namespaces)))
+
+
+def each_namespace(context: Context) -> tuple[str, ...]:
+    """That of each parameter. Ask through `context.once`."""
+    return context.kept.each(namespace_of, context.tree.all_params)
+
+
+def changed_names(before: Sequence[Param], params: Sequence[Param]) -> set[str]:
+    """The names of the parameters that are other objects than before, or that came or went."""
+    if len(before) == len(params):
+        pairs = compress(zip(before, params, strict=True), map(is_not, before, params))
+        return {param.name for pair in pairs for param in pair}
+    old, new = {id(param): param for param in before}, {id(param): param for param in params}
+    return {param.name for param in (*(old[at] for at in old.keys() - new), *(new[at] for at in new.keys() - old))}
+
+
+def grouped(params: Iterable[Param]) -> dict[str, list[Param]]:
+    """These parameters by namespace."""
+    groups: dict[str, list[Param]] = {}
+    for param in params:
+        groups.setdefault(namespace_of(param), []).append(param)
+    return groups
+
+
+def namespace_of(param: Param) -> str:
+    """`/a/b` of `/a/b/c`, the empty text of `/c`."""
+    return param.name.rpartition("/")[0]
+
+
+def renamed(context: Context, param: Param, name: str) -> tuple[Fix, ...]:
+    """A fix where the name is written as such: in an attribute as far as the two names differ, or as a YAML key."""
+    location = param.name_location
+    if location is None:
+        return ()
+    written = context.text(location)
+    mark = "~" if written.startswith("~") else ""
+    stem = written[len(mark) :]
+    if stem.startswith("/"):
+        new = name if stem == param.name else None
+    else:
+        prefix = param.name.removesuffix(stem)
+        new = name[len(prefix) :] if param.name.endswith("/" + stem) and name.startswith(prefix) else None
+    return replacement(context, location, mark + new, f"Rename '{written}' to '{mark}{new}'") if new else ()

@@ -1,0 +1,161 @@
+"""What the files around a launch call topics and services: launch files by their remaps, and sources of nodes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+
+from rapidfuzz import process
+from rapidfuzz.distance import OSA
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation import names
+from preflight_analysis.findings.doubt import Reason
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.dangling import dangling_consumers, dangling_topic_providers
+from preflight_analysis.model.names_in_sources import meant_in_sources
+from preflight_analysis.model.nearest import folded, is_slip_of_words, likeness
+from preflight_analysis.model.siblings import slips_beside, without_slash
+from preflight_analysis.model.written_elsewhere import around
+
+_TARGETS = (
+    re.compile(r"""<remap\b[^<>]*?\bto\s*=\s*["']([\w/~]+)["']"""),
+    re.compile(r"""\(\s*["'][\w/~]+["']\s*,\s*["']([\w/~]+)["']\s*,?\s*\)"""),
+    re.compile(r"""^[ \t]*(?:-[ \t]*)?to[ \t]*:[ \t]*["']?([\w/~]+)["']?[ \t]*$""", re.MULTILINE),
+)
+"""In XML, Python and YAML; only names that are written out."""
+_IN_USE = (
+    re.compile(r"""<remap\b[^<>]*?\bfrom\s*=\s*["'](/[\w/]+)["']"""),
+    re.compile(r"""<remap\b[^<>]*?\bto\s*=\s*["'](/[\w/]+)["']"""),
+    re.compile(r"""<(?:param|arg)\b[^<>]*?\b(?:value|default)\s*=\s*["'](/[\w/]+)["']"""),
+)
+"""Absolute names that tags of ROS 1 and 2 give or take, or that parameters hand to nodes."""
+_BRIDGED = (re.compile(r"""["'\s](/?\w[\w/]*)@\w+/[\w/]+[@\[\]]"""),)
+"""Topics in the arguments of a bridge to a simulator."""
+_SIMULATED = (
+    re.compile(r""">\s*(/?\w[\w/]*)\s*</\w*[tT]opic(?:_?[nN]ame)?>"""),
+    re.compile(r""":=\s*(/?\w[\w/]*)\s*</(?:remapping|argument)>"""),
+)
+"""Topics that plugins of simulators are given."""
+_ROBOTS_AND_WORLDS = (".xacro", ".urdf", ".sdf", ".world", ".gazebo")
+_ENOUGH = 2
+"""Files that have to agree on a name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Elsewhere:
+    """How the files around write a name that this launch has otherwise, and how many of them do."""
+
+    name: str
+    files: int
+    in_source: bool = False
+    """Whether it is the sources of nodes that have the name, and not launch files."""
+    beside: str | None = None
+    """The name that the same node has in this launch and that says so, where no other file does."""
+
+
+def in_use_around(context: Context, connections: Sequence[Connection]) -> list[bool]:
+    """Whether several launch files around write the name of each end, or a simulator makes it in some launch: it is no
+    slip, whoever is to be at its other end."""
+    if not connections:
+        return []
+    known, bridged = around(context, _IN_USE), around(context, _BRIDGED)
+    simulated = {
+        name.strip("/") for found in (bridged, around(context, _SIMULATED, _ROBOTS_AND_WORLDS)) for name in found
+    }
+    return [
+        known.get(connection.name, 0) >= _ENOUGH or connection.name.strip("/") in simulated
+        for connection in connections
+    ]
+
+
+def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
+    """For ends of topics and services without another one, by id, the name that their remaps were most likely to give:
+    theirs is a slip of it, several launch files around have it, and no other one has theirs. Likewise, of consumers
+    without a remap, what the sources of the workspace offer. Ask through `context.once`."""
+    consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
+    partial = {path for path, launch_file in context.launch_files.items() if launch_file.partial}
+    read = [each for each in consumers if each.node.location.file not in partial]  # where each remap is known
+    slips = [each for each in read if meant_in_sources(context, each) is not None]
+    slips = [each for each, in_use in zip(slips, in_use_around(context, slips), strict=True) if not in_use]
+    by_source = {
+        id(each): Elsewhere(*meant, in_source=True)
+        for each in slips
+        if (meant := meant_in_sources(context, each)) is not None
+    }
+    publishers = context.once(dangling_topic_providers)
+    lone = [each for each in (*consumers, *publishers) if each.remap is not None]
+    found = zip(lone, context.kept.each(_used, lone, _Targets(around(context, _TARGETS))), strict=True) if lone else ()
+    by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
+    return {**by_launches, **by_source, **_beside(context, lone, publishers)}
+
+
+def _beside(context: Context, lone: Sequence[Connection], publishers: Sequence[Connection]) -> Mapping[int, Elsewhere]:
+    """Likewise by what the same node is given beside."""
+    topics = context.graph.topics if context.graph is not None else {}
+    slips = {found: Elsewhere(name, 0, beside=name) for found, name in slips_beside(publishers, topics).items()}
+    slashes = zip(lone, context.kept.each(without_slash, lone), strict=True)
+    lacking = {id(each): Elsewhere(found[0], 0, beside=found[1]) for each, found in slashes if found is not None}
+    return {**slips, **lacking}
+
+
+@dataclass(frozen=True)
+class _Targets:
+    """The targets of remaps as written, with how many files have each."""
+
+    counts: Mapping[str, int]
+
+    @cached_property
+    def _by_beginning(self) -> Mapping[str, Mapping[str, int]]:
+        """How often each is written, by what a node puts before it: nothing for a global name, `~` for a private one,
+        and the namespace for one that is `relative`."""
+        found: dict[str, dict[str, int]] = {"global": {}, "private": {}, "relative": {}}
+        for written, count in self.counts.items():
+            kind = "global" if names.is_global(written) else "private" if names.is_private(written) else "relative"
+            name = names.canonicalize(f"/{written.removeprefix('~')}")
+            found[kind][name] = max(count, found[kind].get(name, 0))
+        return found
+
+    @cached_property
+    def _several(self) -> tuple[str, ...]:
+        return tuple(written for written, count in self.counts.items() if count >= _ENOUGH)
+
+    def has(self, name: str, node: str) -> bool:
+        """Whether several files have a target by which a node would come to this full name."""
+        known = self._by_beginning
+        below = [("global", ""), ("relative", names.parent(node).rstrip("/")), ("private", node)]
+        return any(
+            name.startswith(f"{before}/") and known[kind].get(name[len(before) :], 0) >= _ENOUGH
+            for kind, before in below
+        )
+
+    def alike(self, name: str, node: str) -> Iterator[tuple[int, str]]:
+        """The targets of several files of which the full name is a slip, and how many files have each."""
+        fulls = [names.resolve(written, node) for written in self._several]
+        # Each of the words may be that far away: see `is_slip_of_words`.
+        most = 2 * (folded(name).count("_") + 1)
+        near = process.extract(
+            folded(name), list(map(folded, fulls)), scorer=OSA.distance, score_cutoff=most, limit=None
+        )
+        for _, _, index in near:
+            alike = likeness(name, fulls[index])
+            if alike is not None and alike[0] == "typo" and is_slip_of_words(name, fulls[index]):
+                written = self._several[index]
+                yield self.counts[written], written
+
+
+def _used(connection: Connection, known: _Targets) -> Elsewhere | None:
+    node = connection.node.name
+    if known.has(connection.name, node):
+        return None
+    found = [(-count, written) for count, written in known.alike(connection.name, node)]
+    if not found:
+        return None
+    count, written = min(found)
+    return Elsewhere(written, -count)
+
+
+BY_FILES = (Reason.OUTSIDE, Reason.FROM_SOURCE)
+"""Doubts of what `elsewhere_finding` says."""

@@ -1,0 +1,80 @@
+"""Nodes that newer releases of ROS have removed or replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.generation import ROS1
+from preflight_analysis.model.context import Context
+
+OLDER_THAN_NOETIC = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic")
+"""Releases of ROS 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Retired:
+    """A node that should be another one. `executable` None: all of the package. `removed`: gone since that release."""
+
+    package: str
+    executable: str | None
+    message: str
+    source: str
+    instead_package: str | None = None
+    instead_executable: str | None = None
+    removed: bool = False
+    still_in: tuple[str, ...] = ()
+
+
+_NODES = (
+    Retired(
+        "robot_state_publisher",
+        "state_publisher",
+        "executable 'state_publisher' is removed since ROS Noetic; use 'robot_state_publisher'",
+        "https://docs.ros.org/en/latest/changelogs/robot_state_publisher/changelog.html (1.15.0)",
+        instead_executable="robot_state_publisher",
+        removed=True,
+        still_in=OLDER_THAN_NOETIC,
+    ),
+    Retired(
+        "gazebo",
+        None,
+        "package 'gazebo' is removed since ROS Hydro; use 'gazebo_ros'",
+        "https://github.com/ros-simulation/gazebo_ros_pkgs/pull/34",
+        instead_package="gazebo_ros",
+        removed=True,
+    ),
+    Retired(
+        "tf",
+        "static_transform_publisher",
+        "'static_transform_publisher' of tf is deprecated since ROS Hydro; use that of tf2_ros, which publishes once "
+        "and has no period",
+        "http://wiki.ros.org/tf2/Migration",
+    ),
+    Retired(
+        "robot_pose_ekf",
+        None,
+        "package 'robot_pose_ekf' is removed since ROS Melodic; use 'robot_localization'",
+        "https://github.com/ros-planning/navigation/issues/701",
+    ),
+)
+_BY_PACKAGE: Mapping[str, tuple[Retired, ...]] = {
+    package: tuple(each for each in _NODES if each.package == package) for package in {each.package for each in _NODES}
+}
+
+RETIRED_IN = frozenset(_BY_PACKAGE)
+"""The packages that these nodes are or were in."""
+
+
+def retired(context: Context, node: LaunchNode) -> Iterator[Retired]:
+    """What is known of a node of ROS 1 that should be another one. One that was removed is not there either."""
+    for each in _BY_PACKAGE.get(node.package, ()) if context.tree.generation == ROS1.number else ():
+        there = context.environment.distro in each.still_in or node.resolved.path is not None
+        if each.executable in (None, node.executable) and not (each.removed and there):
+            yield each
+
+
+def was_removed(context: Context, node: LaunchNode) -> bool:
+    """Whether it is missing for that."""
+    return any(each.removed for each in retired(context, node))
