@@ -20,7 +20,7 @@ _NUMBERED = {"generation", "_generation", "generation_of"}
 IS_IT_THIS_ONE = {
     "analysis/preflight_analysis/evaluation/launch.py": 1,  # what ROS 2 needs is imported only then
     "analysis/preflight_analysis/evaluation/tags.py": 2,  # likewise
-    "analysis/preflight_analysis/rules/retired.py": 1,  # nodes of ROS 1 are listed, of ROS 2 none yet
+    "analysis/preflight_analysis/model/retired.py": 1,  # nodes of ROS 1 are listed, of ROS 2 none yet
 }
 """How often a file asks for one generation by its number, and why that has no name."""
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.detect import detect_environment
+from preflight_analysis.model import tree_nodes_in_sources
 from preflight_analysis.model.tree_nodes_in_sources import OwnNodes, OwnPort, own_nodes
-from preflight_analysis.rules import tree_nodes_in_sources
 from preflight_analysis.workspace.sources import Sources
 
 _SOURCE = """#include <behaviortree_cpp/bt_factory.h>
