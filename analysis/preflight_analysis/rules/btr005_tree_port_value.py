@@ -137,8 +137,8 @@ RULE = Rule(
     effect="breaks",
     kind="invalid",
     always=(Reason.LIBRARY,),
-    what="Checks for a port of a behavior tree node with a value of another type, or with an entry of the blackboard "
-    "that is something else. Required ports must be set.",
+    what="Checks for a port of a behavior tree node with a value of another type, or an entry of the blackboard that "
+    "is something else. Required ports must be set.",
     why="The tree cannot be created, the node fails, or it works with a value that nobody has set.",
     example='<ComputePathToPose goal="{goal}" path="path"/>\n<FollowPath path="{path}"/>',
     instead='<ComputePathToPose goal="{goal}" path="{path}"/>\n<FollowPath path="{path}"/>',
