@@ -13,7 +13,7 @@ class Reason(Enum):
     # Nobody knows until the robot is looked at.
     NOT_HERE = "this machine does not have it", "install {of}"
     OTHER_LAUNCH = "another launch may start the other end", "launch both together (`roots` in .ros-preflight.yaml)"
-    OUTSIDE = "something outside of this launch may do it", "describe it under `external` in .ros-preflight.yaml"
+    OUTSIDE = "something outside of this launch may do it", "describe it in .ros-preflight.yaml (`external`, `nodes`)"
     ON_ROBOT = "it speaks of another machine than this one", "check it on the robot"
     MADE_BY_BUILD = "the build of the package may create it", "build the package"
     MADE_ELSEWHERE = "another program may create it", "create it, or commit it"
@@ -28,14 +28,15 @@ class Reason(Enum):
         "source the ROS that is used, or install the package",
     )
     OTHER_VERSION = "it is known of another version or distribution", "source the ROS that is used"
-    LIBRARY = "what the library does is known from its documentation", ""
+    LIBRARY = "what the libraries in use do with it was not seen running", ""
     # What was not looked at as a whole.
     NOT_ANALYSED = "nodes of this launch were not analysed as a whole", "build their packages, or annotate them"
     FROM_SOURCE = "it was read from a source, not seen running", "let the node run: `ros-preflight trace`"
+    LATER = "a run shows what the node does before its event loop, not after it", "annotate the node"
     ASSUMED = "the node's part in it is assumed, not seen", "annotate the node"
     DEPENDS = "whether the node does it depends on its parameters", "annotate the node"
     COMPUTED = "a name in it is made at run time", "annotate the node"
-    PARTLY_READ = "not all that it depends on could be evaluated", "see what `check` says of the launch file first"
+    PARTLY_READ = "not all that it depends on is known", ""
     BRANCHES = "the launch file is a program, and not all of its branches are known", ""
     SANDBOX = "the sandbox may be the cause", "annotate the node"
     # What speaks against it.
@@ -46,7 +47,7 @@ class Reason(Enum):
     NO_DIFFERENCE = "it makes no difference here", ""
     EXPLAINED = "another finding names the cause", "fix that one first"
     SET_ASIDE = "nobody starts the file as it is", ""
-    UNSEEN = "something that is not on this machine may have it", ""
+    UNSEEN = "what is not on this machine may change it", ""
 
     @property
     def sentence(self) -> str:

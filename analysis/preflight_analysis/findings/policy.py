@@ -61,6 +61,7 @@ LIMITS: Mapping[Reason, Limit] = {
     Reason.LIBRARY: Limit("warning", "likely"),
     Reason.NOT_ANALYSED: Limit(confidence="possible"),
     Reason.FROM_SOURCE: Limit(confidence="likely"),
+    Reason.LATER: Limit(confidence="likely"),
     Reason.ASSUMED: Limit("info", "possible"),
     Reason.DEPENDS: Limit(confidence="possible"),
     Reason.COMPUTED: Limit("info", "possible"),
@@ -100,6 +101,15 @@ def _limited(severity: Severity, confidence: Confidence, doubts: Iterable[Doubt]
     rank = max(0, rank - any(each.less for each in limits))
     sure = min(map(CONFIDENCES.index, (confidence, *(each.confidence for each in limits))))
     return SEVERITIES[rank], CONFIDENCES[sure]
+
+
+def limit_in_words(reason: Reason) -> str:
+    """What a doubt makes of a finding: `info, possible`."""
+    limit = LIMITS[reason]
+    said: list[str] = [] if limit.severity == "error" else [limit.severity]
+    said += ["one step less severe"] if limit.less else []
+    said += [] if limit.confidence == "certain" else [limit.confidence]
+    return ", ".join(said)
 
 
 def cell(finding: Finding) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from preflight_analysis.findings.policy import EFFECTS, LIMITS, USUAL, Limit
+from preflight_analysis.findings.policy import EFFECTS, LIMITS, USUAL, limit_in_words
 
 
 class Judged(NamedTuple):
@@ -37,13 +37,6 @@ def _lines(judged: Mapping[str, Judged]) -> Iterator[str]:
     yield "\n## What speaks against it\n"
     yield "| doubt | at most | what removes it | true |"
     yield "| --- | --- | --- | --- |"
-    for reason, limit in LIMITS.items():
+    for reason in LIMITS:
         remedy = reason.remedy.replace("{of}", "it")
-        yield f"| {reason.sentence} | {_most(limit)} | {remedy} | {judged.get(reason.name, Judged())} |"
-
-
-def _most(limit: Limit) -> str:
-    said: list[str] = [] if limit.severity == "error" else [limit.severity]
-    said += ["one step less"] if limit.less else []
-    said += [] if limit.confidence == "certain" else [limit.confidence]
-    return ", ".join(said)
+        yield f"| {reason.sentence} | {limit_in_words(reason)} | {remedy} | {judged.get(reason.name, Judged())} |"

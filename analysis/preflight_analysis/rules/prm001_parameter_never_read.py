@@ -269,6 +269,7 @@ def _finding(
     else:
         template = _SEARCHED if read.use.access == "search" else _NOT_SET
     who = holder if template is _NOT_READ and holder is not None else read.node
+    by_source = id(read.node) in context.once(known_by_source)
     value = repr(set_too.value) if set_too is not None else ""
     return rule.claim(
         say(template, name=param.name, node=who.name, read=name, value=value, default=_default(read)),
@@ -280,7 +281,8 @@ def _finding(
                 SHARED=not unread.alone,
                 IN_USE=unread.alone and _may_be_read(context, unread, read),
                 NOT_ANALYSED=not partly and holder is None and not (graph.complete and unread.alone),
-                FROM_SOURCE=id(read.node) in context.once(known_by_source),
+                FROM_SOURCE=by_source,
+                LATER="" if by_source else read.node.name,
             ),
         ),
         candidates=(name,),
@@ -312,6 +314,7 @@ RULE = Rule(
     sometimes=(
         Reason.NO_DIFFERENCE,
         Reason.SHARED,
+        Reason.LATER,
         Reason.IN_USE,
         Reason.NOT_ANALYSED,
         Reason.FROM_SOURCE,

@@ -83,7 +83,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     SHARED=shared,
                     PARTLY_READ=near is None and not in_full,
                     NOT_ANALYSED=node.name if not in_full and (use is None or use.inferred) else "",
-                    FROM_SOURCE=in_full or use is not None,
+                    FROM_SOURCE=(in_full or use is not None) and interface.source == "source",
+                    LATER=node.name if interface.source == "trace" else "",
                 ),
                 candidates=(near,),
                 related=(related_node(node), *include_chain(node.origin)),
@@ -186,7 +187,7 @@ RULE = Rule(
     name="parameter-not-declared",
     effect="no-effect",
     kind="near",
-    sometimes=(Reason.SHARED, Reason.PARTLY_READ, Reason.NOT_ANALYSED, Reason.FROM_SOURCE),
+    sometimes=(Reason.SHARED, Reason.PARTLY_READ, Reason.NOT_ANALYSED, Reason.FROM_SOURCE, Reason.LATER),
     what="Checks for a parameter, in the launch file or a parameter file, that its node does not declare. A value that "
     "several nodes share is not reported if one of them declares it.",
     why="The client libraries ignore the value without an error, and the node uses its default.",

@@ -122,7 +122,7 @@ def cases(rule: Rule) -> Iterator[tuple[Severity, str]]:
     always = tuple(map(Doubt, rule.always))
     usual = judge(rule.effect, always)[0]
     deciding = (each.sentence for each in rule.always if LIMITS[each].severity == usual != USUAL[rule.effect])
-    yield usual, next(deciding, EFFECTS[rule.effect])
+    yield usual, "; ".join((EFFECTS[rule.effect], *deciding))
     others: list[tuple[Severity, str]] = []
     for each in rule.sometimes:
         if isinstance(each, Reason):

@@ -11,7 +11,7 @@ from typing import Any
 
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.fingerprint import fingerprints
-from preflight_analysis.findings.policy import EFFECTS
+from preflight_analysis.findings.policy import EFFECTS, limit_in_words
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, finding_lines, place, to_json
 from preflight_analysis.rules.reference import rule_json
@@ -105,11 +105,11 @@ def _named(report: Report, what: str) -> Iterator[Finding]:
 def _lines(finding: Finding, report: Report) -> Iterator[str]:
     yield from finding_lines(replace(finding, fixes=()), report.documents, os.getcwd(), colour=colours(), host=links())
     yield ""
-    yield f"Severity: {finding.severity}, because {EFFECTS[finding.effect]}."
+    yield f"Severity: {finding.severity}. What it does: {EFFECTS[finding.effect]}."
     yield f"Confidence: {finding.confidence}. {_CONFIDENCE[finding.confidence]}"
     for doubt in dict.fromkeys(finding.doubts):
         about = f" ({doubt.of})" if doubt.of else ""
-        yield f"Doubt: {doubt.reason.sentence}{printable(about)}."
+        yield f"Doubt: {doubt.reason.sentence}{printable(about)}; at most {limit_in_words(doubt.reason)}."
         if doubt.remedy:
             yield f"  To remove it: {printable(doubt.remedy)}."
     if finding.condition:
