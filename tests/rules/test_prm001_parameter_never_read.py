@@ -290,7 +290,7 @@ def test_a_parameter_beside_its_node_instead_of_in_it() -> None:
         {"/limiter": {"params": {"~max_speed": 1.0, "~ramp": 0.5}}}
     """
     (finding,) = check(text)
-    assert finding.confidence == "certain"
+    assert finding.confidence == "likely"
     assert 'name="limiter/max_speed"' in apply(text, finding.fixes[0].edits)["/main.launch"]
 
 
