@@ -49,6 +49,7 @@ def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     assert set(finding) == {
         *("rule", "name", "severity", "confidence", "message"),
         *("file", "range", "related", "roots", "fixes"),
+        *("effect", "kind", "subject", "node", "candidates", "doubts"),
     }
     assert (finding["rule"], finding["name"]) == ("TOP001", "subscribed-not-published")
     assert finding["file"] == str(harness.launch_file)

@@ -127,7 +127,8 @@ def test_rules_lists_all_and_explains_one(preflight: Run) -> None:
     assert data["schema"] == "ros-preflight/rules/1"
     assert len(data["rules"]) == len(all_rules())
     page = preflight("rules", "top001")
-    assert page.out.startswith("# TOP001 subscribed-not-published\n\nSeverity: warning")
+    assert page.out.startswith("# TOP001 subscribed-not-published\n\n")
+    assert "| warning | a connection, controller, plugin or description never comes about; " in page.out
     assert "## Why it matters" in page.out
     assert preflight("rules", "subscribed-not-published").out == page.out
     done = preflight("rules", "XXX001")
