@@ -35,7 +35,7 @@ def _found(folder: Path, source: str, files: dict[str, str] | None = None) -> li
         path = package / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    environment = detect_environment(None, {}, (str(folder / "src"),), root=str(folder / "nothing"))
+    environment = detect_environment(str(folder), {}, (str(folder / "src"),), root=str(folder / "nothing"))
     analysis = Workspace(environment, Sources()).static(str(package / "launch/a.launch.xml"))
     return [finding for finding in analysis.findings if finding.rule == "PKG009"]
 
@@ -104,3 +104,33 @@ def test_a_slip_of_a_module_that_everybody_knows_is_a_warning(tmp_path: Path) ->
 def test_one_that_the_package_names_is_none(tmp_path: Path) -> None:
     assert _found(tmp_path, "import numpyy", {"requirements.txt": "numpyy==1.0\n"}) == []
     assert _found(tmp_path, "import numpyy", {"requirements.txt": "", "tank/numpyy.py": ""}) == []
+
+
+MAY_EXIST = {
+    "a name that is imported of a package, as its module": ("from tf import transformations", {}),
+    "a name of a module that is like another": ("from tankfoo import numpyy", {}),
+    "a module of another name than its distribution": ("from Crypto.Cipher import AES", {}),
+    "one like a short one": ("import xmacro", {}),
+    "a package of ROS that is not here": ("import mav_msgs.msg", {}),
+    "what the read-me file installs": ("import numpyy", {"../../README.md": "pip3 install numpyy\n"}),
+    "what an image installs": ("import numpyy", {"../../docker/Dockerfile": "RUN pip install numpyy==1.2\n"}),
+    "what another package needs": (
+        "import numpyy",
+        {"../other/package.xml": MANIFEST.replace("pyfoo", "numpyy").replace("tank", "other")},
+    ),
+    "a list of its own": (
+        "import numpyy",
+        {"../../requirements/dev.txt": "numpyy\n", "../../requirements.txt": "Numpyy"},
+    ),
+}
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize("case", MAY_EXIST)
+def test_one_that_may_exist_somewhere_is_none(tmp_path: Path, case: str) -> None:
+    assert [finding.message for finding in _found(tmp_path, *MAY_EXIST[case])] == []
+
+
+@pytest.mark.parametrize("name", ["numpyy", "nmupy", "matplotlb", "transforms3"])
+def test_a_letter_more_or_less_is_a_slip_of_a_long_name(tmp_path: Path, name: str) -> None:
+    assert len(_found(tmp_path, f"import {name}", {"../../README.md": "pip3 install numpy matplotlib\n"})) == 1

@@ -8,16 +8,22 @@ import os
 import re
 import sys
 from collections.abc import Iterator
+from itertools import islice
+from pathlib import PurePath
 
+from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.detect import BUILT
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.installed_paths import cmake_build, package_around
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import is_slip, nearest
+from preflight_analysis.model.nearest import folded, is_slip, nearest
 
 _MADE = ("msg", "srv", "action", "cfg")
 """Modules of a package that its build makes."""
@@ -27,8 +33,16 @@ _MOST_FILES = 60
 _PYTHON = re.compile(r"#!.*\bpython")
 _DYNAMIC = re.compile(r"__path__|sys\.modules|__getattr__|import\s+\*|import_module|\bexec\(")
 """How the `__init__.py` of a package has more than its folder."""
-_SHORT = 5
-"""Letters of a name of which another one may be a slip."""
+_SHORT, _LONG = 5, 8
+"""Letters of a name of which another one may be a slip, and of one that hardly another one is like."""
+_INSTALLS = re.compile(
+    r"(?i)(?:[\w.-]*(?:requirement|constraint|dependenc|depends|install)[\w.-]*|environment.*\.ya?ml|pipfile|poetry\.lock"
+    r"|pyproject\.toml|setup\.(?:py|cfg)|cmakelists\.txt|package\.xml|rosdep.*\.ya?ml|.*\.(?:sh|bash|repos|rosinstall)"
+    r"|readme.*|.*\.(?:md|rst)|makefile|justfile|(?:.*[._-])?(?:docker|container)file.*|(?:docker-?)?compose.*\.ya?ml"
+    r"|\.(?:gitlab-ci|travis)\.ya?ml|\.gitmodules)\Z"
+)
+"""Files that install something, or say what is to be installed."""
+_MOST_INSTALLING = 500
 _WELL_KNOWN = """
 numpy scipy matplotlib pandas requests serial yaml skimage sklearn torch torchvision tensorflow keras shapely
 networkx transforms3d transformations tf_transformations tornado flask django fastapi uvicorn websockets websocket
@@ -43,6 +57,8 @@ cv_bridge sensor_msgs_py message_filters image_geometry std_msgs std_srvs sensor
 nav2_msgs nav2_simple_commander visualization_msgs diagnostic_msgs diagnostic_updater trajectory_msgs shape_msgs
 control_msgs actionlib actionlib_msgs dynamic_reconfigure builtin_interfaces rcl_interfaces lifecycle_msgs
 moveit_msgs moveit_commander moveit_configs_utils action_msgs unique_identifier_msgs tf2_msgs vision_msgs
+Crypto Cryptodome OpenGL Xlib dateutil dotenv zmq socketio picamera picamera2 pymavlink dronekit sounddevice soundfile
+pyaudio speech_recognition bluetooth tflite_runtime vtkmodules
 """
 """Modules that many programs of robots import."""
 WELL_KNOWN = frozenset(_WELL_KNOWN.split())
@@ -81,27 +97,49 @@ def absent_module(context: Context, file: str, name: str) -> tuple[str, str | No
 
 def slip_of(context: Context, file: str, name: str) -> str | None:
     """The module that is meant by one that nobody knows; None where the name is no slip, or somebody may have it."""
-    top = name.partition(".")[0]
+    top = re.split("[.:]", name)[0]
     known = WELL_KNOWN | sys.stdlib_module_names
     if len(top) < _SHORT or top in known or top in context.environment.packages:
         return None
-    package = package_around(context.environment, file)
-    if package is None or _is_named(context.disk, package, top):
-        return None
     near = nearest(top, known)
-    return near if near is not None and is_slip(top, near) else None
+    if near is None or not is_slip(top, near) or not _is_likely(top, near):
+        return None
+    package = package_around(context.environment, file)
+    return near if package is not None and not _may_exist(context, package, top) else None
 
 
-def _is_named(disk: Disk, package: Package, name: str) -> bool:
-    """Whether the package says that it needs, has or makes a module of this name."""
-    names = (*_BUILD_FILES, "package.xml", "requirements.txt", name, f"{name}.py", f"src/{name}")
-    paths = (os.path.join(package.share, each) for each in names)
-    pattern = re.compile(rf"(?<![A-Za-z0-9]){re.escape(name).replace('_', '[_-]')}(?![A-Za-z0-9])")
-    return any(
-        disk.exists(path) and (content is None or pattern.search(content) is not None)
-        for path in paths
-        for content in (disk.content(path),)
-    )
+def _is_likely(name: str, near: str) -> bool:
+    """Whether a slip is likelier than a module that has the name: a short one is a letter away from many, and is a slip
+    where a letter is doubled, or two are swapped."""
+    return min(len(name), len(near)) >= _LONG or set(folded(name)) == set(folded(near))
+
+
+def _may_exist(context: Context, package: Package, name: str) -> bool:
+    """Whether some distribution of ROS has a module of this name, or the package makes it, or the workspace says of it
+    that it is needed or installed."""
+    if any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
+        return True
+    disk, share = context.disk, package.share
+    if any(disk.exists(os.path.join(share, each)) for each in (name, f"{name}.py", f"src/{name}")):
+        return True
+    pattern = re.compile(rf"(?i)(?<![a-z0-9]){re.escape(name).replace('_', '[_-]')}(?![a-z0-9])")
+    return any(pattern.search(disk.content(path) or "") for path in _that_install(disk.db, context.environment, share))
+
+
+@query
+def _that_install(db: Database, environment: Environment, share: str) -> tuple[str, ...]:
+    """The files that say what the programs of a package need: its own, those of the folders above it, and those of the
+    other packages of the workspace."""
+    disk, folders = Disk(db), dict.fromkeys([share, *(each.share for each in environment.own_packages)])
+    top = environment.workspace
+    if top is not None:
+        # Not the packages' alone: `requirements/dev.txt`, `docker/Dockerfile`.
+        below = (os.path.join(top, name) for name in disk.names(top) if name not in BUILT)
+        folders |= dict.fromkeys((top, *(path for path in below if disk.is_folder(path))))
+        for folder in (*folders,):
+            folders |= {str(each): None for each in PurePath(folder).parents if each.is_relative_to(top)}
+    paths = (os.path.join(folder, name) for folder in folders for name in disk.names(folder) if _INSTALLS.match(name))
+    return tuple(islice((path for path in paths if disk.is_file(path)), _MOST_INSTALLING))
 
 
 class _Imports:
@@ -125,9 +163,10 @@ class _Imports:
                 elif found:
                     pending += found
                 elif not name.startswith(".") and (near := slip_of(self._context, file, name)) is not None:
-                    beside = os.path.join(os.path.dirname(path), name.partition(".")[0])
+                    top = re.split("[.:]", name)[0]
+                    beside = os.path.join(os.path.dirname(path), top)
                     if not self._disk.exists(beside) and not self._disk.exists(f"{beside}.py"):
-                        yield Slip(name.partition(".")[0], near, line)
+                        yield Slip(top, near, line)
 
     def find(self, name: str, file: str) -> tuple[str, str | None] | list[str]:
         """The files of an own module; of one that is not there its name, and the nearest that is."""
