@@ -28,6 +28,9 @@ SAYS = {
     ),
     "the workspace before its copies": ({"others/a/Dockerfile": "FROM ros:iron", "README.md": "/opt/ros/foxy"}, "foxy"),
     "no folder of the build": ({"install/setup.sh": "/opt/ros/iron", "README.md": "/opt/ros/foxy"}, "foxy"),
+    "words": ({"README.md": "# Robot\nFor **ROS 2 Humble** on Ubuntu"}, "humble"),
+    "other words": ({"README.md": "Needs ROS2 (jazzy), not ROS Noetic"}, "jazzy"),
+    "a command before words": ({"README.md": "ROS 2 Humble\n source /opt/ros/iron/setup.bash"}, "iron"),
     "one that is old": ({"Dockerfile": "FROM ros:eloquent"}, "eloquent"),
 }
 
@@ -68,7 +71,34 @@ def test_copies_of_other_projects_that_do_not_agree(tmp_path: Path) -> None:
 def test_what_is_sourced_comes_first(tmp_path: Path) -> None:
     workspace(tmp_path / "ws", {".ros-preflight.yaml": "distribution: jazzy"})
     found = detect_environment(str(tmp_path / "ws"), {"ROS_DISTRO": "humble"}, root=str(tmp_path / "root"))
-    assert (found.distro, found.distro_by) == ("humble", "")
+    assert (found.distro, found.distro_by, found.meant_for) == ("humble", "", ("jazzy",))
+
+
+MEANT = {
+    "words of a read-me file": ({"README.md": "Works with ROS Jade and ROS Indigo"}, ("indigo", "jade")),
+    "a workflow and words": (
+        {".travis.yml": "- export ROSDISTRO=kinetic", "README.md": "- ROS Indigo\n- ROS Kinetic"},
+        ("indigo", "kinetic"),
+    ),
+    "the workspace before its copies": (
+        {"README.md": "ROS kinetic", "others/a/Dockerfile": "FROM ros:melodic"},
+        ("kinetic",),
+    ),
+    "copies": (
+        {"others/a/Dockerfile": "FROM ros:melodic", "others/b/run.sh": "/opt/ros/kinetic"},
+        ("kinetic", "melodic"),
+    ),
+    "the branch": ({".git/HEAD": "ref: refs/heads/kinetic-devel\n"}, ("kinetic",)),
+    "nothing": ({"README.md": "ROS, kinetic energy"}, ()),
+}
+
+
+@pytest.mark.parametrize("case", MEANT)
+def test_what_it_is_for_beside_what_is_used(tmp_path: Path, case: str) -> None:
+    files, names = MEANT[case]
+    workspace(tmp_path / "ws", files, "catkin")
+    found = detect_environment(str(tmp_path / "ws"), {"ROS_DISTRO": "noetic"}, root=str(tmp_path / "root"))
+    assert (found.distro, found.meant_for) == ("noetic", names)
 
 
 def test_a_workspace_of_ros_1(tmp_path: Path) -> None:

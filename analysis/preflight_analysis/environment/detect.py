@@ -15,7 +15,7 @@ from dataclasses import replace
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents import secrets
 from preflight_analysis.environment.ament import ament_prefixes, distribution, installed_packages, rclpy_interpreter
-from preflight_analysis.environment.distribution import stated_distribution
+from preflight_analysis.environment.distribution import stated_distributions
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import (
     LEGACY_MANIFEST,
@@ -152,7 +152,8 @@ def detect_environment(
     used = (
         distribution(variables, prefixes) if ros2 else distro or (_debian_distribution(debian) if has_debian else None)
     )
-    stated = None if used else stated_distribution(workspace, SETTINGS_FILE, BUILT, own, 2 if ros2 else 1)
+    said = stated_distributions(workspace, SETTINGS_FILE, BUILT, own, 2 if ros2 else 1)
+    stated = None if used else said.one
     given = _with_overlays(variables, path, devel, prefix, distro, debian)
     python = _python(given, debian)
     ros2_python = rclpy_interpreter(given, prefixes, root)
@@ -178,6 +179,7 @@ def detect_environment(
         generation=2 if ros2 else 1,
         distro=stated.name if stated else used,
         distro_by=stated.by if stated else "",
+        meant_for=said.all,
         variables={name: value for name, value in given.items() if name not in withheld},
         package_path=tuple(path),
         packages=packages,

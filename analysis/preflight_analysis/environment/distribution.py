@@ -1,9 +1,10 @@
-"""Which distribution of ROS a workspace is for, by what it says of itself: where none is sourced or installed, what is
-known of packages is known of that one.
+"""Which distributions of ROS a workspace is for, by what it says of itself. Where none is sourced or installed, what is
+known of packages is known of that one; where another is, what is said may not hold on the robot.
 
 Sources, the first that names one distribution and no other counts: `distribution:` in the settings file; images of
-containers; workflows of CI; scripts and read-me files; the branch that is checked out; conditions in package.xml
-(REP 149); the packages that it needs, where one distribution alone has released all of them.
+containers; workflows of CI; scripts and read-me files; the words of these, such as "ROS Kinetic"; files of folders
+further below; the branch that is checked out; conditions in package.xml (REP 149); the packages that it needs, where
+one distribution alone has released all of them.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from preflight_analysis.environment.model import Package
 
 SETTING = "distribution"
 """The key of the settings file."""
-_OLDER = {1: ("jade", "lunar"), 2: ("crystal", "dashing", "eloquent")}
+_OLDER = {1: ("groovy", "hydro", "jade", "lunar"), 2: ("crystal", "dashing", "eloquent")}
 """Of which no packages are known."""
 _DEPTH = 3
 _MOST_FILES = 100
@@ -48,34 +49,42 @@ class Stated(NamedTuple):
     by: str
 
 
+class Statements(NamedTuple):
+    """What a workspace says: the one distribution that it is for, and all that it may be for, sorted."""
+
+    one: Stated | None = None
+    all: tuple[str, ...] = ()
+
+
 def known_distributions(generation: int) -> tuple[str, ...]:
     """The names of the distributions of a generation of ROS."""
     return (*_OLDER[generation], *DISTRIBUTIONS[generation])
 
 
-def stated_distribution(
+def stated_distributions(
     workspace: str | None, settings: str, built: Collection[str], packages: Collection[Package], generation: int
-) -> Stated | None:
-    """What a workspace says of itself; None where it does not, or says several. `packages` are its own, `built` the
+) -> Statements:
+    """What a workspace says of itself. `packages` are its own, `built` the
     names of folders that its build makes. Nothing is run, and no link is followed. Never raises."""
     if workspace is None:
-        return None
+        return Statements()
     names = known_distributions(generation)
     setting = _of_settings(os.path.join(workspace, settings))
     if setting in names:
-        return Stated(setting, settings)
+        return Statements(Stated(setting, settings), (setting,))
     files = [(os.path.relpath(path, workspace), _text(path)) for path in _files(workspace, built)]
-    said = _pattern(names)
+    said, named = _pattern(names, _COMMANDS), _pattern(names, _WORDS)
     own = [(path, text) for path, text in files if _depth(path) < _OWN]
-    # Below are copies of other projects, too: there all have to agree.
-    for chosen in (*([each for each in own if _kind(each[0]) is kind] for kind in _KINDS), files):
-        found = {name: path for path, text in chosen for name in said(text)}
-        if len(found) == 1:
-            return Stated(*next(iter(found.items())))
-    branch = _branch(workspace, names)
-    if branch is not None:
-        return branch
-    return _of_manifests(packages, names, generation)
+    groups = [
+        *({name: path for path, text in own if _kind(path) is kind for name in said(text)} for kind in _KINDS),
+        {name: path for path, text in own for name in named(text)},
+        # Below are copies of other projects, too: there all have to agree.
+        {name: path for path, text in files for name in said(text)},
+    ]
+    one = next((Stated(*found) for group in groups if len(group) == 1 for found in group.items()), None)
+    one = one or _branch(workspace, names) or _of_manifests(packages, names, generation)
+    every = {name for group in groups[:-1] for name in group} or {*groups[-1]} or ({one.name} if one else set())
+    return Statements(one, tuple(sorted(every)))
 
 
 def _of_settings(path: str) -> str:
@@ -129,20 +138,21 @@ def _files(workspace: str, built: Collection[str]) -> Iterator[str]:
                 yield entry.path
 
 
-def _pattern(names: Collection[str]) -> Callable[[str], set[str]]:
-    """What gives the distributions that a text speaks of."""
+_COMMANDS = (
+    r"[\w./-]*ros[\w./-]*:NAME",  # an image: osrf/ros:humble-desktop
+    r"/opt/ros/NAME",
+    r"(?i:ros2?[_-]?distr(?:o|ibution)s?)\W{1,6}NAME",  # a variable, or what a workflow's action is given
+    r"\bros-NAME(?=-[a-z])",  # a package of Ubuntu
+)
+_WORDS = (r"(?i)\bros[ \t]?[12]?[ \t_]*[*`\"'(\[]{0,3}NAME",)
+"""As people write it: `ROS Kinetic`, `ROS 2 (Humble)`."""
+
+
+def _pattern(names: Collection[str], ways: Collection[str]) -> Callable[[str], set[str]]:
+    """What gives the distributions that a text speaks of, in small letters."""
     any_name = f"({'|'.join(names)})"
-    end = r"(?![a-z])"
-    patterns = [
-        re.compile(each.replace("NAME", any_name) + end)
-        for each in (
-            r"[\w./-]*ros[\w./-]*:NAME",  # an image: osrf/ros:humble-desktop
-            r"/opt/ros/NAME",
-            r"(?i:ros2?[_-]?distr(?:o|ibution)s?)\W{1,6}NAME",  # a variable, or what a workflow's action is given
-            r"\bros-NAME(?=-[a-z])",  # a package of Ubuntu
-        )
-    ]
-    return lambda text: {found[1] for each in patterns for found in each.finditer(text)}
+    patterns = [re.compile(each.replace("NAME", any_name) + r"(?![a-z])") for each in ways]
+    return lambda text: {found[1].lower() for each in patterns for found in each.finditer(text)}
 
 
 def _branch(workspace: str, names: Collection[str]) -> Stated | None:

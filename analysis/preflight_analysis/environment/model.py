@@ -109,6 +109,8 @@ class Environment:
     """Whether ROS 1 comes from Debian's own archive here, whose packages have other names than those of ROS's."""
     distro_by: str = ""
     """What of the workspace says which distribution it is for, where none is sourced or installed."""
+    meant_for: tuple[str, ...] = ()
+    """The distributions that the workspace says it is for, whichever is used here."""
     withheld: frozenset[str] = frozenset()
     """The names of the variables that are set and whose values are secrets: nobody is told these."""
     allowed_secrets: tuple[str, ...] = ()

@@ -29,6 +29,10 @@ class Reason(Enum):
     )
     OTHER_VERSION = "it is known of another version or distribution", "source the ROS that is used"
     LIBRARY = "what the libraries in use do with it was not seen running", ""
+    MEANT_FOR_OTHER = (
+        "the workspace says that it is for another distribution of ROS, where it is otherwise",
+        "check it with {of}, or name the one that is used: `distribution` in .ros-preflight.yaml",
+    )
     # What was not looked at as a whole.
     NOT_ANALYSED = "nodes of this launch were not analysed as a whole", "build their packages, or annotate them"
     FROM_SOURCE = "it was read from a source, not seen running", "let the node run: `ros-preflight trace`"

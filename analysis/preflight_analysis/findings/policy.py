@@ -58,6 +58,7 @@ LIMITS: Mapping[Reason, Limit] = {
     Reason.CATALOGUE: Limit(confidence="likely"),
     Reason.OTHER_DISTRIBUTION: Limit("hint", "possible"),
     Reason.OTHER_VERSION: Limit("info", "possible"),
+    Reason.MEANT_FOR_OTHER: Limit("info", "possible"),
     Reason.LIBRARY: Limit("warning", "likely"),
     Reason.NOT_ANALYSED: Limit(confidence="possible"),
     Reason.FROM_SOURCE: Limit(confidence="likely"),

@@ -8,9 +8,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.generation import ROS1
 from preflight_analysis.model.context import Context
-
-OLDER_THAN_NOETIC = ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic")
-"""Releases of ROS 1."""
+from preflight_analysis.model.distributions import BEFORE_NOETIC
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +33,7 @@ _NODES = (
         "https://docs.ros.org/en/latest/changelogs/robot_state_publisher/changelog.html (1.15.0)",
         instead_executable="robot_state_publisher",
         removed=True,
-        still_in=OLDER_THAN_NOETIC,
+        still_in=BEFORE_NOETIC,
     ),
     Retired(
         "gazebo",

@@ -11,10 +11,12 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.distribution import known_distributions
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.distributions import otherwise_in
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.model.robots import robots
 from preflight_analysis.robot.of_launch import Robot
@@ -23,6 +25,7 @@ from preflight_analysis.rules.further_reading import ROS2_CONTROL_GAZEBO
 from preflight_analysis.rules.rule import Rule
 
 _AFFECTED = ("humble", "iron", None)
+_NOT_AFFECTED = tuple(name for name in known_distributions(2) if name not in _AFFECTED)
 _PLUGIN = "gazebo_ros2_control"
 _NOT_PLAIN = re.compile(r":(?=\s)|(?<=\s)#")
 """What ends a plain scalar of YAML, as which the text of a description is read."""
@@ -44,6 +47,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             f"gazebo_ros2_control cannot pass on a description with {sign} in it: '{line}'",
             place or robot.param.place,
             subject=Subject("text", line),
+            doubts=otherwise_in(context, _NOT_AFFECTED),
             related=() if place is None else include_chain(robot.param.origin),
         )
 
@@ -71,6 +75,7 @@ RULE = Rule(
     effect="breaks",
     kind="invalid",
     always=(Reason.LIBRARY,),
+    sometimes=(Reason.MEANT_FOR_OTHER,),
     what="Checks for a robot description with the plugin `gazebo_ros2_control` that has `: ` or ` #` in it. Humble "
     "and Iron read it as YAML.",
     why="The plugin reports `Couldn't parse parameter override rule` and starts no controller manager. Spawners wait "

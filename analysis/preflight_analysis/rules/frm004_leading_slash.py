@@ -13,6 +13,7 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.distributions import BEFORE_MELODIC, otherwise_in
 from preflight_analysis.model.frames import frames_of, place_of_mention, place_of_param, place_of_use
 from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.model.well_known import is_transform
@@ -55,7 +56,10 @@ def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
             f"frame '{written}' begins with '/', which tf2 refuses: '{param.name}' has it",
             place,
             subject=Subject("frame", written),
-            doubts=doubts(OTHER_VERSION=asked is None, NOT_ANALYSED=owner),
+            doubts=(
+                *doubts(OTHER_VERSION=asked is None, NOT_ANALYSED=owner),
+                *otherwise_in(context, BEFORE_MELODIC),
+            ),
             related=include_chain(param.origin),
             fixes=rename(context, place, written, written.lstrip("/")),
         )
@@ -103,13 +107,14 @@ def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
             use.sure and (use.looked_up or not use.call)
         )
         asked: bool | None = True
+        of_costmap = False
         if not context.tree.ros.own_parameters:
-            of_package = use.node.package == _REFUSE_ROS1[0] and not use.call
-            if not use.looked_up or not (of_package or _REFUSE.match(use.call)):
+            of_costmap = use.node.package == _REFUSE_ROS1[0] and not use.call
+            if not use.looked_up or not (of_costmap or _REFUSE.match(use.call)):
                 continue  # tf takes it off
-            if of_package and (asked := _ask_tf2(context)) is False:
+            if of_costmap and (asked := _ask_tf2(context)) is False:
                 continue
-            is_sure = is_sure or of_package
+            is_sure = is_sure or of_costmap
         told.add((id(use.node), use.written))
         place = place_of_use(context, use)
         name = use.node.name
@@ -117,7 +122,10 @@ def _of_uses(rule: Rule, context: Context) -> Iterator[Finding]:
             say(_SAID, frame=use.written, node=name, does=f"uses it ({use.what})"),
             place,
             subject=Subject("frame", use.written),
-            doubts=doubts(ASSUMED=not is_sure, OTHER_VERSION=asked is None, NOT_ANALYSED=name if not use.sure else ""),
+            doubts=(
+                *doubts(ASSUMED=not is_sure, OTHER_VERSION=asked is None, NOT_ANALYSED=name if not use.sure else ""),
+                *(otherwise_in(context, BEFORE_MELODIC) if of_costmap else ()),
+            ),
             related=include_chain(use.node.origin) if use.param is None else (),
             fixes=rename(context, place, use.written, use.frame) if use.param is not None else (),
         )
@@ -129,7 +137,7 @@ RULE = Rule(
     effect="breaks",
     kind="invalid",
     always=(Reason.LIBRARY,),
-    sometimes=(Reason.OTHER_VERSION, Reason.NOT_ANALYSED, Reason.ASSUMED),
+    sometimes=(Reason.OTHER_VERSION, Reason.MEANT_FOR_OTHER, Reason.NOT_ANALYSED, Reason.ASSUMED),
     what="Checks for a frame that begins with `/`. It may be in a parameter, in a transform that a node looks up, or "
     "in the configuration of RViz. In ROS 1 it checks what asks tf2, such as costmaps.",
     why="tf2 refuses the frame: `Invalid frame ID: frame_ids cannot start with a '/'`. The tf library of ROS 1 removed "

@@ -12,6 +12,7 @@ from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.model.arguments import empty_arguments
 from preflight_analysis.model.asked_variables import lack_of_asked
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.distributions import BEFORE_NOETIC, otherwise_in
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.problems import problems_of, quoted, rename, shortened
 from preflight_analysis.rules.further_reading import LAUNCH_XML_DESIGN, ROSLAUNCH
@@ -22,6 +23,8 @@ _TRUTH = {
     **dict.fromkeys(("1", "yes", "y", "on", "t"), "true"),
     **dict.fromkeys(("0", "no", "n", "off", "f"), "false"),
 }
+_DIVISION = re.compile(r"\$\(\s*eval\b[^$]*[^/]/[^/]")
+"""Of integers it is one in Python 2 alone."""
 _WHOLE = re.compile(r"[+-]?[0-9]+\.0*")
 
 
@@ -38,17 +41,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message += f"; set argument {quoted(empty)}" if empty else did_you_mean(near)
         lack = lack_of_asked(context, problem.location.file) if not bad.value else None
         message += f"; environment variable '{lack.name}' is not set" if lack is not None else ""
+        python = otherwise_in(context, BEFORE_NOETIC) if _may_be_divided(context, bad) else ()
         yield problem_claim(
             rule,
             problem,
             message,
             subject=Subject("attribute", bad.attribute),
             kind="near" if near and not empty else "invalid",
-            doubts=doubts(NOT_SET=empty and f"argument {quoted(empty)}"),
+            doubts=(*doubts(NOT_SET=empty and f"argument {quoted(empty)}"), *python),
             candidates=() if empty else (near,),
             fixes=fixes,
             lack=lack,
         )
+
+
+def _may_be_divided(context: Context, bad: BadValue) -> bool:
+    """Whether a division in Python may have made a number that should be an integer."""
+    if bad.expected != "an integer" or not _WHOLE.fullmatch(bad.value.strip()):
+        return False
+    return any(_DIVISION.search(file.document.text) is not None for file in context.launch_files.values())
 
 
 def _meant(bad: BadValue) -> str | None:
@@ -66,7 +77,7 @@ RULE = Rule(
     name="bad-value",
     effect="stops-launch",
     kind="invalid",
-    sometimes=(Reason.NOT_SET, Reason.NOT_HERE),
+    sometimes=(Reason.NOT_SET, Reason.NOT_HERE, Reason.MEANT_FOR_OTHER),
     what="Checks for an invalid value of an attribute: a word instead of a number, a condition that is not a truth "
     "value, or an unknown choice.",
     why="The launcher stops and starts nothing. The value is checked after its substitutions are resolved.",

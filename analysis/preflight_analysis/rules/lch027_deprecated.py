@@ -14,14 +14,14 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.distributions import BEFORE_MELODIC, BEFORE_NOETIC, otherwise_in
 from preflight_analysis.model.installed import has_ros
 from preflight_analysis.model.places import attribute_location
 from preflight_analysis.model.problems import all_of, fix, include_chain, rename, replacement, shown
-from preflight_analysis.model.retired import OLDER_THAN_NOETIC, RETIRED_IN, Retired, retired
+from preflight_analysis.model.retired import RETIRED_IN, Retired, retired
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
 from preflight_analysis.rules.rule import Rule
 
-_OLDER_THAN_MELODIC = OLDER_THAN_NOETIC[:-1]
 _PERIOD = re.compile(r"\s+[\d.]+\s*\Z")
 _IN_ORDER = re.compile(r"\s--inorder\b")
 
@@ -38,12 +38,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             message = "<master> is removed since ROS Fuerte; roslaunch ignores it"
             place = context.location(path, tag.head_span)
             yield rule.claim(message, place, subject=Subject("element"), effect="note", fixes=fixes)
-        if context.environment.distro not in _OLDER_THAN_MELODIC:
+        if context.environment.distro not in BEFORE_MELODIC:
             for span in old.in_order:
                 place = context.location(path, span)
                 message = "'--inorder' has no effect: xacro processes in order since ROS Melodic"
                 fixes = replacement(context, place, "", "Remove --inorder")
-                yield rule.claim(message, place, subject=Subject("command", "--inorder"), fixes=fixes)
+                why = otherwise_in(context, BEFORE_MELODIC)
+                yield rule.claim(message, place, subject=Subject("command", "--inorder"), doubts=why, fixes=fixes)
 
 
 def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -73,7 +74,10 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 subject=Subject("executable", f"{each.package}/{each.executable or ''}"),
                 kind="absent" if each.removed else None,
                 effect="stops-node" if each.removed else None,
-                doubts=doubts(UNSEEN=each.removed and not has_ros(context)),
+                doubts=(
+                    *doubts(UNSEEN=each.removed and not has_ros(context)),
+                    *otherwise_in(context, each.still_in),
+                ),
                 related=include_chain(node.origin),
                 fixes=_fixes(context, each, node),
             )
@@ -102,7 +106,7 @@ def _fixes(context: Context, each: Retired, node: LaunchNode) -> tuple[Fix, ...]
 
 def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
     """Its parameter `use_gui`: https://github.com/ros/joint_state_publisher/pull/34."""
-    if context.environment.distro in OLDER_THAN_NOETIC:
+    if context.environment.distro in BEFORE_NOETIC:
         return
     for node in filter(None, context.kept.each(_as_joint_state_publisher, context.tree.nodes)):
         for name in (f"{node.name}/use_gui", os.path.join(node.namespace, "use_gui")):
@@ -115,6 +119,7 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
                 param.place,
                 subject=Subject("parameter", param.name),
                 effect="no-effect" if param.value is True else None,
+                doubts=otherwise_in(context, BEFORE_NOETIC),
                 related=include_chain(param.origin),
             )
 
@@ -153,7 +158,7 @@ RULE = Rule(
     name="deprecated",
     effect="style",
     kind="invalid",
-    sometimes=("stops-node", "misbehaves", "no-effect", "note", Reason.UNSEEN),
+    sometimes=("stops-node", "misbehaves", "no-effect", "note", Reason.UNSEEN, Reason.MEANT_FOR_OTHER),
     what="Checks for what is deprecated or removed: files with `<launch deprecated=...>`, `<master>`, and nodes, "
     "parameters and options of older releases of ROS.",
     why="A deprecated part disappears with an upgrade. A removed node does not start.",

@@ -18,6 +18,7 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.model.asked_variables import lack_of_asked
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.distributions import BEFORE_GALACTIC, otherwise_in
 from preflight_analysis.model.elsewhere import (
     absent_top,
     absent_top_said,
@@ -47,6 +48,8 @@ _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
 _WORD = re.compile(r"\w+")
 _RELEASES = "Humble, Jazzy, Kilted or Rolling"
 _NO_NAME = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
+_OLD_KEYWORD = re.compile(r"node_(?:executable|name|namespace|plugin)\Z")
+"""Of nodes and components, deprecated in Foxy."""
 _ARGUMENTS = re.compile(r"\(\) (?:missing|got an unexpected keyword argument)")
 _LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
 """The modules of which all names are known."""
@@ -144,6 +147,7 @@ def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> 
         place,
         subject=Subject("keyword", wrong.name),
         kind="invalid" if wrong.near is None else "near",
+        doubts=otherwise_in(context, BEFORE_GALACTIC) if _OLD_KEYWORD.match(wrong.name) else (),
         candidates=(wrong.near,),
         fixes=fixes,
         stops_launch=True,
@@ -267,6 +271,7 @@ RULE = Rule(
         Reason.PARTLY_READ,
         Reason.INTENDED,
         Reason.UNSEEN,
+        Reason.MEANT_FOR_OTHER,
     ),
     what="Checks for the line of a Python launch file that raises an exception, in `generate_launch_description`, an "
     "`OpaqueFunction`, or an action. Such files run in the sandbox if the workspace is trusted.",

@@ -10,6 +10,7 @@ from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.distributions import BEFORE_GALACTIC, otherwise_in
 from preflight_analysis.model.files import is_template
 from preflight_analysis.model.parameters import OF_ALL_NODES
 from preflight_analysis.model.problems import fix, shortened
@@ -61,7 +62,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             # A program writes the value into the file before it is used.
             template = doubts(NOT_SET=f"the value of '{param.name}'" if is_template(str(param.value)) else "")
             fixes = _fixes(context, param, passed, wanted, in_file=place.file in files)
-            yield replace(refusal(rule, node, param, use, message, template), fixes=fixes)
+            # Before, the node logged it and went on: its clock takes it, after it is declared without a type.
+            clock = otherwise_in(context, BEFORE_GALACTIC) if param.name == "use_sim_time" else ()
+            yield replace(refusal(rule, node, param, use, message, (*template, *clock)), fixes=fixes)
 
 
 def _is_as_declared(param: Param, use: ParamUse, wanted: str) -> bool:
@@ -149,7 +152,7 @@ RULE = Rule(
     name="parameter-of-other-type",
     effect="stops-node",
     kind="conflict",
-    sometimes=(*OF_REFUSALS, Reason.NOT_SET),
+    sometimes=(*OF_REFUSALS, Reason.NOT_SET, Reason.MEANT_FOR_OTHER),
     what="Checks for a parameter whose type differs from the type that its node declares. An integer is not a "
     "double, and an empty list has no type. A text of the launch file may arrive with another type.",
     why="rclcpp and rclpy raise InvalidParameterTypeException in `declare_parameter`, and most nodes exit.",

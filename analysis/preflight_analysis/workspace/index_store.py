@@ -101,6 +101,7 @@ def _key(workspace: Workspace) -> str:
         "code": _own_code(),
         "generation": environment.generation,
         "distro": environment.distro,
+        "meant_for": environment.meant_for,
         "packages": packages,
         "places": places,
         "cwd": workspace.cwd,

@@ -13,7 +13,7 @@ nodes:                          # what nodes do that cannot be run, in the words
     params: [{name: ~rate, default: 10}]
 knowledge:                      # files that say what parameters of nodes mean: docs/knowledge.md
   - config/knowledge.yaml
-distribution: humble            # that the workspace is for, where no ROS is sourced or installed
+distribution: humble            # that the workspace is for
 severities:                     # of rules: off, hint, info, warning or error; `all` are those that are not named
   TOP002: off
 paths:                          # the same for files below a folder, or of a pattern; the last that matches counts

@@ -68,7 +68,7 @@ def schema() -> dict[str, Any]:
             {"type": "string", "description": "A file, relative to this file."},
         ),
         "distribution": {
-            "description": "The distribution of ROS that the workspace is for, if none is sourced or installed.",
+            "description": "The distribution of ROS that the workspace is for.",
             "enum": [*known_distributions(1), *known_distributions(2)],
         },
         "severities": _SEVERITIES,
