@@ -1,7 +1,9 @@
 """PRM013: a parameter that its node does not declare (ROS 2)."""
 
+from pathlib import Path
+
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 
 
 def test_a_parameter_that_is_not_declared() -> None:
@@ -193,3 +195,33 @@ def test_of_a_row_of_parameters_a_node_may_take_as_many_as_it_is_given() -> None
         {"/ekf": {"params": {"~odom0_queue_size": 6}, "answers": ["x"]},
          "/whole": {"params": {"~odom0_queue_size": 6}}}
     """)
+
+
+COMPUTED = {
+    "a sum": 'declare_parameter("corrections." + role + ".position", zero);',
+    "its beginning": "self.declare_parameter(f'corrections.{role}', 0.0)",
+    "its end": 'const auto name = definition.key + ".position"; declare_parameter(name, zero);',
+    "a format": 'self.declare_parameter("corrections.{}.{}".format(role, "position"), 0.0)',
+    "a text that is built": 'declare_parameter(std::string("corrections.") + name(role) + "." + kind, 0.0);',
+}
+_OPEN = """
+    //- {0}/p/robot.launch.xml
+    <launch>
+      <node pkg="p" exec="pump" name="pump">
+        <param name="corrections.left_hand.position" value="4.5"/>
+        <param name="correction.left_hand.offset" value="4.5"/>
+      </node>
+    </launch>
+    //- interfaces
+    {{"/pump": {{"params": {{"~rate": 6.0}}}}}}
+    //- {0}/p/package.xml
+    <package><name>p</name></package>
+"""
+
+
+@pytest.mark.parametrize("case", COMPUTED)
+def test_a_name_that_the_source_puts_together(tmp_path: Path, case: str) -> None:
+    (tmp_path / "p" / "src").mkdir(parents=True)
+    (tmp_path / "p" / "src" / "pump.cpp").write_text(COMPUTED[case])
+    said = [each.message for each in findings_of(_OPEN.format(tmp_path)) if each.rule == "PRM013"]
+    assert [message.split("'")[1] for message in said] == ["correction.left_hand.offset"]

@@ -101,6 +101,34 @@ def test_names_that_are_known_or_like_nothing(tmp_path: Path, inside: str, sourc
     assert found(tmp_path, inside, sources) == []
 
 
+MADE = (
+    'std::string name = stream_name_[index] + "_width";',
+    'name += "_width";',
+    'name = f"{stream}_width"',
+    'name = "%s_width" % stream',
+    'name = "depth" + kind + "dth"',
+)
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize("source", MADE)
+def test_a_name_that_a_program_may_put_together(tmp_path: Path, source: str) -> None:
+    sources = {"p/src/a.cpp": f'nh.param("depth_roi_width", a, 0);\n{source}\nnh.param(name, a, 0);\n'}
+    assert found(tmp_path, param("depth_width"), sources) == []
+
+
+@pytest.mark.parametrize("source", MADE)
+def test_a_slip_that_no_program_puts_together(tmp_path: Path, source: str) -> None:
+    sources = {"p/src/a.cpp": f'nh.param("depth_roi_width", a, 0);\n{source}\nnh.param(name, a, 0);\n'}
+    assert len(found(tmp_path, param("depth_roi_widht"), sources)) == 1
+
+
+@pytest.mark.parametrize("source", ['log("the " + name + " width");', 'a = "x" + name;', 'b = "depth" + "_height";'])
+def test_a_text_that_says_nothing_of_the_name(tmp_path: Path, source: str) -> None:
+    sources = {"p/src/a.cpp": f'nh.param("depth_roi_width", a, 0);\n{source}\n'}
+    assert len(found(tmp_path, param("depth_width"), sources)) == 1
+
+
 def test_two_that_are_like_one_are_no_slips_of_it(tmp_path: Path) -> None:
     source = {"p/src/a.cpp": 'nh.getParam("serials", s);'}
     assert [f.severity for f in found(tmp_path, param("serial"), source)] == ["warning"]

@@ -43,6 +43,20 @@ _MACRO = re.compile(r"\b[A-Z][A-Z0-9_]{2,}\(([^()\"]*)\)")
 """What a macro is given may become a text."""
 _KEY = re.compile(r"^\s*([A-Za-z]\w*)\s*:", re.MULTILINE)
 _ANY = "*"
+_COMPUTED = "*"
+"""A part of a name that a program computes."""
+_TERM = (
+    r"""(?:(?:std::string|str)\(\s*"[^"\n]*"\s*\)|[bfru]{0,2}"[^"\n]*"|[bfru]{0,2}'[^'\n]*'"""
+    r"""|[\w.:>\[\]-]+(?:\([^()"']*\))?)"""
+)
+_SUM = re.compile(rf"(?<![\w.:>\]\"'-]){_TERM}(?:\s*\+=?\s*{_TERM})+")
+"""`"corrections." + role + ".position"`, `name += "_width"`."""
+_TERMS = re.compile(_TERM)
+_FORMAT = re.compile(r"\{[^{}\n]*\}|%[sd]")
+"""What stands for a part in `f"initial_positions.{joint}"`, `"{}.rate"`, `"%s.rate"`."""
+_TEXT = re.compile(r"""["']([^"'\n]*)["']""")
+_MADE = re.compile(r"[\w./~*]+")
+_ASKS = re.compile(r"param", re.IGNORECASE)
 _PART = re.compile(r"[/.]")
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 
@@ -60,6 +74,8 @@ class _Index(NamedTuple):
     asked: frozenset[Asked]
     words: frozenset[str]
     """All parts of names that stand in quotes."""
+    made: frozenset[str]
+    """Names that are put together at run time, with `*` for what is computed: `corrections.*.position`."""
 
 
 @query
@@ -68,7 +84,7 @@ def meant_in_sources(db: Database, environment: Environment, share: str, name: s
     parameter's own name is in no source of the workspace. `name` is the one below the node's."""
     above, leaf = _parts(name)
     own = _in_folder(db, share)
-    if own is None or not _is_telling(leaf) or leaf in own.words:
+    if own is None or not _is_telling(leaf) or leaf in own.words or may_be_made(db, share, name):
         return None
     near = _by_name(_alike(own.asked, above, leaf))
     if not near and not above:
@@ -80,6 +96,24 @@ def meant_in_sources(db: Database, environment: Environment, share: str, name: s
     if len(near) != 1 or not others or any(leaf in index.words for index in others):
         return None
     return next(iter(near.values()))
+
+
+@query
+def may_be_made(db: Database, share: str, name: str) -> bool:
+    """Whether a source of a package that asks for parameters puts names together of which this may be one: their
+    beginning or end is that of `name`."""
+    index = _in_folder(db, share)
+    return index is not None and _is_made(index, name)
+
+
+def _is_made(index: _Index, name: str) -> bool:
+    plain = name.replace("/", ".")
+    return any(_fits(made, plain) for made in index.made)
+
+
+def _fits(made: str, name: str) -> bool:
+    parts = (re.escape(part) for part in made.replace("/", ".").strip("~.").split(_COMPUTED))
+    return re.fullmatch(r"(?:.*\.)?" + r"[\w.]+".join(parts), name) is not None
 
 
 @query
@@ -112,7 +146,7 @@ def meant_in_one_file(
             if not _is_telling(name) or len(near) != 1:
                 continue
             indexes = _in_workspace(db, environment)
-            if indexes and not any(name in index.words for index in indexes):
+            if indexes and not any(name in index.words or _is_made(index, name) for index in indexes):
                 found.setdefault(name, next(iter(near.values())))
     return found
 
@@ -170,6 +204,7 @@ def _in_folder(db: Database, folder: str) -> _Index | None:
     return _Index(
         frozenset[Asked]().union(*(each.asked for each in files)),
         frozenset[str]().union(*(each.words for each in files)),
+        frozenset[str]().union(*(each.made for each in files)),
     )
 
 
@@ -185,14 +220,31 @@ def _in_file(db: Database, path: str) -> _Index:
     document = Disk(db).text(path)
     text = document.text if isinstance(document, Document) else ""
     if path.endswith(".yaml"):
-        return _Index(frozenset(), frozenset(_KEY.findall(text)) if "default_value" in text else frozenset())
+        keys = frozenset(_KEY.findall(text)) if "default_value" in text else frozenset[str]()
+        return _Index(frozenset(), keys, frozenset())
     asked = set()
     for name in _ASKED.findall(_without_comments(text, path)):
         above, leaf = _parts(name)
         asked.add(Asked(_ANY if not above and name[0] in "./" else above, leaf, path))
     words = {part for written in _WRITTEN.findall(text) for part in _PART.split(written.strip("~/."))}
     words.update(word for given in _MACRO.findall(text) for word in re.findall(r"\w+", given))
-    return _Index(frozenset(asked), frozenset(words))
+    made = frozenset(_made(_without_comments(text, path))) if _ASKS.search(text) else frozenset[str]()
+    return _Index(frozenset(asked), frozenset(words), made)
+
+
+def _made(text: str) -> Iterator[str]:
+    """The names that a text puts together of which enough is known to tell them from others."""
+    sums = ("".join(map(_part, _TERMS.findall(found[0]))) for found in _SUM.finditer(text))
+    for name in (*sums, *(_FORMAT.sub(_COMPUTED, each) for each in _TEXT.findall(text))):
+        known = name.replace(_COMPUTED, "")
+        if _COMPUTED in name and _MADE.fullmatch(name) and sum(map(str.isalpha, known)) >= _SHORTEST:
+            yield re.sub(r"\*+", _COMPUTED, name)
+
+
+def _part(term: str) -> str:
+    """What a term of a sum adds to a name."""
+    found = _TEXT.search(term)
+    return _FORMAT.sub(_COMPUTED, found[1]) if found is not None else _COMPUTED
 
 
 def _without_comments(text: str, path: str) -> str:

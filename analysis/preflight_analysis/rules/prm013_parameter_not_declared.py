@@ -14,6 +14,7 @@ from preflight_analysis.findings.finding import Alike, Finding, Fix
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
 from preflight_analysis.model.parameters import OF_ALL_NODES
+from preflight_analysis.model.params_in_sources import may_be_made
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, replacement
 from preflight_analysis.model.unread_params import reports_params
@@ -38,6 +39,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     nodes = [(n, _declared(n, i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
+    own = context.environment.own_packages
     takers: dict[Location | None, set[int]] = {}
     for node, declared, _ in nodes:
         for param in node.params:
@@ -58,6 +60,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if param.name_location is not None and takers.get(param.name_location, set()) - {id(node)}:
                 continue  # what is written once for several nodes, one of which wants it
             if _OF_TRANSPORT.search(param.name):
+                continue
+            package = context.environment.packages.get(node.package)
+            if package in own and may_be_made(context.disk.db, package.share, param.name):
                 continue
             numbered = _NUMBER.sub("#", param.name)
             if not interface.tells_all("parameters") and numbered in {_NUMBER.sub("#", name) for name in declared}:
