@@ -236,3 +236,22 @@ def test_lifecycle_nodes_and_the_transitions_that_they_make_by_themselves(tmp_pa
         found = interface(tmp_path / f"{name}{len(body)}", base="", node=LIFECYCLE.format(name, name, body))
         assert [end.type for end in found.endpoints if end.name == "~/change_state"] == [CHANGE_STATE]
         assert found.transitions == transitions
+
+
+def test_what_is_declared_after_a_check_that_raises(tmp_path: Path) -> None:
+    check = """self.path = self.declare_parameter('path', '').value
+        if not self.path:
+            raise RuntimeError('path is required')
+        self.declare_parameter('late', 1.0)
+        self.timer ="""
+    found = interface(tmp_path, node=NODE.replace("self.timer =", check))
+    assert {"~path", "~late"} <= {use.name for use in found.params}
+
+
+def test_what_is_not_come_to_is_not_declared(tmp_path: Path) -> None:
+    check = """if not self.declare_parameter('path', '').value:
+            return
+        self.declare_parameter('late', 1.0)
+        self.timer ="""
+    found = interface(tmp_path, node=NODE.replace("self.timer =", check))
+    assert "~late" not in {use.name for use in found.params}

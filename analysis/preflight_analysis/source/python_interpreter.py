@@ -129,8 +129,10 @@ class _Interpreter(CallExpressions):
 
     def _if(self, node: ast.If, scope: Scope) -> bool:
         truth = truth_of(self._value(node.test, scope))
-        if truth is not None:
-            return self._block(node.body if truth else node.orelse, scope)
+        taken = node.body if truth else node.orelse
+        # What a program raises for is no way to go: a value that is missing here is there on the robot.
+        if truth is not None and not (taken and isinstance(taken[-1], ast.Raise)):
+            return self._block(taken, scope)
         return self._branches.either(lambda: self._block(node.body, scope), lambda: self._block(node.orelse, scope))
 
     def _speculatively(self, statements: Sequence[ast.stmt], scope: Scope) -> None:
