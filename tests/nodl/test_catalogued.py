@@ -164,9 +164,10 @@ def test_nodelets_and_components(tmp_path: Path) -> None:
     assert [[made.name for made in interface.nodes] for interface in found] == [["scanner"]]
 
 
+_LOAD = {"name": "~/load_controller", "type": "controller_manager_msgs/srv/LoadController", "conditional": True}
 MANAGER = {
     "source": ["makers/control", COMMIT, "2024-01-01"],
-    "executables": {"manager_node": {"nodes": [["manager", "", True]]}},
+    "executables": {"manager_node": {"nodes": [["manager", "", True]], "service_servers": [_LOAD]}},
     "controllers": {
         "control/Drive": {
             "subscriptions": [{"name": "~/cmd_vel", "type": "geometry_msgs/msg/Twist"}],
@@ -210,7 +211,8 @@ def test_controllers_have_nodes_beside_their_manager(tmp_path: Path, name: str) 
 
 @pytest.mark.parametrize(("nodes", "name"), [([["manager", "", True]], "/manager"), ([], "/manager_node")])
 def test_a_manager_without_a_name_has_its_own_beside_controllers(tmp_path: Path, nodes: list[Any], name: str) -> None:
-    data = {**MANAGER, "executables": {"manager_node": {"nodes": nodes, "publishers": [{"name": "~/state"}]}}}
+    executable = {"nodes": nodes, "publishers": [{"name": "~/state"}], "service_servers": [_LOAD]}
+    data = {**MANAGER, "executables": {"manager_node": executable}}
     (packages.INTERFACES / "jazzy" / "control.json").write_text(json.dumps(data))
     param = '<param name="base.type" value="control/Drive"/>'
     text = f'<launch><node pkg="control" exec="manager_node">{param}</node></launch>'
@@ -218,6 +220,19 @@ def test_a_manager_without_a_name_has_its_own_beside_controllers(tmp_path: Path,
     assert [node.name for node in graph.tree.nodes] == [name, "/base"]
     assert graph.tree.nodes[0].name_from_code == bool(nodes)
     assert f"{name}/state" in graph.topics
+
+
+def test_types_among_the_parameters_of_other_nodes_are_of_no_controllers(tmp_path: Path) -> None:
+    data = {**MANAGER, "executables": {name: {"publishers": [{"name": "~/state"}]} for name in ("plan", "see")}}
+    (packages.INTERFACES / "jazzy" / "control.json").write_text(json.dumps(data))
+    params = (
+        '<param name="planners.RRT.type" value="geometric::RRT"/><param name="arm.type" value="FollowJointTrajectory"/>'
+    )
+    text = "".join(f'<node pkg="control" exec="{name}" name="{name}">{params}</node>' for name in ("plan", "see"))
+    analysis = analysed(tmp_path, f"<launch>{text}</launch>", "a.launch.xml")
+    assert analysis.graph is not None
+    assert [node.name for node in analysis.graph.tree.nodes] == ["/plan", "/see"]
+    assert "LCH016" not in {finding.rule for finding in analysis.findings}
 
 
 @pytest.mark.parametrize(("listener", "said"), [("scanner", []), ("hearer", ["TOP003"])])

@@ -74,8 +74,9 @@ class KnownMeanings:
         """What is known of a node that the process of another one makes beside it: a costmap, or a controller, whose
         type the other one has as a parameter."""
         type_ = next((p.value for p in process.params if p.name == f"{names.leaf(node.name)}.type"), None)
-        if isinstance(type_, str):
-            return self.plugin(type_, "controllers", _names_of(node.params))
+        found = self.plugin(type_, "controllers", _names_of(node.params)) if isinstance(type_, str) else None
+        if found is not None:
+            return found
         outer = self.of_node(process)
         below = node.name.removeprefix(names.parent(process.name))
         class_ = outer.entry.within.get(below) if outer is not None else None

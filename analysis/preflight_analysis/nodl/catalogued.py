@@ -20,7 +20,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import place_of, within
-from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.spawners import LOAD_CONTROLLER, asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
@@ -99,7 +99,8 @@ def _filled_in(
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
-    does = (found, *_controllers(node, asked, distro, is_used=is_used))
+    manages = bool(asked) or any(end.type == LOAD_CONTROLLER for end in found.endpoints)
+    does = (found, *(_controllers(node, asked, distro, is_used=is_used) if manages else ()))
     whole = interface.with_more(
         node.name,
         "catalogue",

@@ -21,6 +21,8 @@ from preflight_analysis.evaluation.words import words_of
 PACKAGE = "controller_manager"
 MANAGER = (PACKAGE, "ros2_control_node")
 """Package and executable of the node that has a manager, and controllers beside it."""
+LOAD_CONTROLLER = "controller_manager_msgs/srv/LoadController"
+"""The type of the service by which a manager is asked for controllers: what offers it is one."""
 SPAWN = frozenset(
     {
         ("ros_gz_sim", "create"),
