@@ -100,6 +100,7 @@ def test_what_may_be_activated() -> None:
     """)
 
 
+_CHANGES = '{"~/change_state": "lifecycle_msgs/srv/ChangeState"}'
 _SERVES = '"services": {"~/change_state": "lifecycle_msgs/srv/ChangeState"}'
 
 
@@ -131,3 +132,30 @@ def test_a_node_whose_run_or_source_shows_that_it_is_one(driver: str, other: str
         {{"/driver": {{{_SERVES}{driver}}}, "/other": {{{other}}}}}
     """)
     assert [each.severity for each in found if each.rule == "LCH035"] == ([said] if said else [])
+
+
+@pytest.mark.parametrize(
+    ("source", "nodes", "services", "said"),
+    [
+        ("source", '[{"name": "driver", "given": "driver", "inferred": true}]', "{}", False),
+        ("source", '[{"name": "driver", "given": "driver", "inferred": true}]', _CHANGES, True),
+        ("source", '[{"name": "_tf", "given": "_tf", "inferred": true}]', "{}", True),
+        ("source", "[]", "{}", True),
+        ("catalogue", '[{"name": "driver", "given": "driver", "inferred": true}]', "{}", True),
+    ],
+)
+def test_a_plain_node_that_the_launch_file_calls_a_lifecycle_node(
+    source: str, nodes: str, services: str, *, said: bool
+) -> None:
+    """The catalogue has no services of lifecycles."""
+    found = findings_of(f"""
+        //- /a.launch.xml
+        <launch>
+          <lifecycle_node pkg="p" exec="driver" name="driver" namespace=""/>
+          <node pkg="p" exec="other" name="other"/>
+        </launch>
+        //- interfaces
+        {{"/driver": {{"source": "{source}", "status": "not-run", "nodes": {nodes}, "services": {services},
+                       "publishers": {{"out": "std_msgs/msg/Empty"}}}}, "/other": {{}}}}
+    """)
+    assert [each.rule for each in found if each.rule == "LCH035"] == (["LCH035"] if said else [])

@@ -105,7 +105,15 @@ def _waits(node: LaunchNode, interface: Interface) -> bool:
         return True
     # `LifecycleNode` starts whatever is given to it.
     seen = interface.likely_complete and interface.source == "trace" and bool(types)
-    return _is_said_to_wait(node) and not seen
+    return _is_said_to_wait(node) and not (seen or _makes_plain_nodes(interface))
+
+
+def _makes_plain_nodes(interface: Interface) -> bool:
+    """Whether its source, or a run, shows all nodes that the process makes, and none has a lifecycle: one that has
+    offers the services of it as soon as it is made. The catalogue has no such services of any node."""
+    made = [each for each in interface.nodes if not each.hidden]
+    has_lifecycle = any(end.type == CHANGE_STATE and end.role == "service" for end in interface.endpoints)
+    return interface.source in ("source", "trace") and bool(made) and not has_lifecycle
 
 
 def _full(name: str, node: LaunchNode) -> str:
