@@ -114,7 +114,7 @@ class ParamSource(NamedTuple):
     substitutions are made before the node gets it, so that its text tells no more than what stands in it plainly.
     `pushed`: it is for each node of a scope (`<set_parameter>`), not for this one. `sections` has all of a file that
     cannot be read again, as a run of a launch file wrote it, or its substitutions were made: for a node that gets
-    another name, and for those within it."""
+    another name, and for those within it. `made_from`: the file that the one at `path` was written from by a run."""
 
     path: str | None
     params: tuple[Param, ...]
@@ -123,6 +123,7 @@ class ParamSource(NamedTuple):
     substituted: bool = False
     pushed: bool = False
     sections: tuple[FileSection, ...] = ()
+    made_from: str | None = None
 
 
 class Tag:

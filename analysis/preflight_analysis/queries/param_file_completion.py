@@ -8,11 +8,12 @@ import yaml
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.ros2.param_files import MARK, Section
+from preflight_analysis.evaluation.ros2.param_files import MARK
+from preflight_analysis.model.sections import param_file
 from preflight_analysis.queries.completion_graph import parameter_doc
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.cursor_yaml import Entry, outline
-from preflight_analysis.queries.param_files import Reader, readers
+from preflight_analysis.queries.param_files import Reader, readers, readers_of
 from preflight_analysis.queries.param_texts import default_text
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -33,8 +34,10 @@ def complete_param_file(analysis: Analysis, document: Document, offset: int, tri
         return None
     siblings = {entry.key for entry in (above[-1].below if above else top) if entry is not here}
     colon = "" if document.text.startswith(":", here.key_span.end) else ":"
-    found = readers(analysis, document.path)
-    items = _parameters(found, keys, siblings, colon) if MARK in keys else _names(found, keys, siblings, colon)
+    if MARK in keys:
+        items = _parameters(_fitting(analysis, document.path, keys), keys, siblings, colon)
+    else:
+        items = _names(readers(analysis, document.path), keys, siblings, colon)
     return Completion(here.key_span, tuple(items))
 
 
@@ -75,7 +78,7 @@ def _node(label: str, colon: str, detail: str, doc: str) -> Item:
 def _parameters(found: Sequence[Reader], keys: list[str], siblings: set[str], colon: str) -> Iterator[Item]:
     """Below `ros__parameters`: what the nodes that the section is for declare, `a.b` as `b` below `a`."""
     prefix = "".join(f"{key}." for key in keys[keys.index(MARK) + 1 :])
-    for reader in _fitting(found, keys):
+    for reader in found:
         for use in reader.interface.params:
             name = use.name.removeprefix("~")
             if use.builtin or use.access == "set" or not name.startswith(prefix):
@@ -94,17 +97,18 @@ def _parameters(found: Sequence[Reader], keys: list[str], siblings: set[str], co
             yield Item("parameter", label, text, doc, detail, snippet=snippet)
 
 
-def _fitting(found: Sequence[Reader], keys: list[str]) -> list[Reader]:
+def _fitting(analysis: Analysis, path: str, keys: list[str]) -> tuple[Reader, ...]:
+    """The nodes that a section below these keys is for."""
     parts = [part for key in keys[: keys.index(MARK)] for part in key.split("/") if part]
-    section = Section("/" + "/".join(parts), (), ())
-    return [reader for reader in found if section.fits(reader.node.name)]
+    used = param_file(analysis.context, path)
+    return readers_of(analysis, used.nodes_for("/" + "/".join(parts))) if used is not None else ()
 
 
 def _value(analysis: Analysis, document: Document, here: Entry, keys: list[str], offset: int) -> Completion | None:
     """The default, or both truth values."""
     span = here.value_span if here.value else Span(offset, offset)
     name = ".".join((*keys[keys.index(MARK) + 1 :], here.key))
-    for reader in _fitting(readers(analysis, document.path), keys):
+    for reader in _fitting(analysis, document.path, keys):
         use = reader.declared(name)
         if use is None or not use.has_default or use.default is None or not span.start <= offset <= span.end:
             continue

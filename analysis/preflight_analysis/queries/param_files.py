@@ -3,16 +3,17 @@ declare."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
-from preflight_analysis.evaluation.ros2.param_files import FileParam, Section, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import FileParam
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.markdown import code
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.plugin_params import declared_of_plugins
+from preflight_analysis.model.sections import Getter, SectionUse, param_file
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
 from preflight_analysis.queries.places import link, place
@@ -43,14 +44,17 @@ def is_param_file(analysis: Analysis, path: str) -> bool:
 
 def readers(analysis: Analysis, path: str) -> tuple[Reader, ...]:
     """The nodes that get a parameter file, whether a section of it is for them or not."""
+    used = param_file(analysis.context, path)
+    return readers_of(analysis, used.getters) if used is not None else ()
+
+
+def readers_of(analysis: Analysis, getters: Iterable[Getter]) -> tuple[Reader, ...]:
+    """Nodes that get a file, with what is known of each."""
     graph = analysis.graph
-    nodes = graph.tree.nodes if graph is not None else analysis.tree.nodes
-    interfaces = graph.interfaces if graph is not None else (NOT_RUN,) * len(nodes)
-    return tuple(
-        Reader(node, _with_plugins(analysis, node, interface))
-        for node, interface in zip(nodes, interfaces, strict=True)
-        if any(source.path == path for source in node.param_sources)
-    )
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ()
+    known = {node.name: (node, interface) for node, interface in pairs}
+    found = (known.get(each.name, (each.node._replace(name=each.name), NOT_RUN)) for each in getters)
+    return tuple(Reader(node, _with_plugins(analysis, node, interface)) for node, interface in found)
 
 
 def _with_plugins(analysis: Analysis, node: LaunchNode, interface: Interface) -> Interface:
@@ -72,32 +76,45 @@ def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover
     found = _at(analyses[0], path, offset)
     if found is None:
         return None
-    section, param, span = found
-    known = [(a, r) for a in analyses for r in readers(a, path) if section.fits(r.node.name)]
+    use, param, span = found
     first: dict[str, tuple[Analysis, Reader]] = {}
-    for analysis, reader in known:
-        first.setdefault(reader.node.name, (analysis, reader))
+    for analysis in analyses:
+        for reader in _for_section(analysis, path, use):
+            first.setdefault(reader.node.name, (analysis, reader))
     if param is None:
         lines = [f"- {_node(analysis, reader)}" for analysis, reader in first.values()]
-        title = (
-            f"{code(section.pattern)} is for" if lines else f"{code(section.pattern)} fits no node that gets this file"
-        )
+        pattern = code(use.section.pattern)
+        title = f"{pattern} is for" if lines else f"{pattern} fits no node that gets this file"
     else:
         lines = [f"- {_declared(analysis, reader, param, path)}" for analysis, reader in first.values()]
         title = f"{code(param.name)} = {value_text(param.value)} ({type_text(param.value) or 'no value'})"
+    if not lines:
+        lines = list(_why_not(use))
     more = [f"- … and {len(lines) - _SHOWN_NODES} more"] if len(lines) > _SHOWN_NODES else []
     return Hover("\n".join([title, "", *lines[:_SHOWN_NODES], *more]).rstrip(), span)
 
 
-def _at(analysis: Analysis, path: str, offset: int) -> tuple[Section, FileParam | None, Span] | None:
-    document = analysis.documents.get(path)
-    for section in read_param_file(document).sections if document is not None else ():
-        for span in section.spans:
+def _for_section(analysis: Analysis, path: str, use: SectionUse) -> tuple[Reader, ...]:
+    """The nodes of a launch to which a section applies."""
+    used = param_file(analysis.context, path)
+    return readers_of(analysis, used.nodes_for(use.section.pattern)) if used is not None else ()
+
+
+def _why_not(use: SectionUse) -> Iterator[str]:
+    yield f"{use.reason[:1].upper()}{use.reason[1:]}" + ("" if use.reason.endswith("?") else ".")
+    for doubt in use.doubts:
+        yield f"- Not sure: {doubt.reason.sentence}."
+
+
+def _at(analysis: Analysis, path: str, offset: int) -> tuple[SectionUse, FileParam | None, Span] | None:
+    used = param_file(analysis.context, path)
+    for use in used.sections if used is not None else ():
+        for span in use.section.spans:
             if span.contains(offset):
-                return section, None, span
-        for param in section.params:
+                return use, None, span
+        for param in use.section.params:
             if param.name_span.contains(offset):
-                return section, param, param.name_span
+                return use, param, param.name_span
     return None
 
 
@@ -129,9 +146,7 @@ def from_param_file(context: QueryContext, offset: int) -> Iterator[tuple[Locati
     section, param, span = found
     seen: set[Location] = set()
     for analysis in context.analyses:
-        for reader in readers(analysis, context.path):
-            if not section.fits(reader.node.name):
-                continue
+        for reader in _for_section(analysis, context.path, section):
             use = reader.declared(param.name) if param is not None else None
             target = reader.node.location if param is None else made_at(context, use) if use is not None else None
             if target is not None and target not in seen:

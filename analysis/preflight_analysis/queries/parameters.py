@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.param_files import FileParam
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Unknown
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.parameters import OF_ALL_NODES
+from preflight_analysis.model.sections import SectionUse, param_files
 from preflight_analysis.queries.symbol_at import own_parameter, settings_of
 from preflight_analysis.tracing.interface import ParamUse
 from preflight_analysis.workspace.workspace import Analysis
@@ -26,6 +29,15 @@ class NoSuchParameterError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
+class Unapplied:
+    """A value in a section of a parameter file that applies to no node, and where its name stands."""
+
+    use: SectionUse
+    param: FileParam
+    place: Location
+
+
+@dataclass(frozen=True, slots=True)
 class Parameter:
     """One parameter. `name` is the full one, in ROS 2 `/node:name`. `settings` are the places that set it, the one that
     applies first; `uses` are the calls of nodes, each with the node's name. `unknowns` are what is not known of the
@@ -35,6 +47,7 @@ class Parameter:
     settings: tuple[Param, ...]
     uses: tuple[tuple[str, ParamUse], ...]
     unknowns: tuple[Unknown, ...] = ()
+    unapplied: tuple[Unapplied, ...] = ()
 
     @property
     def node(self) -> str:
@@ -59,15 +72,18 @@ def parameter(analysis: Analysis, name: str) -> Parameter | None:
     for param in reversed([param for full, param in settings_of(analysis.tree) if full == name]):
         settings.setdefault(param.place, param)
     uses = tuple((node, use) for full, node, use in _uses(analysis) if full == name)
-    if not settings and not uses:
+    unapplied = tuple(each for full, each in _unapplied(analysis) if full == name)
+    if not settings and not uses and not unapplied:
         return None
-    return Parameter(name, tuple(settings.values()), uses, tuple(dict.fromkeys(_unknowns(analysis.tree, name))))
+    unknowns = tuple(dict.fromkeys(_unknowns(analysis.tree, name)))
+    return Parameter(name, tuple(settings.values()), uses, unknowns, unapplied)
 
 
 def parameters(analysis: Analysis, name: str) -> tuple[Parameter, ...]:
     """The parameters that a name may mean: a full one (`/node/name`; in ROS 2 `/node:name`), or its last part, which
     several nodes may have. Raises `NoSuchParameterError`."""
-    known = sorted({*(full for full, _ in settings_of(analysis.tree)), *(full for full, _, _ in _uses(analysis))})
+    set_here, unapplied = settings_of(analysis.tree), _unapplied(analysis)
+    known = sorted({*(full for full, _ in chain(set_here, unapplied)), *(full for full, _, _ in _uses(analysis))})
     meant = [full for full in known if full == name] or [full for full in known if _may_be(full, name)]
     if not meant:
         near = nearest(_last(name), map(_last, known))
@@ -84,6 +100,19 @@ def section(tree: LaunchTree, param: Param) -> str:
                 if each.place == param.place:
                     return key
     return ""
+
+
+def _unapplied(analysis: Analysis) -> Iterator[tuple[str, Unapplied]]:
+    """What sections that apply to no node would set, by the parameters of the nodes that they are meant for; where
+    nothing is known of these, of the one that they name."""
+    for used in param_files(analysis.context):
+        for each in used.sections:
+            if each.nodes:
+                continue
+            owners = [candidate.name for candidate in each.candidates] or [each.section.pattern]
+            for param in each.section.params:
+                found = Unapplied(each, param, analysis.context.location(used.path, param.name_span))
+                yield from ((f"{owner}:{param.name}", found) for owner in owners)
 
 
 def _uses(analysis: Analysis) -> Iterator[tuple[str, str, ParamUse]]:

@@ -12,6 +12,7 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix
+from preflight_analysis.model.sections import given_files
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Rule
 
@@ -19,25 +20,21 @@ MESSAGE = "parameter '{}' is not below '{}'; rcl refuses the whole file"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    seen: set[str] = set()
-    for node in context.tree.nodes_and_simulated:
-        for source in node.param_sources:
-            path = source.path
-            document = context.documents.get(path) if path is not None else None
-            if path is None or path in seen or not isinstance(document, Document):
-                continue
-            if node.kind == "composable":
-                continue  # launch_ros reads it: it takes the sections that there are, or all of it
-            seen.add(path)
-            for name, span in read_param_file(document).unmarked[:1]:
-                related = (Related(f"{node.name} gets the file here", source.origin[-1]),)
-                yield rule.claim(
-                    MESSAGE.format(name, MARK),
-                    context.location(path, span),
-                    subject=Subject("parameter", name),
-                    related=related,
-                    fixes=marked(document, span),
-                )
+    for path, given in given_files(context).items():
+        # launch_ros reads it for a component: it takes the sections that there are, or all of it.
+        by_rcl = next(((node, source) for node, source in given if node.kind != "composable"), None)
+        document = context.documents.get(path)
+        if by_rcl is None or not isinstance(document, Document):
+            continue
+        node, source = by_rcl
+        for name, span in read_param_file(document).unmarked[:1]:
+            yield rule.claim(
+                MESSAGE.format(name, MARK),
+                context.location(path, span),
+                subject=Subject("parameter", name),
+                related=(Related(f"{node.name} gets the file here", source.origin[-1]),),
+                fixes=marked(document, span),
+            )
 
 
 def marked(document: Document, key: Span) -> tuple[Fix, ...]:

@@ -74,6 +74,10 @@ def _lines(found: Parameter, analysis: Analysis) -> Iterator[str]:
         where = place(param.place, analysis.all_documents, os.getcwd())
         yield f"  {state:<10}  {_shown(param.value)} [{where}]{f' section {key!r}' if key else ''}"
         state = "overridden"
+    for lost in found.unapplied:
+        where = place(lost.place, analysis.all_documents, os.getcwd())
+        key = lost.use.section.key
+        yield f"  {'no effect':<10}  {_shown(lost.param.value)} [{where}] section {key!r}: {lost.use.reason}"
     for each in found.unknowns:
         where = place(each.location, analysis.all_documents, os.getcwd())
         yield f"  {'unknown':<10}  may also be set here: {each.what} ({each.reason}) [{where}]"
@@ -113,6 +117,16 @@ def _json(found: Parameter, analysis: Analysis) -> dict[str, Any]:
         "node": found.node or None,
         "settings": [
             {"applies": not number, **_setting(param, analysis)} for number, param in enumerate(found.settings)
+        ],
+        "unapplied": [
+            {
+                "value": json_value(each.param.value),
+                "type": type_text(each.param.value) or None,
+                "section": each.use.section.key,
+                "reason": each.use.reason,
+                **place_json(each.place, analysis.all_documents),
+            }
+            for each in found.unapplied
         ],
         "unknown": [
             {"what": each.what, "reason": each.reason, **place_json(each.location, analysis.all_documents)}

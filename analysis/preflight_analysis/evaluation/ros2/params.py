@@ -215,6 +215,7 @@ def file_source(
     before = _document_before(performer, text) if made else None
     places: _Places = before.once(_places) if before is not None else {}
     source = of_file(file, path, lines, origin, to, made_of=places if made else None)
+    source = source._replace(made_from=before.path if before is not None else None)
     if to.composable:
         return source
     sections = _sections_made(text, path) if before is None else before.once(_sections_rewritten, text)

@@ -1,0 +1,392 @@
+"""To which nodes each section of a parameter file applies, and why to none (ROS 2).
+
+Who gets a file is read from the launch files; of a process it is for each of the nodes that it makes. A file that a
+launch file wrote (`RewrittenYaml`, `ReplaceString`) stands for the one that it was made from.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
+from typing import Literal, NamedTuple
+
+from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.span import Location
+from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.meanings import known_of_nodes
+from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
+from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
+from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
+from preflight_analysis.evaluation.tree import FileSection, LaunchNode, ParamSource
+from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.tracing.interface import Interface
+
+Why = Literal["namespace", "misspelt", "only", "elsewhere", "nowhere", "not-given"]
+"""Why a section applies to no node. `namespace`: a node that gets the file has its name in another namespace;
+`misspelt`: one has nearly its name; `only`: it is the only section of a node that the file is for; `elsewhere`: the
+node of its name does not get the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
+
+
+class Getter(NamedTuple):
+    """A node that gets a parameter file: that of the full name `name`. `node` is the launch file's, in whose process
+    it is, `location` where that one gets the file. `beside`: it is one that the process makes beside its own, or a
+    controller."""
+
+    name: str
+    node: LaunchNode
+    location: Location
+    beside: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SectionUse:
+    """A section, and the nodes to which it applies. Where those are none, `why_not` says why, and `candidates` are the
+    nodes that it was meant for, or with `elsewhere` those that it names. The answer is open as far as there are
+    `doubts`."""
+
+    section: Section
+    nodes: tuple[Getter, ...]
+    why_not: Why | None = None
+    candidates: tuple[Getter, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether no node of the launch is called so."""
+        return self.why_not not in (None, "elsewhere", "not-given")
+
+    @property
+    def meant(self) -> tuple[Getter, ...]:
+        """The nodes for which it is meant and to which it does not apply."""
+        return self.candidates if self.is_lost else ()
+
+    @property
+    def reason(self) -> str:
+        """Why it applies to no node, in words; "" where it does."""
+        said = ", ".join(f"'{name}'" for name in dict.fromkeys(each.name for each in self.candidates))
+        if self.why_not is None:
+            return ""
+        if self.why_not == "not-given":
+            return "no node of this launch gets the file"
+        if self.why_not == "elsewhere":
+            return f"{said} does not get the file" if len(self.candidates) == 1 else f"{said} do not get the file"
+        return f"no node that gets the file is called so{f'; did you mean {said}?' if said else ''}"
+
+
+@dataclass(frozen=True, slots=True)
+class FileUse:
+    """A parameter file of a launch: who gets it, and what for. `lacking` are the nodes that no section names although
+    their process gets it, each with whether something in it is for all nodes."""
+
+    path: str
+    file: ParamFile
+    getters: tuple[Getter, ...]
+    sections: tuple[SectionUse, ...]
+    lacking: tuple[tuple[Getter, bool], ...] = ()
+
+    def nodes_for(self, pattern: str) -> tuple[Getter, ...]:
+        """The nodes to which a section applies, or would if it stood in the file."""
+        there = [each for each in self.sections if each.section.pattern == pattern]
+        if there:
+            return tuple(chain.from_iterable(each.nodes for each in there))
+        section = Section(pattern, (), ())
+        composable = ((each, each.node.kind == "composable" and not each.beside) for each in self.getters)
+        return tuple(each for each, alone in composable if section.reaches(each.name, composable=alone))
+
+    def meant_for(self, getter: Getter) -> SectionUse | None:
+        """The section that is meant for a node, and does not apply to it."""
+        return next((each for each in self.sections if any(getter is one for one in each.meant)), None)
+
+
+def given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, ParamSource]]]:
+    """The parameter files that nodes of a launch get, by the path of what people edit."""
+    return context.once(_given_files)
+
+
+def param_files(context: Context) -> tuple[FileUse, ...]:
+    """What is so of each parameter file that a node of the launch gets."""
+    found = (param_file(context, path) for path in given_files(context))
+    return tuple(each for each in found if each is not None)
+
+
+def param_file(context: Context, path: str) -> FileUse | None:
+    """What is so of a parameter file, whether a node gets it or not; None where it is not there."""
+    return context.once(_param_file, path)
+
+
+def _given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, ParamSource]]]:
+    given: dict[str, list[tuple[LaunchNode, ParamSource]]] = {}
+    for path, node, source in chain.from_iterable(context.kept.each(_files_of, context.tree.nodes_and_simulated)):
+        given.setdefault(path, []).append((node, source))
+    return given
+
+
+def _files_of(node: LaunchNode) -> tuple[tuple[str, LaunchNode, ParamSource], ...]:
+    return tuple((each.made_from or each.path, node, each) for each in node.param_sources if each.path is not None)
+
+
+class _Names(NamedTuple):
+    """The names of a launch. `beside` are the other nodes that the processes of nodes were seen to make, or are known
+    to, `controllers` those that spawners ask managers for, `all` are all of both and of the launch file."""
+
+    beside: Mapping[str, Sequence[str]]
+    controllers: Mapping[str, Sequence[str]]
+    all: frozenset[str]
+
+
+def _names(context: Context) -> _Names:
+    beside = _beside(context)
+    controllers: dict[str, list[str]] = {}
+    for node in context.tree.nodes:
+        asked = asked_of(node) if is_spawner(node) else None
+        for each in asked.controllers if asked is not None else ():
+            controllers.setdefault(asked.manager, []).append(names.join(names.parent(asked.manager), each))
+    own = (node.name for node in context.tree.nodes_and_simulated)
+    return _Names(beside, controllers, frozenset((*own, *chain(*beside.values(), *controllers.values()))))
+
+
+def _beside(context: Context) -> dict[str, list[str]]:
+    """What a component makes gets the files of its container."""
+    found: dict[str, list[str]] = {}
+    containers: Mapping[str, LaunchNode] | None = None
+    tree = context.graph.tree if context.graph is not None else context.tree
+    known = known_of_nodes(tree, context.known, context.kept)
+    for node, said in zip(tree.nodes_and_simulated, known, strict=True):
+        if said is not None and said.entry.within and node.kind != "composable":
+            made = (names.join(names.parent(node.name), below) for below in said.entry.within)
+            found.setdefault(node.name, []).extend(made)
+    for node in tree.nodes:
+        if node.within is not None and node.kind == "composable":
+            containers = containers_of(context.tree.nodes) if containers is None else containers
+            host = container_of(node, containers)
+            if host is not None:
+                found.setdefault(host.name, []).append(node.name)
+        elif node.within is not None:
+            found.setdefault(node.within, []).append(node.name)
+    return found
+
+
+def _param_file(context: Context, path: str) -> FileUse | None:
+    document = context.document(path)
+    if document is None:
+        return None
+    file = read_param_file(document)
+    given = given_files(context).get(path, ())
+    there = context.once(_names)
+    reader = _Reader(path, file)
+    getters = _getters(context, path, given, reader, there)
+    reaching: dict[int, list[Getter]] = defaultdict(list)
+    named: set[str] = set()
+    for getter, sections in getters:
+        for at in sections:
+            reaching[at].append(getter)
+        if not all(is_for_all(file.sections[at]) for at in sections):
+            named.add(getter.name)
+    patterns = [reader.patterns(at) for at in range(len(file.sections))]
+    unclear = {at for at, each in enumerate(patterns) if not each or any("$(" in p or is_unknown(p) for p in each)}
+    lacking = [] if unclear else [(g, bool(at)) for g, at in getters if g.name not in named and _has_a_name(g, there)]
+    lost = [
+        at
+        for at, each in enumerate(patterns)
+        if at not in reaching and at not in unclear and not _are_called(each, there)
+    ]
+    # Of a process the file is for whichever of its nodes it names.
+    apart = {node.name for node, _ in given if not named.isdisjoint(there.beside.get(node.name, ()))}
+    search = _Search(
+        context, file.sections, {p: at for at in reversed(lost) for p in patterns[at]}, apart, len(given) > 1
+    )
+    meant = search.meant(getter for getter, _ in lacking) if lost else {}
+    of_file = _doubts(context, path, given)
+    uses = []
+    for at, section in enumerate(file.sections):
+        why: Why | None = None
+        candidates: tuple[Getter, ...] = ()
+        if at in reaching:
+            pass
+        elif not getters:
+            why = "not-given"
+        elif at in lost or at in unclear:
+            why, candidates = meant.get(at, ("nowhere", ()))
+        else:
+            why, candidates = "elsewhere", tuple(_called(context, patterns[at]))
+        said = doubts(COMPUTED=at in unclear, ASSUMED=any(each.node.name_inferred for each in candidates))
+        uses.append(SectionUse(section, tuple(reaching[at]), why, candidates, (*of_file, *said) if why else ()))
+    of_files = tuple(each for each in lacking if each[0].node.name not in apart and not each[0].beside)
+    return FileUse(path, file, tuple(getter for getter, _ in getters), tuple(uses), of_files)
+
+
+def _getters(
+    context: Context, path: str, given: Sequence[tuple[LaunchNode, ParamSource]], reader: _Reader, there: _Names
+) -> list[tuple[Getter, set[int]]]:
+    """Who gets the file, each with the numbers of the sections that apply to it."""
+    found: dict[tuple[str, int], tuple[Getter, set[int]]] = {}
+    for node, source in given:
+        place = source.origin[-1]
+        own = found.setdefault((node.name, id(node)), (Getter(node.name, node, place), set()))
+        own[1].update(reader.reached(source, node))
+        for name in dict.fromkeys((*there.beside.get(node.name, ()), *there.controllers.get(node.name, ()))):
+            other = found.setdefault((name, id(node)), (Getter(name, node, place, True), set()))
+            other[1].update(reader.reached(source, node, name))
+    for node, name in _controllers_given(context, path):
+        other = found.setdefault((name, id(node)), (Getter(name, node, node.location, True), set()))
+        other[1].update(reader.as_it_stands(name))
+    return list(found.values())
+
+
+class _Reader:
+    """Which sections of a file its sources have for nodes, by their numbers."""
+
+    def __init__(self, path: str, file: ParamFile) -> None:
+        self._path, self._file = path, file
+        self._at = {id(section): at for at, section in enumerate(file.sections)}
+        self._made: dict[str, list[tuple[Section, set[int]]]] = {}
+        self._is_read = False
+
+    def patterns(self, at: int) -> frozenset[str]:
+        """What a section is for, as nodes get it; nothing where a launch file made what is not found again."""
+        made = (each.pattern for of_source in self._made.values() for each, of in of_source if at in of)
+        own = (self._file.sections[at].pattern,) if self._is_read or not self._made else ()
+        return frozenset((*made, *own))
+
+    def reached(self, source: ParamSource, node: LaunchNode, name: str | None = None) -> set[int]:
+        """Those for a node, or for another one of its process."""
+        if source.sections and source.path is not None:
+            made = self._made_of(source.path, source.sections)
+            return {at for each, of in made if each.fits(name or node.name) for at in of}
+        if source.made_from is not None:
+            patterns = {f"/{key.strip('/')}" for key in source.keys}
+            return {at for pattern in patterns for at in self._of_pattern(pattern)}
+        return self.as_it_stands(name or node.name, composable=node.kind == "composable" and name is None)
+
+    def as_it_stands(self, name: str, *, composable: bool = False) -> set[int]:
+        """Those for a node that gets the text as it is written."""
+        self._is_read = True
+        return {self._at[id(section)] for section in self._file.reaching(name, composable=composable)}
+
+    def _made_of(self, path: str, sections: tuple[FileSection, ...]) -> list[tuple[Section, set[int]]]:
+        if path not in self._made:
+            self._made[path] = [(Section(each.pattern, (), (), each.key), self._origin(each)) for each in sections]
+        return self._made[path]
+
+    def _origin(self, made: FileSection) -> set[int]:
+        """The sections that one was made of: that of its key, which may have got a namespace, else that in which its
+        parameters stand."""
+        if found := self._of_pattern(made.pattern):
+            return found
+        places = {p.name_location.span for p in made.params if p.name_location and p.name_location.file == self._path}
+        return {
+            at
+            for at, section in enumerate(self._file.sections)
+            if any(param.name_span in places for param in section.params)
+        }
+
+    def _of_pattern(self, pattern: str) -> set[int]:
+        ends = [each.pattern for each in self._file.sections if pattern.endswith(each.pattern)]
+        longest = max(ends, key=len, default="")
+        return {at for at, each in enumerate(self._file.sections) if each.pattern == longest}
+
+
+def _controllers_given(context: Context, path: str) -> Iterator[tuple[LaunchNode, str]]:
+    """The controllers whose spawner hands them the file, each with the spawner."""
+    for node in context.tree.nodes:
+        asked = asked_of(node) if is_spawner(node) else None
+        if asked is not None and path in asked.files:
+            for each in asked.controllers:
+                yield node, names.join(asked.namespace, each)
+
+
+def _are_called(patterns: Iterable[str], there: _Names) -> bool:
+    """Whether some node of the launch is called so."""
+    return any(p in there.all if "*" not in p else any(map(Section(p, (), ()).fits, there.all)) for p in patterns)
+
+
+def _called(context: Context, patterns: Iterable[str]) -> Iterator[Getter]:
+    sections = [Section(pattern, (), ()) for pattern in patterns]
+    for node in context.tree.nodes_and_simulated:
+        if any(each.fits(node.name) for each in sections):
+            yield Getter(node.name, node, node.location)
+
+
+def is_for_all(section: Section) -> bool:
+    """Whether it is for any node, or for any of a namespace."""
+    return names.leaf(section.pattern) in ("*", "**")
+
+
+def _has_a_name(getter: Getter, there: _Names) -> bool:
+    """Whether a section should have its name: a node that the launch file does not name may have any name in the file,
+    and what a simulator makes or a spawner asks for is for others to judge."""
+    node = getter.node
+    if getter.beside:
+        return getter.name in there.beside.get(node.name, ())
+    return node.kind != "simulated" and (node.named or node.name_from_code)
+
+
+@dataclass(frozen=True, slots=True)
+class _Search:
+    """Which sections that fit no node are meant for one that the file names nowhere. `lost` has their numbers by what
+    they are for, `apart` the nodes of whose processes the file names others, `shared`: several nodes get the file."""
+
+    context: Context
+    sections: Sequence[Section]
+    lost: Mapping[str, int]
+    apart: Collection[str]
+    shared: bool
+
+    def meant(self, lacking: Iterable[Getter]) -> dict[int, tuple[Why, tuple[Getter, ...]]]:
+        """By number: why it does not apply, and the nodes that it is meant for."""
+        found: dict[int, tuple[Why, tuple[Getter, ...]]] = {}
+        patterns = [pattern for pattern, at in self.lost.items() if not is_for_all(self.sections[at])]
+        for getter in lacking:
+            said = self._for(getter, patterns)
+            if said is not None:
+                at = self.lost[said[1]]
+                why, others = found.get(at, (said[0], ()))
+                found[at] = why, (*others, getter)
+        return found
+
+    def _for(self, getter: Getter, patterns: Sequence[str]) -> tuple[Why, str] | None:
+        """That of the node's name in another namespace, else one with nearly its name, else the only one of a file of
+        its own, or the only one and called as its executable."""
+        name, base = getter.name, names.leaf(getter.name)
+        same = [pattern for pattern in patterns if names.leaf(pattern) == base]
+        if same:
+            return "namespace", nearest(name, same) or same[0]
+        near = nearest(name, patterns)
+        if near is not None and self._may_want(name, self.sections[self.lost[near]]):
+            return "misspelt", near
+        alone = not getter.beside and getter.node.name not in self.apart
+        if alone and len(patterns) == 1 and (not self.shared or names.leaf(patterns[0]) == getter.node.executable):
+            return "only", patterns[0]
+        return None
+
+    def _may_want(self, name: str, section: Section) -> bool:
+        """Whether the node declares one of the parameters of a section, as far as that is known: another one may have a
+        name like its own, as `map_server` and `map_saver`."""
+        interface = self.context.once(_interfaces).get(name)
+        if interface is None or not section.params or not interface.speaks_of("parameters"):
+            return True
+        declared = {use.name.removeprefix("~") for use in interface.params}
+        lists = any(use.access == "list" for use in interface.params)
+        return lists or not declared.isdisjoint(param.name for param in section.params)
+
+
+def _interfaces(context: Context) -> Mapping[str, Interface]:
+    graph = context.graph
+    return dict(zip((n.name for n in graph.tree.nodes), graph.interfaces, strict=True)) if graph is not None else {}
+
+
+def _doubts(context: Context, path: str, given: Sequence[tuple[LaunchNode, ParamSource]]) -> tuple[Doubt, ...]:
+    """What speaks against it that a section applies to no node, whichever it is: who else may get the file, and the
+    nodes of which the name is not known."""
+    tree = context.tree
+    handed = any(
+        path in include.args.values()
+        for include in tree.includes
+        if include.path is None or include.path not in tree.files
+    )
+    unnamed = next((n.name for n, _ in given if not (n.named or n.name_from_code) and not is_spawner(n)), "")
+    return doubts(PARTLY_READ=handed, NOT_ANALYSED=unnamed, COMPUTED=any(is_unknown(node.name) for node, _ in given))

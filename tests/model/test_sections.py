@@ -1,0 +1,138 @@
+"""To which nodes a section of a parameter file applies, and why to none: asked of the rule, hover and `where`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+from preflight_analysis.model.sections import param_file, param_files
+from preflight_analysis.queries.hover import hover
+from preflight_analysis.queries.parameters import parameters
+from preflight_analysis.workspace.workspace import Analysis
+from support.query_harness import at_cursor
+
+CONTROLLER = """//- /main.launch.xml
+<launch>
+  <node pkg="nav2_controller" exec="controller_server" name="controller_server"><param from="/p.yaml"/></node>
+</launch>
+//- /p.yaml
+controller_sever$0:
+  ros__parameters: {controller_frequency: 20.0}
+local_costmap:
+  local_costmap:
+    ros__parameters: {global_frame: odom}
+"""
+
+
+def test_three_who_ask_get_one_answer() -> None:
+    there = at_cursor(CONTROLLER)
+    analysis = there.analysis
+    said = hover([analysis], "/p.yaml", there.offset)
+    (found,) = parameters(analysis, "controller_frequency")
+    (unapplied,) = found.unapplied
+    (claimed,) = [f for f in analysis.findings if f.rule == "PRM011"]
+    assert said is not None
+    assert said.markdown == (
+        "`/controller_sever` fits no node that gets this file\n\n"
+        "No node that gets the file is called so; did you mean '/controller_server'?"
+    )
+    assert claimed.message == (
+        "section '/controller_sever' applies to no node that gets this file; did you mean '/controller_server'?"
+    )
+    assert (found.name, found.settings) == ("/controller_server:controller_frequency", ())
+    assert unapplied.use.section.pattern == "/controller_sever"
+    assert unapplied.use.reason == "no node that gets the file is called so; did you mean '/controller_server'?"
+    assert unapplied.place.span.start < there.document.text.index("20.0")
+
+
+def answers(analysis: Analysis, path: str = "/p.yaml") -> Mapping[str, object]:
+    """By what each section is for: the nodes to which it applies, or why to none, whose it may be, and the doubts."""
+    used = param_file(analysis.context, path)
+    assert used is not None
+    return {
+        each.section.pattern: [node.name for node in each.nodes]
+        or (each.why_not, [node.name for node in each.candidates], [doubt.reason.name for doubt in each.doubts])
+        for each in used.sections
+    }
+
+
+def test_why_a_section_applies_to_no_node() -> None:
+    there = at_cursor("""//- /main.launch.xml
+<launch>
+  <node pkg="p" exec="camera" name="camera" namespace="front"><param from="/p.yaml"/></node>
+  <node pkg="p" exec="pilot" name="pilot"><param from="/p.yaml"/></node>
+  <node pkg="p" exec="arm" name="arm"/>
+</launch>
+//- /p.yaml
+camera: {ros__parameters: {a: 1}}
+pilto: {ros__parameters: {a: 1}}
+arm: {ros__parameters: {a: 1}}
+gripper: {ros__parameters: {a: 1}}
+/**: {ros__parameters: {a: 1}}
+//- /other.yaml
+camera: {ros__parameters: {a: 1}}
+""")
+    assert answers(there.analysis) == {
+        "/camera": ("namespace", ["/front/camera"], []),
+        "/pilto": ("misspelt", ["/pilot"], []),
+        "/arm": ("elsewhere", ["/arm"], []),
+        "/gripper": ("nowhere", [], []),
+        "/**": ["/front/camera", "/pilot"],
+    }
+    assert answers(there.analysis, "/other.yaml") == {"/camera": ("not-given", [], [])}
+    assert [used.path for used in param_files(there.analysis.context)] == ["/p.yaml"]
+
+
+@pytest.mark.parametrize("section", ["local_costmap", "local_costmap/local_costmp"])
+def test_the_other_nodes_of_a_process_are_meant_too(section: str) -> None:
+    text = CONTROLLER.replace("controller_sever$0", "controller_server")
+    text = text.replace("local_costmap:\n  local_costmap:\n    ros__", f"{section}:\n  ros__")
+    analysis = at_cursor(text).analysis
+    assert answers(analysis) == {
+        "/controller_server": ["/controller_server"],
+        f"/{section}": (
+            "namespace" if section == "local_costmap" else "misspelt",
+            ["/local_costmap/local_costmap"],
+            [],
+        ),
+    }
+    assert [f.message.partition("; ")[2] for f in analysis.findings if f.rule == "PRM011"] == [
+        "did you mean '/local_costmap/local_costmap'?"
+    ]
+
+
+def test_what_a_component_and_its_container_get() -> None:
+    there = at_cursor("""//- /main.launch.xml
+<launch>
+  <node_container pkg="rclcpp_components" exec="component_container" name="box" namespace="">
+    <composable_node pkg="p" plugin="p::Pump" name="pump"><param from="/p.yaml"/></composable_node>
+  </node_container>
+</launch>
+//- /p.yaml
+/*: {ros__parameters: {a: 1}}
+/**: {ros__parameters: {a: 1}}
+pump: {ros__parameters: {a: 1}}
+""")
+    # launch_ros, which reads it for a component, knows no other wildcard than `/**`.
+    assert answers(there.analysis) == {
+        "/*": ("nowhere", [], []),
+        "/**": ["/pump"],
+        "/pump": ["/pump"],
+    }
+
+
+def test_what_leaves_the_answer_open() -> None:
+    there = at_cursor("""//- /main.launch.xml
+<launch>
+  <node pkg="p" exec="pump" name="pump"><param from="/p.yaml"/></node>
+  <node pkg="p" exec="free"><param from="/q.yaml"/></node>
+  <include file="$(find-pkg-share not_here)/more.launch.xml"><arg name="params" value="/p.yaml"/></include>
+</launch>
+//- /p.yaml
+pumo: {ros__parameters: {a: 1}}
+//- /q.yaml
+own_name: {ros__parameters: {a: 1}}
+""")
+    assert answers(there.analysis) == {"/pumo": ("misspelt", ["/pump"], ["PARTLY_READ"])}
+    assert answers(there.analysis, "/q.yaml") == {"/own_name": ("nowhere", [], ["NOT_ANALYSED"])}
+    assert {(f.severity, f.confidence) for f in there.analysis.findings if f.rule == "PRM011"} == {("info", "possible")}
