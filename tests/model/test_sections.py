@@ -33,8 +33,7 @@ def test_three_who_ask_get_one_answer() -> None:
     (claimed,) = [f for f in analysis.findings if f.rule == "PRM011"]
     assert said is not None
     assert said.markdown == (
-        "`/controller_sever` fits no node that gets this file\n\n"
-        "No node that gets the file is called so; did you mean '/controller_server'?"
+        "`/controller_sever` fits no node that gets this file\n\nDid you mean '/controller_server'?"
     )
     assert claimed.message == (
         "section '/controller_sever' applies to no node that gets this file; did you mean '/controller_server'?"
@@ -115,7 +114,7 @@ pump: {ros__parameters: {a: 1}}
 """)
     # launch_ros, which reads it for a component, knows no other wildcard than `/**`.
     assert answers(there.analysis) == {
-        "/*": ("nowhere", [], []),
+        "/*": ("wildcard", ["/pump"], []),
         "/**": ["/pump"],
         "/pump": ["/pump"],
     }
@@ -136,3 +135,31 @@ own_name: {ros__parameters: {a: 1}}
     assert answers(there.analysis) == {"/pumo": ("misspelt", ["/pump"], ["PARTLY_READ"])}
     assert answers(there.analysis, "/q.yaml") == {"/own_name": ("nowhere", [], ["NOT_ANALYSED"])}
     assert {(f.severity, f.confidence) for f in there.analysis.findings if f.rule == "PRM011"} == {("info", "possible")}
+
+
+def test_a_file_that_an_include_from_the_catalogue_gives_to_its_nodes() -> None:
+    there = at_cursor("""//- /main.launch.xml
+<launch>
+  <include file="$(find-pkg-share nav2_bringup)/launch/navigation_launch.py">
+    <arg name="params_file" value="/p.yaml"/>
+  </include>
+</launch>
+//- /p.yaml
+bt_navigator: {ros__parameters: {bt_loop_duration: 10}}
+local_costmap: {local_costmap: {ros__parameters: {global_frame: odom}}}
+planner_sever: {ros__parameters: {expected_planner_frequency: 20.0}}
+map_server: {ros__parameters: {yaml_filename: a}}
+""")
+    assert answers(there.analysis) == {
+        "/bt_navigator": ["/bt_navigator"],
+        "/local_costmap/local_costmap": ["/local_costmap/local_costmap"],
+        "/planner_sever": ("misspelt", ["/planner_server"], ["NOT_ANALYSED", "CATALOGUE"]),
+        "/map_server": ("nowhere", [], ["NOT_ANALYSED"]),
+    }
+    assert [(f.message, f.severity, f.confidence) for f in there.analysis.findings if f.rule == "PRM011"] == [
+        (
+            "section '/planner_sever' applies to no node that gets this file; did you mean '/planner_server'?",
+            "warning",
+            "possible",
+        )
+    ]

@@ -21,14 +21,16 @@ from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import FileSection, LaunchNode, ParamSource
 from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.tracing.interface import Interface
 
-Why = Literal["namespace", "misspelt", "only", "elsewhere", "nowhere", "not-given"]
+Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
 """Why a section applies to no node. `namespace`: a node that gets the file has its name in another namespace;
-`misspelt`: one has nearly its name; `only`: it is the only section of a node that the file is for; `elsewhere`: the
-node of its name does not get the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
+`misspelt`: one has nearly its name; `only`: it is the only section of a node that the file is for; `wildcard`: what it
+fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
+the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
 
 
 class Getter(NamedTuple):
@@ -45,8 +47,8 @@ class Getter(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class SectionUse:
     """A section, and the nodes to which it applies. Where those are none, `why_not` says why, and `candidates` are the
-    nodes that it was meant for, or with `elsewhere` those that it names. The answer is open as far as there are
-    `doubts`."""
+    nodes that it was meant for, or with `elsewhere` and `wildcard` those that it names. The answer is open as far as
+    there are `doubts`."""
 
     section: Section
     nodes: tuple[Getter, ...]
@@ -57,7 +59,7 @@ class SectionUse:
     @property
     def is_lost(self) -> bool:
         """Whether no node of the launch is called so."""
-        return self.why_not not in (None, "elsewhere", "not-given")
+        return self.why_not not in (None, "wildcard", "elsewhere", "not-given")
 
     @property
     def meant(self) -> tuple[Getter, ...]:
@@ -65,16 +67,27 @@ class SectionUse:
         return self.candidates if self.is_lost else ()
 
     @property
+    def suggestion(self) -> str:
+        """The nodes that it is meant for, as a question; "" without any."""
+        return f"did you mean {_enumerated(self.candidates)}?" if self.meant else ""
+
+    @property
     def reason(self) -> str:
         """Why it applies to no node, in words; "" where it does."""
-        said = ", ".join(f"'{name}'" for name in dict.fromkeys(each.name for each in self.candidates))
         if self.why_not is None:
             return ""
         if self.why_not == "not-given":
             return "no node of this launch gets the file"
+        said, several = _enumerated(self.candidates), len(self.candidates) > 1
         if self.why_not == "elsewhere":
-            return f"{said} does not get the file" if len(self.candidates) == 1 else f"{said} do not get the file"
-        return f"no node that gets the file is called so{f'; did you mean {said}?' if said else ''}"
+            return f"{said} {'do' if several else 'does'} not get the file"
+        if self.why_not == "wildcard":
+            return f"{said} {'are components' if several else 'is a component'}; '/**' is the only wildcard for these"
+        return "no node that gets the file is called so" + (f"; {self.suggestion}" if self.meant else "")
+
+
+def _enumerated(getters: Iterable[Getter]) -> str:
+    return ", ".join(f"'{name}'" for name in dict.fromkeys(each.name for each in getters))
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +122,9 @@ def given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, Par
 
 def param_files(context: Context) -> tuple[FileUse, ...]:
     """What is so of each parameter file that a node of the launch gets."""
-    found = (param_file(context, path) for path in given_files(context))
-    return tuple(each for each in found if each is not None)
+    handed = (value for each in context.tree.includes for value in each.args.values() if value and is_yaml(value))
+    found = (param_file(context, path) for path in dict.fromkeys((*given_files(context), *handed)))
+    return tuple(each for each in found if each is not None and each.getters)
 
 
 def param_file(context: Context, path: str) -> FileUse | None:
@@ -195,16 +209,16 @@ def _param_file(context: Context, path: str) -> FileUse | None:
         if at not in reaching and at not in unclear and not _are_called(each, there)
     ]
     # Of a process the file is for whichever of its nodes it names.
-    apart = {node.name for node, _ in given if not named.isdisjoint(there.beside.get(node.name, ()))}
-    search = _Search(
-        context, file.sections, {p: at for at in reversed(lost) for p in patterns[at]}, apart, len(given) > 1
-    )
+    apart = {getter.node.name for getter, _ in getters if not named.isdisjoint(there.beside.get(getter.node.name, ()))}
+    by_launch = {id(node) for node, _ in given}
+    by_pattern = {pattern: at for at in reversed(lost) for pattern in patterns[at]}
+    search = _Search(context, file.sections, by_pattern, apart, len(given) > 1)
     meant = search.meant(getter for getter, _ in lacking) if lost else {}
-    of_file = _doubts(context, path, given)
+    of_file = _doubts(context, path, [getter.node for getter, _ in getters if not getter.beside])
     uses = []
     for at, section in enumerate(file.sections):
         why: Why | None = None
-        candidates: tuple[Getter, ...] = ()
+        candidates: Iterable[Getter] = ()
         if at in reaching:
             pass
         elif not getters:
@@ -212,10 +226,19 @@ def _param_file(context: Context, path: str) -> FileUse | None:
         elif at in lost or at in unclear:
             why, candidates = meant.get(at, ("nowhere", ()))
         else:
-            why, candidates = "elsewhere", tuple(_called(context, patterns[at]))
-        said = doubts(COMPUTED=at in unclear, ASSUMED=any(each.node.name_inferred for each in candidates))
-        uses.append(SectionUse(section, tuple(reaching[at]), why, candidates, (*of_file, *said) if why else ()))
-    of_files = tuple(each for each in lacking if each[0].node.name not in apart and not each[0].beside)
+            fitting = [getter for getter, _ in getters if section.fits(getter.name)]
+            why, candidates = ("wildcard", fitting) if fitting else ("elsewhere", _called(context, patterns[at]))
+        said = doubts(
+            COMPUTED=at in unclear,
+            ASSUMED=any(each.node.name_inferred for each in candidates),
+            CATALOGUE=any(id(each.node) not in by_launch for each in candidates) and why != "elsewhere",
+        )
+        uses.append(SectionUse(section, tuple(reaching[at]), why, tuple(candidates), (*of_file, *said) if why else ()))
+    of_files = tuple(
+        each
+        for each in lacking
+        if id(each[0].node) in by_launch and each[0].node.name not in apart and not each[0].beside
+    )
     return FileUse(path, file, tuple(getter for getter, _ in getters), tuple(uses), of_files)
 
 
@@ -231,6 +254,10 @@ def _getters(
         for name in dict.fromkeys((*there.beside.get(node.name, ()), *there.controllers.get(node.name, ()))):
             other = found.setdefault((name, id(node)), (Getter(name, node, place, True), set()))
             other[1].update(reader.reached(source, node, name))
+    for node, place in _handed_on(context, path):
+        for name in (node.name, *there.beside.get(node.name, ())):
+            other = found.setdefault((name, id(node)), (Getter(name, node, place, name != node.name), set()))
+            other[1].update(reader.in_namespace(name, node.namespace))
     for node, name in _controllers_given(context, path):
         other = found.setdefault((name, id(node)), (Getter(name, node, node.location, True), set()))
         other[1].update(reader.as_it_stands(name))
@@ -267,6 +294,12 @@ class _Reader:
         self._is_read = True
         return {self._at[id(section)] for section in self._file.reaching(name, composable=composable)}
 
+    def in_namespace(self, name: str, namespace: str) -> set[int]:
+        """Those for a node of Nav2's launch files, which put the sections below its namespace."""
+        self._is_read = True
+        below = {name, name.removeprefix(namespace.rstrip("/"))}
+        return {at for each in below for at in self.as_it_stands(each)}
+
     def _made_of(self, path: str, sections: tuple[FileSection, ...]) -> list[tuple[Section, set[int]]]:
         if path not in self._made:
             self._made[path] = [(Section(each.pattern, (), (), each.key), self._origin(each)) for each in sections]
@@ -290,6 +323,26 @@ class _Reader:
         return {at for at, each in enumerate(self._file.sections) if each.pattern == longest}
 
 
+_WRITERS = frozenset({"RewrittenYaml", "ReplaceString"})
+
+
+def _handed_on(context: Context, path: str) -> Iterator[tuple[LaunchNode, Location]]:
+    """The nodes of launch files from the catalogue that are handed the file and give their nodes what they make of it,
+    each with the include."""
+    tree = context.tree
+    handed = [include for include in tree.includes if include.path is not None and path in include.args.values()]
+    if not handed:
+        return
+    made = {(each.location.file, each.location.span.start) for each in tree.unknowns if each.what in _WRITERS}
+    for node in tree.nodes:
+        tag, file = node.action.span, node.location.file
+        if not any(at == file and tag.start <= start < tag.end for at, start in made):
+            continue
+        below = next((each for each in handed if node.origin[: len(each.origin)] == each.origin), None)
+        if below is not None:
+            yield node, below.origin[-1]
+
+
 def _controllers_given(context: Context, path: str) -> Iterator[tuple[LaunchNode, str]]:
     """The controllers whose spawner hands them the file, each with the spawner."""
     for node in context.tree.nodes:
@@ -304,11 +357,10 @@ def _are_called(patterns: Iterable[str], there: _Names) -> bool:
     return any(p in there.all if "*" not in p else any(map(Section(p, (), ()).fits, there.all)) for p in patterns)
 
 
-def _called(context: Context, patterns: Iterable[str]) -> Iterator[Getter]:
+def _called(context: Context, patterns: Iterable[str]) -> list[Getter]:
     sections = [Section(pattern, (), ()) for pattern in patterns]
-    for node in context.tree.nodes_and_simulated:
-        if any(each.fits(node.name) for each in sections):
-            yield Getter(node.name, node, node.location)
+    nodes = context.tree.nodes_and_simulated
+    return [Getter(n.name, n, n.location) for n in nodes if any(each.fits(n.name) for each in sections)]
 
 
 def is_for_all(section: Section) -> bool:
@@ -379,14 +431,14 @@ def _interfaces(context: Context) -> Mapping[str, Interface]:
     return dict(zip((n.name for n in graph.tree.nodes), graph.interfaces, strict=True)) if graph is not None else {}
 
 
-def _doubts(context: Context, path: str, given: Sequence[tuple[LaunchNode, ParamSource]]) -> tuple[Doubt, ...]:
+def _doubts(context: Context, path: str, nodes: Sequence[LaunchNode]) -> tuple[Doubt, ...]:
     """What speaks against it that a section applies to no node, whichever it is: who else may get the file, and the
     nodes of which the name is not known."""
     tree = context.tree
-    handed = any(
-        path in include.args.values()
-        for include in tree.includes
-        if include.path is None or include.path not in tree.files
+    unknown = (each for each in tree.includes if each.path is None or each.path not in tree.files)
+    unnamed = next((n.name for n in nodes if not (n.named or n.name_from_code) and not is_spawner(n)), "")
+    return doubts(
+        PARTLY_READ=any(path in each.args.values() for each in unknown),
+        NOT_ANALYSED=unnamed,
+        COMPUTED=any(is_unknown(node.name) for node in nodes),
     )
-    unnamed = next((n.name for n, _ in given if not (n.named or n.name_from_code) and not is_spawner(n)), "")
-    return doubts(PARTLY_READ=handed, NOT_ANALYSED=unnamed, COMPUTED=any(is_unknown(node.name) for node, _ in given))

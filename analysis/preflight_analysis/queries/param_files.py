@@ -101,9 +101,12 @@ def _for_section(analysis: Analysis, path: str, use: SectionUse) -> tuple[Reader
 
 
 def _why_not(use: SectionUse) -> Iterator[str]:
-    yield f"{use.reason[:1].upper()}{use.reason[1:]}" + ("" if use.reason.endswith("?") else ".")
-    for doubt in use.doubts:
-        yield f"- Not sure: {doubt.reason.sentence}."
+    """Why a section applies to no node, behind a title that says so."""
+    if use.is_lost and use.suggestion:
+        yield f"{use.suggestion[:1].upper()}{use.suggestion[1:]}"
+    elif not use.is_lost:
+        yield f"{use.reason[:1].upper()}{use.reason[1:]}."
+    yield from (f"- Not sure: {doubt.reason.sentence}." for doubt in use.doubts)
 
 
 def _at(analysis: Analysis, path: str, offset: int) -> tuple[SectionUse, FileParam | None, Span] | None:

@@ -30,8 +30,11 @@ from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.read import read_launch
 from preflight_analysis.launch.schema import Attribute
+from preflight_analysis.launch.substitutions_ros2 import nested
 
 _FILLED_IN = re.compile(r"@[A-Za-z_]\w*@")
+
+_OF_ARGUMENTS = frozenset({"var"})
 
 
 def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
@@ -48,8 +51,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     if path is None:
         walk.names[-1] = None
         context.cannot_follow(at)
-        _not_read(performer, passed)
-        state.include(Include(None, origin, at, {}))
+        state.include(Include(None, origin, at, _not_read(performer, passed)))
         state.note_unknown("<include>", "its file is not known", at)
         return
     shown: dict[str, str | None] = {}
@@ -59,7 +61,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
         return
     found = _read(walk, place, path, at)
     if found is None:
-        _not_read(performer, passed)
+        shown.update(_not_read(performer, passed))
         walk.names[-1] = None
         context.cannot_follow(at)
         return
@@ -136,10 +138,16 @@ def _passed(performer: Performer, action: Action) -> list[tuple[str, Action]]:
     return [(performer.value(name).text, child) for child in given if (name := child.value("name")) is not None]
 
 
-def _not_read(performer: Performer, passed: list[tuple[str, Action]]) -> None:
-    """Arguments of a file that is not read: their values are not performed."""
+def _not_read(performer: Performer, passed: list[tuple[str, Action]]) -> dict[str, str | None]:
+    """Arguments of a file that is not read: of their values those are performed that need nothing but arguments."""
+    given: dict[str, str | None] = {}
     for name, child in passed:
-        _note(performer, child, name, None)
+        value = child.value("value")
+        plain = value is not None and all(part.command in _OF_ARGUMENTS for part in nested(value.parts))
+        result = performer.value(value) if value is not None and plain else None
+        given[name] = result.text if result is not None and result.known else None
+        _note(performer, child, name, given[name])
+    return given
 
 
 def _note(performer: Performer, child: Action, name: str, value: str | None) -> None:
