@@ -157,8 +157,9 @@ def _names(context: Context) -> _Names:
     controllers: dict[str, list[str]] = {}
     for node in context.tree.nodes:
         asked = asked_of(node) if is_spawner(node) else None
-        for each in asked.controllers if asked is not None else ():
-            controllers.setdefault(asked.manager, []).append(names.join(names.parent(asked.manager), each))
+        if asked is not None:
+            space = names.parent(asked.manager)
+            controllers.setdefault(asked.manager, []).extend(names.join(space, each) for each in asked.controllers)
     own = (node.name for node in context.tree.nodes_and_simulated)
     return _Names(beside, controllers, frozenset((*own, *chain(*beside.values(), *controllers.values()))))
 
