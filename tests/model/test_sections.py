@@ -9,6 +9,7 @@ from preflight_analysis.model.sections import param_file, param_files
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.queries.parameters import parameters
 from preflight_analysis.workspace.workspace import Analysis
+from support.python_launch_harness import PythonHarness
 from support.query_harness import at_cursor
 
 CONTROLLER = """//- /main.launch.xml
@@ -163,3 +164,33 @@ map_server: {ros__parameters: {yaml_filename: a}}
             "possible",
         )
     ]
+
+
+@pytest.mark.ros
+def test_a_file_that_a_launch_file_rewrites(tmp_path: Path) -> None:
+    harness = PythonHarness(tmp_path)
+    path = harness.write(
+        "params.yaml",
+        "server: {ros__parameters: {rate: 20.0}}\nplanr: {ros__parameters: {a: 1}}\n",
+    )
+    launch = harness.write(
+        "launch/a.launch.py",
+        """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from nav2_common.launch import RewrittenYaml
+
+def generate_launch_description():
+    file = os.path.join(get_package_share_directory("p"), "params.yaml")
+    made = RewrittenYaml(source_file=file, root_key="r1", param_rewrites={})
+    return LaunchDescription([
+        Node(package="p", executable=name, name=name, namespace="r1", parameters=[made]) for name in ("server", "plan")
+    ])
+""",
+    )
+    assert answers(harness.launch(launch), str(path)) == {
+        "/server": ["/r1/server"],
+        "/planr": ("misspelt", ["/r1/plan"], []),
+    }
