@@ -270,7 +270,7 @@ def test_the_value_of_an_argument_that_is_passed(tmp_path: Path) -> None:
     lines = hovered(tmp_path / "a", text + PACKAGE)
     assert lines[:3] == ["argument `rate` = `5`", "Default: `''`", "How often"]
     lines = hovered(tmp_path / "b", text.replace('inc.launch.xml"', 'none.launch.xml"') + PACKAGE)
-    assert lines[0] == "argument `rate` = unresolved"
+    assert lines[0] == "argument `rate` = `5`"
 
 
 _PYTHON = """
