@@ -238,6 +238,7 @@ def check(command: Sequence[str], folder: Path, files: Sequence[str] = (".",)) -
             result["message"]["text"].replace(f"{folder}/", "")[:_MOST],
             result["properties"]["severity"],
             result["properties"]["confidence"],
+            result["properties"]["decidedBy"],
         )
         entries.append(entry)
     return entries
