@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import random
-from functools import cache
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from preflight_analysis.graph.domains import Domains
-from preflight_analysis.graph.model import Channel, Connection
+from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.model.context import Context
 from preflight_analysis.model.near_miss import NearMiss
 from preflight_analysis.model.near_miss_search import near_misses
 from preflight_analysis.tracing.interface import Endpoint
@@ -55,9 +55,8 @@ def _context(topics: dict[str, Channel], nodes: list[Any], before: Kept | None =
         is_of_unknown=lambda kind, name: False,
         domains=Domains(),
     )
-    context = SimpleNamespace(kept=Kept(before), graph=graph)
-    context.once = cache(lambda make: make(context))
-    return context
+    none: Any = None
+    return Context("", none, {}, {}, none, none, none, none, cast(Graph, graph), kept=Kept(before))
 
 
 def _same(before: Channel | None, channel: Channel) -> Channel:

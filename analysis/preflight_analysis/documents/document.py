@@ -9,7 +9,7 @@ from typing import NamedTuple
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.movable import Movable
 from preflight_analysis.documents.span import LineIndex, Location, Span, version
-from preflight_analysis.incremental.once import Once
+from preflight_analysis.incremental.derived import Remembering
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ Node = Element | Comment | Text
 
 
 @dataclass(frozen=True, slots=True)
-class Document(Once):
+class Document(Remembering):
     """One file's text and what it parses to. `digest` names the text; those with equal ones differ in their lines at
     most.
 

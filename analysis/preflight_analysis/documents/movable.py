@@ -6,14 +6,14 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.incremental.once import Once
+from preflight_analysis.incremental.derived import Remembering
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
 
 @dataclass(frozen=True, slots=True)
-class Movable(Once):
+class Movable(Remembering):
     """A base for immutable objects with slots whose fields are texts, other scalars, what has `moved`, or tuples of
     such: what is parsed of a part of a text.
 

@@ -12,11 +12,13 @@ from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.edits.yaml import YamlWriter
+from preflight_analysis.incremental.derived import derived
 
 Writer = XmlWriter | YamlWriter | PythonWriter
 """All of them have the operations on launch files, under the same names."""
 
 
+@derived
 def writer_of(document: Document) -> Writer:
     """The writer of a launch file, or of a file that one names."""
     if is_python(document.path, document.text):
@@ -29,7 +31,7 @@ def writer_of(document: Document) -> Writer:
 def replaced(document: Document, span: Span, old: str, new: str) -> tuple[Edit, ...]:
     """Write `new` for `old`, which the value at `span` holds exactly once as a word; in a program also where the one
     text stands that the value is made of. No edit where that is not certain."""
-    writer = document.once(writer_of)
+    writer = writer_of(document)
     within = document.text[span.start : span.end]
     hits = [m.start() for m in re.finditer(rf"(?<![\w]){re.escape(old)}(?![\w])", within)] if old else []
     if len(hits) == 1:

@@ -18,6 +18,7 @@ from preflight_analysis.evaluation.known_arguments import arguments_of
 from preflight_analysis.evaluation.lua_options import assignments, included
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamValue
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.knowledge.model import Meaning
 
 _MOST = 1000
@@ -79,9 +80,10 @@ _Rows = Iterator[tuple[Document, Sequence[_Row]]]
 def _yaml(found: Collector, path: str) -> _Rows:
     document = found.read_text(found.located(path))
     if not isinstance(document, Unreadable):
-        yield document, document.once(_yaml_rows)
+        yield document, _yaml_rows(document)
 
 
+@derived
 def _yaml_rows(document: Document) -> tuple[_Row, ...]:
     try:
         root = compose_fast(document.text)
@@ -117,9 +119,9 @@ def _lua(found: Collector, path: str) -> _Rows:
         document = found.read_text(found.located(waiting.pop()))
         if isinstance(document, Document) and all(document.path != each.path for each in read):
             read.append(document)
-            waiting += (os.path.join(folder, name) for name in document.once(included))
+            waiting += (os.path.join(folder, name) for name in included(document))
     for document in reversed(read):
-        for name, value, span in document.once(assignments):
+        for name, value, span in assignments(document):
             last[name] = document, _Row(name, value, span) if value is not None else None
     for document in read:
         yield document, [row for of, row in last.values() if of is document and row is not None]

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
+from preflight_analysis.incremental.derived import derived
 
 _ASSIGNMENT = re.compile(r"^[ \t]*(?:options[ \t]*\.[ \t]*)?([A-Za-z_][\w.]*)[ \t]*=(?!=)[ \t]*([^\n]*)$", re.MULTILINE)
 _TEXT = re.compile(r"""(?:"([^"\\]*)"|'([^'\\]*)')[\s,;}]*\Z""")
@@ -28,11 +29,13 @@ class Assignment(NamedTuple):
     span: Span
 
 
+@derived
 def assignments(document: Document) -> tuple[Assignment, ...]:
     """Those of a file in their order."""
     return tuple(_assignments(document.text[:_MAX_LENGTH]))
 
 
+@derived
 def included(document: Document) -> tuple[str, ...]:
     """The files that it includes."""
     return tuple(dict.fromkeys(_INCLUDE.findall(_without_comments(document.text[:_MAX_LENGTH]))))

@@ -14,7 +14,7 @@ from preflight_analysis.environment.own_programs import OWN_PROGRAMS
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.problems import PackageNotFound, Problem
 from preflight_analysis.generation import Generation, ros
-from preflight_analysis.incremental.once import Once
+from preflight_analysis.incremental.derived import Remembering, derived
 from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.problems import ProblemKind
 
@@ -353,7 +353,7 @@ ANY_CHANGE = StateChange(None, None, None)
 
 
 @dataclass(frozen=True, slots=True)
-class LaunchTree(Once):
+class LaunchTree(Remembering):
     """What the launcher would start from `file`. `inputs` maps every file that was read (launch files, YAML, ...)
     to the digest of its content, "" for a file that was looked for and is not there: an unchanged map means an
     unchanged tree."""
@@ -399,12 +399,12 @@ class LaunchTree(Once):
     @property
     def all_params(self) -> tuple[Param, ...]:
         """The parameters of all nodes and namespaces; the same object each time."""
-        return self.once(_all_params)
+        return _all_params(self)
 
     @property
     def nodes_and_simulated(self) -> tuple[LaunchNode, ...]:
         """What the launcher starts, then what the simulator makes; the same object each time."""
-        return self.once(_nodes_and_simulated)
+        return _nodes_and_simulated(self)
 
     @property
     def complete(self) -> bool:
@@ -418,9 +418,11 @@ class LaunchTree(Once):
         return edited is not None and problem.location.span in edited.wrong
 
 
+@derived
 def _nodes_and_simulated(tree: LaunchTree) -> tuple[LaunchNode, ...]:
     return (*tree.nodes, *tree.simulated) if tree.simulated else tree.nodes
 
 
+@derived
 def _all_params(tree: LaunchTree) -> tuple[Param, ...]:
     return tuple(tree.params.values())

@@ -8,7 +8,7 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Param
-from preflight_analysis.incremental.once import Once
+from preflight_analysis.incremental.derived import Remembering, derived
 from preflight_analysis.robot.of_launch import Robot
 
 How = Literal["urdf", "arguments", "run", "source", "knowledge", "gazebo"]
@@ -112,7 +112,7 @@ class Mention:
 
 
 @dataclass(frozen=True, slots=True)
-class Frames(Once):
+class Frames(Remembering):
     """All frames of a launch. `gaps` says why there may be more, a sentence each."""
 
     edges: tuple[Edge, ...] = ()
@@ -125,20 +125,20 @@ class Frames(Once):
 
     def names(self, space: str) -> frozenset[str]:
         """The frames that are broadcast in a space."""
-        return self.once(_names).get(space, frozenset())
+        return _names(self).get(space, frozenset())
 
     def parents(self, space: str) -> Mapping[str, tuple[Edge, ...]]:
         """The transforms of a space by their child."""
-        return self.once(_parents).get(space, {})
+        return _parents(self).get(space, {})
 
     def trees(self, space: str) -> Mapping[str, str]:
         """The frames of a space, each with a frame that stands for its tree: all that are joined have the same."""
-        return self.once(_trees).get(space, {})
+        return _trees(self).get(space, {})
 
     @property
     def spaces(self) -> tuple[str, ...]:
         """Those in which something is broadcast, the plain one first."""
-        return tuple(sorted(self.once(_names)))
+        return tuple(sorted(_names(self)))
 
     @property
     def complete(self) -> bool:
@@ -147,7 +147,7 @@ class Frames(Once):
 
     def robot_root(self, space: str) -> str | None:
         """The root of the only robot description that is published in a space, if all of its links are known."""
-        return self.once(_robot_roots).get(space)
+        return _robot_roots(self).get(space)
 
     def path(self, space: str, frame: str) -> tuple[Edge, ...]:
         """The transforms from a frame up to its root, the first one that is known at each step."""
@@ -166,6 +166,7 @@ class Frames(Once):
         return path[-1].parent if path else frame
 
 
+@derived
 def _robot_roots(frames: Frames) -> Mapping[str, str]:
     found: dict[str, str] = {}
     for space in {edge.space for edge in frames.edges if edge.how == "urdf" and edge.sure}:
@@ -177,6 +178,7 @@ def _robot_roots(frames: Frames) -> Mapping[str, str]:
     return found
 
 
+@derived
 def _names(frames: Frames) -> Mapping[str, frozenset[str]]:
     found: dict[str, set[str]] = {}
     for edge in frames.edges:
@@ -184,6 +186,7 @@ def _names(frames: Frames) -> Mapping[str, frozenset[str]]:
     return {space: frozenset(names) for space, names in found.items()}
 
 
+@derived
 def _parents(frames: Frames) -> Mapping[str, Mapping[str, tuple[Edge, ...]]]:
     found: dict[str, dict[str, list[Edge]]] = {}
     for edge in frames.edges:
@@ -191,6 +194,7 @@ def _parents(frames: Frames) -> Mapping[str, Mapping[str, tuple[Edge, ...]]]:
     return {space: {child: tuple(edges) for child, edges in of.items()} for space, of in found.items()}
 
 
+@derived
 def _trees(frames: Frames) -> Mapping[str, Mapping[str, str]]:
     found: dict[str, dict[str, list[str]]] = {}
     for edge in frames.edges:

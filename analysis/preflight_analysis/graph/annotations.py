@@ -255,7 +255,7 @@ def annotation_edits(node: LaunchNode, text: str, document: Document) -> tuple[E
     if not text or read_annotation(node.action)[0] is not None:
         return ()
     inside = [line.removeprefix("  ") for line in text.splitlines()[1:-1]]
-    return document.once(writer_of).annotate(node.action, inside)
+    return writer_of(document).annotate(node.action, inside)
 
 
 def _from_action(action: Action) -> _Tag:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.document import Element, Text
 from preflight_analysis.documents.movable import moved
 from preflight_analysis.documents.span import Span
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.launch.problems import (
     IgnoredChild,
@@ -96,6 +97,7 @@ _OF_XML = ("xmlns", "xsi:")
 """How the attributes begin by which editors find the schema of a file."""
 
 
+@derived
 def _checked(action: Action) -> tuple[LanguageProblem, ...]:
     return tuple(_check(action))
 
@@ -119,7 +121,7 @@ def _check(action: Action, *, whole: bool = False) -> Iterator[LanguageProblem]:
             continue
         if name in tag.children:
             # What is right below the root and an edit has only moved is as it was.
-            yield from moved(child.original.once(_checked), child.moved_by) if whole else _check(child)
+            yield from moved(_checked(child.original), child.moved_by) if whole else _check(child)
         elif kind == "include" and name in TAGS:
             yield LanguageProblem(IgnoredChild(name, kind), child.kind_span)
         else:

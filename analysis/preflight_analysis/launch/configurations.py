@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution
 from preflight_analysis.launch.substitutions_ros2 import nested
 
@@ -22,7 +22,7 @@ class Configurations:
     computed: bool
 
 
-@memoize_by_file
+@derived
 def configurations_of(launch_file: LaunchFile) -> Configurations:
     """All names of one file."""
     declared: set[str] = set()

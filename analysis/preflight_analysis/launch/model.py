@@ -15,7 +15,7 @@ from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.movable import Movable, moved
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Span
-from preflight_analysis.incremental.once import Once, each_once
+from preflight_analysis.incremental.derived import Remembering, derived
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -142,17 +142,19 @@ class Action(Movable):
         of one tag whose results a `Movable` may hold; of the tags right below this one that have only moved they are
         those of before."""
         found = [*find(self, *shared, **none)]
-        originals = self.once(_original_children)
-        for child, below in zip(self.children, each_once(originals, _gathered, find, shared), strict=True):
-            if below:
+        originals = _original_children(self)
+        for child, original in zip(self.children, originals, strict=True):
+            if below := _gathered(original, find, shared):
                 found += moved(below, child.moved_by)
         return found
 
 
+@derived
 def _original_children(action: Action) -> tuple[Action, ...]:
     return tuple([child.original for child in action.children])
 
 
+@derived
 def _gathered(action: Action, find: Callable[..., Iterable[T]], shared: tuple[Any, ...]) -> tuple[T, ...]:
     return tuple(item for each in action.walk() for item in find(each, *shared))
 
@@ -162,7 +164,7 @@ NODE_KINDS = frozenset({"node", "test", "node_container", "composable_node", "li
 
 
 @dataclass(frozen=True, slots=True)
-class LaunchFile(Once):
+class LaunchFile(Remembering):
     """A launch file of any format. `root` is None when the file has no `<launch>` to speak of; `extra_roots` are
     the tags of further ones, which no launcher accepts. `partial`: it is a program that was not run, and nothing may
     be concluded from what it has not; `named` are the substitutions and components that are written in it, wherever

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import compress
 
 from preflight_analysis.documents.document import Document, Element
-from preflight_analysis.incremental.once import each_once
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.substitutions import parse_value
 from preflight_analysis.launch.xml_actions import MAX_DEPTH, action_of
@@ -29,11 +29,12 @@ def _find_launch(document: Document) -> Iterator[Element]:
         level = [below for element in level for below in element.elements]
         if depth == 0:
             originals = [element.original for element in level]
-            level = [*compress(level, each_once(originals, _has_launch))]
+            level = [*compress(level, map(_has_launch, originals))]
         if not level:
             return
 
 
+@derived
 def _has_launch(element: Element) -> bool:
     """Whether it, or an element below it, is a `<launch>`."""
     level = [element]

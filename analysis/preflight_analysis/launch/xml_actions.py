@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from preflight_analysis.documents.document import Comment, Element, SpannedText, Text
 from preflight_analysis.documents.span import Span
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, ActionAttribute, Value
 
 ParseValue = Callable[[SpannedText], Value]
@@ -14,8 +15,12 @@ MAX_DEPTH = 100
 """Elements nested deeper than this are left out; real launch files stay below ten."""
 
 
-def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Action:
+def action_of(element: Element, parse_value: ParseValue) -> Action:
     """The action of an element and those below it; `parse_value`, a pure function, cuts its values into pieces."""
+    return _action_of(element, parse_value, 0)
+
+
+def _action_of(element: Element, parse_value: ParseValue, depth: int) -> Action:
     comments: list[SpannedText] = []
     children: list[Action] = []
     texts: list[Text] = []
@@ -23,9 +28,9 @@ def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Acti
         if isinstance(child, Element):
             if depth == 0:
                 # Of one that an edit has only moved it is that of before.
-                children.append(child.original.once(action_of, parse_value, 1).moved(child.moved_by))
+                children.append(_action_below(child.original, parse_value).moved(child.moved_by))
             elif depth < MAX_DEPTH:
-                children.append(action_of(child, parse_value, depth + 1))
+                children.append(_action_of(child, parse_value, depth + 1))
         elif isinstance(child, Comment):
             comments.append(child.content)
         elif isinstance(child, Text):
@@ -40,6 +45,11 @@ def action_of(element: Element, parse_value: ParseValue, depth: int = 0) -> Acti
         element.open_span,
         element.span,
     )
+
+
+@derived
+def _action_below(element: Element, parse_value: ParseValue) -> Action:
+    return _action_of(element, parse_value, 1)
 
 
 def _body(texts: list[Text], element: Element, parse_value: ParseValue) -> Value:

@@ -10,7 +10,7 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.finding import Fix
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix, rename
@@ -21,7 +21,7 @@ _FAR = 40
 _ENDS = frozenset(",<>{}")
 
 
-@memoize_by_file
+@derived
 def declarations(launch_file: LaunchFile) -> Mapping[str, tuple[Action, ...]]:
     """The `<arg>` tags of each name, those in groups too; tags in includes pass arguments and declare none."""
     found: dict[str, list[Action]] = {}
@@ -62,7 +62,7 @@ def remove_at(context: Context, location: Location, title: str) -> tuple[Fix, ..
     action = action_at(launch_file, location.span.start) if launch_file is not None else None
     if launch_file is None or action is None:
         return ()
-    return fix(title, launch_file.document.once(writer_of).remove(action))
+    return fix(title, writer_of(launch_file.document).remove(action))
 
 
 def declare(context: Context, origin: Origin, name: str) -> tuple[Fix, ...]:
@@ -74,7 +74,7 @@ def declare(context: Context, origin: Origin, name: str) -> tuple[Fix, ...]:
         return ()
     if context.tree.ros.shared_configurations and _is_included(context, launch_file.path):
         return ()
-    edits = launch_file.document.once(writer_of).declare_argument(launch_file.root, name)
+    edits = writer_of(launch_file.document).declare_argument(launch_file.root, name)
     return fix(f"Declare argument '{name}'", edits)
 
 
@@ -106,7 +106,7 @@ def pass_on(context: Context, include: Location, name: str) -> tuple[Fix, ...]:
     if name not in declarations(launch_file):
         return ()  # its value is for the user to know
     command = "var" if context.tree.ros.shared_configurations else "arg"
-    edits = launch_file.document.once(writer_of).pass_argument(action, name, f"$({command} {name})")
+    edits = writer_of(launch_file.document).pass_argument(action, name, f"$({command} {name})")
     return fix(f"Pass argument '{name}' on", edits, preferred=True)
 
 

@@ -18,6 +18,7 @@ from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.finding import Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.trees.known_nodes import NAV_DISTRIBUTIONS, NAV_LIBRARIES, is_version_3
 from preflight_analysis.trees.read import Included, TreeFile, Used, read_trees
@@ -95,9 +96,10 @@ class Loaded:
         return (Related(f"{self.node.name} loads the file by '{self.param.name}'", self.param.place),)
 
 
+@derived
 def trees_of(context: Context) -> tuple[Loaded, ...]:
-    """Those of bt_navigator, and of nodes of the workspace that a parameter gives a tree; each file once for each node.
-    Ask through `context.once`."""
+    """Those of bt_navigator, and of nodes of the workspace that a parameter gives a tree; each file once for each
+    node."""
     found: dict[tuple[str, str], Loaded] = {}
     workspace = context.environment.workspace
     for node in context.tree.nodes:
@@ -205,7 +207,7 @@ class _Files:
             if path in self._seen:
                 continue
             self._seen.add(path)
-            file = document.once(read_trees)
+            file = read_trees(document)
             self.parts.append(Part(path, document, file))
             for included in file.includes:
                 target = path_of(self._context, included, path)

@@ -65,5 +65,5 @@ def of_all_kinds(
     **none: P.kwargs,
 ) -> Mapping[ChannelKind, tuple[V, ...]]:
     """`Kept.each` for the items of all kinds, in their order."""
-    found = iter(context.kept.each(function, chain.from_iterable(items.values()), *shared, **none))
+    found = iter(context.each(function, chain.from_iterable(items.values()), *shared, **none))
     return {kind: tuple(islice(found, len(some))) for kind, some in items.items()}

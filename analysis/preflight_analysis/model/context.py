@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import field
-from typing import Protocol
+from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
@@ -19,10 +19,15 @@ from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.incremental.once import Once
+from preflight_analysis.incremental.derived import Remembering
+from preflight_analysis.incremental.kept import Before, Kept
 from preflight_analysis.knowledge.model import Knowledge
 from preflight_analysis.launch.model import LaunchFile
+
+P = ParamSpec("P")
+K = TypeVar("K", bound=Hashable)
+T = TypeVar("T")
+V = TypeVar("V")
 
 
 class ExecutableNames(Executables, Protocol):
@@ -75,7 +80,7 @@ class Plugins(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Context(Once):
+class Context(Remembering):
     """What a rule may look at. `graph` is None while the interfaces are not there yet (static analysis only).
 
     `documents` and `launch_files` have every XML file of the tree by path; `why_not_run` says why nodes were not run,
@@ -100,6 +105,39 @@ class Context(Once):
     """What was found in tags that the tree leaves out (`workspace/branches.py`)."""
     kept: Kept = field(default_factory=Kept, repr=False, compare=False)
     """For what rules say of single nodes and channels: most of it is as it was before the last edit."""
+
+    def each(
+        self, function: Callable[Concatenate[T, P], V], items: Iterable[T], /, *shared: P.args, **none: P.kwargs
+    ) -> tuple[V, ...]:
+        """`function(item, *shared)` for each of many items; of those that are as before an edit it is what it was. The
+        function is pure: it looks at its arguments alone, and at no `span` in these."""
+        return self.kept.each(function, items, *shared, **none)
+
+    def each_row(
+        self, function: Callable[..., V], columns: Iterable[Iterable[Any]], /, *shared: object
+    ) -> tuple[V, ...]:
+        """As `each`, for rows of items that are looked at together: `function(*row, *shared)`."""
+        return self.kept.each_row(function, columns, *shared)
+
+    def grouped(self, key: Callable[[T], K], tag: Hashable, items: Iterable[T], /) -> Mapping[K, tuple[T, ...]]:
+        """The items by their `key`, in order. A group that is as before is the same object. Ask once for each key and
+        `tag`."""
+        return self.kept.grouped(key, tag, items)
+
+    def one(self, function: Callable[P, V], key: Hashable, /, *arguments: P.args, **none: P.kwargs) -> V:
+        """As `each`, for the one item that `key` names."""
+        return self.kept.get(function, key, *arguments, **none)
+
+    def whole(
+        self,
+        function: Callable[Concatenate[Before[V] | None, P], V],
+        key: Hashable,
+        /,
+        *arguments: P.args,
+        **none: P.kwargs,
+    ) -> V:
+        """As `one`, for a whole of which a part can be made again: `function` is given what it gave before."""
+        return self.kept.patched(function, key, *arguments, **none)
 
     @property
     def known(self) -> KnownMeanings:
@@ -126,4 +164,4 @@ class Context(Once):
     def writer(self, path: str) -> Writer | None:
         """The writer of a file; None where its text is not known."""
         document = self.document(path)
-        return document.once(writer_of) if document is not None else None
+        return writer_of(document) if document is not None else None

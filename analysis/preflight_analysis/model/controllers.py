@@ -21,6 +21,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.evaluation.words import words_of
 from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.robots import robots
 from preflight_analysis.robot.model import Description
@@ -80,8 +81,9 @@ class Controller(NamedTuple):
         return doubts(FROM_SOURCE=is_used, OTHER_VERSION=not is_used)
 
 
+@derived
 def controllers_of(context: Context) -> tuple[Controller, ...]:
-    """Those of all managers of the launch; ask through `context.once`."""
+    """Those of all managers of the launch."""
     if not context.tree.ros.ament:
         return ()
     spawned = _spawned(context.tree)

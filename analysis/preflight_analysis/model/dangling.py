@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain, islice
 
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import channels_of, of_all_kinds
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.well_known import IMAGE_TRANSPORTS, may_dangle
@@ -16,11 +17,12 @@ GENERIC_PACKAGES = ("std_msgs/", "std_srvs/")
 
 def dangling_consumers(context: Context, kind: ChannelKind) -> tuple[Connection, ...]:
     """Subscribers or clients without any other end, but for those that may well be served from outside."""
-    return context.once(all_dangling_consumers)[kind]
+    return all_dangling_consumers(context)[kind]
 
 
+@derived
 def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Connection, ...]]:
-    """Those of each kind; ask through `context.once`."""
+    """Those of each kind."""
     lone = of_all_kinds(context, _lone_consumers, channels_of(context))
     return {kind: _not_of_unknown(context, kind, chain.from_iterable(lone[kind])) for kind in lone}
 
@@ -28,7 +30,7 @@ def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Conne
 def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     channels = context.graph.channels(kind) if context.graph is not None else {}
-    lone = context.once(_all_lone_providers)[kind]
+    lone = _all_lone_providers(context)[kind]
     transported = {name.rpartition("/")[0] for name in channels if name.endswith(IMAGE_TRANSPORTS)}
     if transported:
         found = zip(channels, lone, strict=True)
@@ -44,6 +46,7 @@ def _not_of_unknown(context: Context, kind: ChannelKind, lone: Iterable[Connecti
     return tuple(each for each in lone if not graph.is_of_unknown(kind, each.name))
 
 
+@derived
 def dangling_topic_providers(context: Context) -> list[Connection]:
     """Those of topics, for which several rules ask: do so through `context.once`."""
     return dangling_providers(context, "topics")
@@ -53,6 +56,7 @@ _Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]
 """The ends of each channel of a kind, in the order of the graph."""
 
 
+@derived
 def _all_lone_providers(context: Context) -> _Lone:
     return of_all_kinds(context, _lone_providers, channels_of(context))
 
@@ -79,7 +83,7 @@ def by_type(
     context: Context, kind: ChannelKind, connections: Iterable[Connection]
 ) -> Mapping[str | None, tuple[Connection, ...]]:
     """The ends, all of a kind that dangle, by their types."""
-    return context.kept.grouped(_type, kind, connections)
+    return context.grouped(_type, kind, connections)
 
 
 def _type(connection: Connection) -> str | None:

@@ -9,15 +9,17 @@ from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.frames.build import build_frames
 from preflight_analysis.frames.model import Edge, Frames, Mention, Use
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.robot.sources import place_of, text_place
 
 
 def frames_of(context: Context) -> Frames:
     """All frames that are known; the same object each time."""
-    return context.once(_frames)
+    return _frames(context)
 
 
+@derived
 def _frames(context: Context) -> Frames:
     return build_frames(context.tree, context.graph, context.known, context.disk, context.kept)
 

@@ -13,6 +13,7 @@ from preflight_analysis.documents.yaml import span_of
 from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.evaluation.ros2.bridges import arguments_of, config_file_of, is_bridge, root_of, rows_of
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.places import argument_location
 
@@ -80,7 +81,7 @@ def bridges(context: Context) -> Iterator[Bridge]:
                 yield Bridge(
                     node, *names, _DIRECTIONS[sign], place, turned, (_within(context, place, given.word),), place
                 )
-    for entry in context.once(entries):
+    for entry in entries(context):
         topic, ros = entry.ros_topic, entry.values.get("ros_type_name")
         direction, place = entry.values.get("direction", ("BIDIRECTIONAL", entry.place))
         if topic is not None and ros is not None:
@@ -106,17 +107,18 @@ def type_pairs(context: Context) -> Iterator[TypePair]:
             if not given.refused and not given.is_service:
                 place = argument_location(context, node, given.word)
                 yield TypePair(node, given.ros, given.gazebo, place, place)
-    for entry in context.once(entries):
+    for entry in entries(context):
         ros, gazebo = entry.values.get("ros_type_name"), entry.values.get("gz_type_name")
         if ros is not None and gazebo is not None:
             yield TypePair(entry.node, ros[0], gazebo[0], gazebo[1], ros[1])
 
 
+@derived
 def entries(context: Context) -> tuple[Entry, ...]:
-    """The entries of the files of all bridges, those of one file once. Ask through `context.once`."""
+    """The entries of the files of all bridges, those of one file once."""
     found = []
     for path, node, document in _files(context):
-        for row in document.once(rows_of):
+        for row in rows_of(document):
             values = {key: (value, context.location(path, span)) for key, (value, span) in row.values.items()}
             keys = {key: context.location(path, span) for key, span in row.keys.items()}
             topic = values[row.ros_topic] if row.ros_topic is not None else None
@@ -127,7 +129,7 @@ def entries(context: Context) -> tuple[Entry, ...]:
 def not_listed(context: Context) -> Iterator[tuple[LaunchNode, Location]]:
     """The bridges whose file has something else than a list, and where."""
     for path, node, document in _files(context):
-        root = document.once(root_of)
+        root = root_of(document)
         if root is not None and not isinstance(root, yaml.SequenceNode):
             first = root.value[0][0] if isinstance(root, yaml.MappingNode) and root.value else root
             yield node, context.location(path, span_of(first))

@@ -20,6 +20,7 @@ from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.evaluation.words import beside_ros, words_of
 from preflight_analysis.findings.finding import Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.knowledge.gazebo import Direction, TopicForm, gazebo_topics, is_of_classic, plugin_name
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.gazebo_bridges import Bridge, bridges
@@ -123,8 +124,9 @@ def to_gazebo(context: Context) -> Iterator[Bridge]:
             yield bridge
 
 
+@derived
 def gazebo_of(context: Context) -> Gazebo | None:
-    """The Gazebo that the launch starts; None where it starts none. Ask through `context.once`."""
+    """The Gazebo that the launch starts; None where it starts none."""
     worlds = list(_worlds(context))
     return _Reader(context).gazebo(worlds) if worlds else None
 

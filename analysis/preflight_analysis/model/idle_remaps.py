@@ -11,6 +11,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness
 from preflight_analysis.model.well_known import is_transform
@@ -59,29 +60,31 @@ class _Reached:
     is_reversed: bool = False
 
 
+@derived
 def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
-    """Those of nodes that were run to their event loop. Ask through `context.once`."""
-    graph, kept = context.graph, context.kept
+    """Those of nodes that were run to their event loop."""
+    graph = context.graph
     if graph is None:
         return ()
-    reached = kept.each_row(_reached, (graph.tree.nodes, graph.interfaces))
+    reached = context.each_row(_reached, (graph.tree.nodes, graph.interfaces))
     # A tag reaches several nodes where it stands around them, or in a file that is included more than once.
-    of_tags = kept.grouped(_tag, "", chain.from_iterable(reached))
-    idle = [*filter(None, kept.each(_idle, of_tags.values()))]
+    of_tags = context.grouped(_tag, "", chain.from_iterable(reached))
+    idle = [*filter(None, context.each(_idle, of_tags.values()))]
     if not idle:
         return ()
-    own_ends = kept.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
-    of_nodes = kept.grouped(_node, "", chain.from_iterable(own_ends))
+    own_ends = context.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
+    of_nodes = context.grouped(_node, "", chain.from_iterable(own_ends))
     found = (_with_meaning(context, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
     return tuple(
         each for each in found if (each.sure and not (each.to_itself or each.is_reversed)) or each.meant is not None
     )
 
 
+@derived
 def meant_endpoints(context: Context) -> frozenset[int]:
     """The ids of the connections that an idle remap was most likely meant to bring together: that they dangle is told
     with it, once."""
-    found = [i for i in context.once(idle_remaps) if i.meant is not None and i.partner is not None]
+    found = [i for i in idle_remaps(context) if i.meant is not None and i.partner is not None]
     return frozenset(id(connection) for idle in found for connection in (idle.meant, idle.partner))
 
 
@@ -136,7 +139,7 @@ def _with_meaning(context: Context, graph: Graph, idle: IdleRemap, own: tuple[Co
     targets = tuple(_channels(graph, each).get(target) for each in own)
     # What an argument says is only by default the same name.
     on_purpose = idle.to_itself and "(" not in context.text(idle.remap.target_location)
-    return context.kept.get(_meaning, id(idle), idle, own, channels, targets, on_purpose)
+    return context.one(_meaning, id(idle), idle, own, channels, targets, on_purpose)
 
 
 def _channels(graph: Graph, connection: Connection) -> Mapping[str, Channel]:

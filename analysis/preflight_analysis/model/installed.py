@@ -21,6 +21,7 @@ from preflight_analysis.environment.installed_paths import installs_more, locate
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import LEGACY_MANIFEST
 from preflight_analysis.findings.lack import INSTALL, Lack
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import is_slip, is_slip_of_words, nearest
 
@@ -126,9 +127,9 @@ def near_package(context: Context, name: str) -> str | None:
 def _near_dependency(context: Context, name: str) -> str | None:
     """The package of which it is a slip, released and not here, that a manifest of the workspace names; none for what a
     manifest names as well."""
-    if name in context.once(_absent_dependencies):
+    if name in _absent_dependencies(context):
         return None
-    near = nearest(name, context.once(_released_dependencies))
+    near = nearest(name, _released_dependencies(context))
     return near if near is not None and _differ_in_words_of(_SHORT, name, near) else None
 
 
@@ -137,11 +138,12 @@ def is_of_family(context: Context, name: str, near: str) -> bool:
     workspace needs and nobody knows, or of a folder around a package (`smarc_msgs` in `smarc_scenarios`): those are of
     a repository that is not here. Nobody makes the same slip twice."""
     words = set(name.split("_")) - set(near.split("_"))
-    others = context.once(_unknown_dependencies) - {name}
+    others = _unknown_dependencies(context) - {name}
     in_other = any(not words.isdisjoint(other.split("_")) for other in others)
-    return in_other or not words.isdisjoint(context.once(words_of_folders))
+    return in_other or not words.isdisjoint(words_of_folders(context))
 
 
+@derived
 def words_of_folders(context: Context) -> frozenset[str]:
     """The words in the names of the folders that packages of the workspace are in."""
     own = (package.share for package in context.environment.own_packages)
@@ -149,17 +151,20 @@ def words_of_folders(context: Context) -> frozenset[str]:
     return frozenset(word for folder in folders for word in _BETWEEN.split(folder) if word)
 
 
+@derived
 def _unknown_dependencies(context: Context) -> frozenset[str]:
     """What the manifests of the workspace name, and is neither here nor released."""
     return _absent_dependencies(context) - _released_dependencies(context)
 
 
+@derived
 def _released_dependencies(context: Context) -> frozenset[str]:
     """What the manifests of the workspace name, and is not here but released."""
     generation = context.tree.generation
     return frozenset(name for name in _absent_dependencies(context) if distributions_with(name, generation))
 
 
+@derived
 def _absent_dependencies(context: Context) -> frozenset[str]:
     packages = context.environment.packages
     own = (package.dependencies for package in context.environment.own_packages)

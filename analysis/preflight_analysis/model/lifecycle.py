@@ -51,11 +51,11 @@ def inactive_nodes(context: Context) -> tuple[Inactive, ...]:
     if not waiting or _others_may_act(context):
         return ()
     managed = managed_by(context)
-    unknown = filter(None, context.kept.each(_as_manager, context.tree.nodes))
+    unknown = filter(None, context.each(_as_manager, context.tree.nodes))
     managers = {manager.name for manager in managed.values()}
     if any(node.name not in managers for node in unknown):
         return ()
-    settled = managed.keys() | context.once(missing_nodes).meant
+    settled = managed.keys() | missing_nodes(context).meant
     changes, by_command = context.tree.state_changes, _by_commands(context)
     found = []
     for node, own in waiting:
@@ -78,11 +78,11 @@ def _waiting(context: Context) -> Iterator[tuple[LaunchNode, tuple[str, ...]]]:
     """The lifecycle nodes, each with the transitions that it makes by itself."""
     graph = context.graph
     if graph is None:
-        plain = compress(context.tree.nodes, context.kept.each(_is_said_to_wait, context.tree.nodes))
+        plain = compress(context.tree.nodes, context.each(_is_said_to_wait, context.tree.nodes))
         yield from ((node, ()) for node in plain)
         return
     started = {*map(id, context.tree.nodes)}
-    waits = context.kept.each_row(_waits, (graph.tree.nodes, graph.interfaces))
+    waits = context.each_row(_waits, (graph.tree.nodes, graph.interfaces))
     for node, interface in compress(zip(graph.tree.nodes, graph.interfaces, strict=True), waits):
         if id(node) in started or node.within is None:
             yield node, interface.transitions

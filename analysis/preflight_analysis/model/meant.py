@@ -13,19 +13,20 @@ from preflight_analysis.evaluation.meanings import (
     params_of_nodes,
 )
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 
 NodeMeant = tuple[LaunchNode, tuple[Meant, ...]]
 """A node, and the values of its parameters that stand for something, defaults among them."""
 
 
+@derived
 def meant_values(context: Context) -> tuple[NodeMeant, ...]:
-    """Those of all nodes of which something is known, in a graph of those within processes, too; ask through
-    `context.once`."""
+    """Those of all nodes of which something is known, in a graph of those within processes, too."""
     tree, kept = context.graph.tree if context.graph is not None else context.tree, context.kept
     known = known_of_nodes(tree, context.known, kept)
     columns = tree.nodes_and_simulated, known, params_of_nodes(tree, known, kept)
-    return tuple(each for each in kept.each_row(_of_node, columns, context.known) if each is not None)
+    return tuple(each for each in context.each_row(_of_node, columns, context.known) if each is not None)
 
 
 def _of_node(node: LaunchNode, known: Known | None, given: Sequence[Param], every: KnownMeanings) -> NodeMeant | None:

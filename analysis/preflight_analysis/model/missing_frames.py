@@ -10,6 +10,7 @@ from typing import NamedTuple
 from preflight_analysis.frames.edges import is_state_publisher, prefix_of
 from preflight_analysis.frames.model import Edge, Frames, Mention, Use
 from preflight_analysis.frames.uses import OF_SENSOR
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.frames import frames_of
 from preflight_analysis.model.nearest import is_slip, nearest
@@ -36,9 +37,10 @@ class MissingFrame(NamedTuple):
 
 def missing_frames(context: Context) -> tuple[MissingFrame, ...]:
     """Each use once; the same objects each time."""
-    return context.once(_missing)
+    return _missing(context)
 
 
+@derived
 def _missing(context: Context) -> tuple[MissingFrame, ...]:
     frames = frames_of(context)
     if not frames.edges:

@@ -9,6 +9,7 @@ from itertools import chain
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.parameters import namespaces_around
 from preflight_analysis.model.well_known import describes_robot, is_for_tools
@@ -25,11 +26,12 @@ class Missing:
     died: str | None
 
 
+@derived
 def missing_params(context: Context) -> Mapping[int, tuple[Missing, ...]]:
     """By the id of the node what it reads without a default, or asks for, and nobody sets, each name once.
 
     A node that asks whether there is such a parameter, or reads it with a default too, may go on without it: of these
-    it stands here as not mandatory. Ask through `context.once`.
+    it stands here as not mandatory.
     """
     graph = context.graph
     if graph is None or not any(graph.reads_of_nodes) or not context.tree.complete:
@@ -40,16 +42,16 @@ def missing_params(context: Context) -> Mapping[int, tuple[Missing, ...]]:
 
 
 def _missing(context: Context, graph: Graph) -> dict[int, list[ParamRead]]:
-    params, kept = graph.tree.params, context.kept
-    maybe_missing = chain.from_iterable(kept.each(_mandatory_reads, graph.reads_of_nodes))
+    params = graph.tree.params
+    maybe_missing = chain.from_iterable(context.each(_mandatory_reads, graph.reads_of_nodes))
     unset = [read for read in maybe_missing if read.name not in params]
     if not unset:
         return {}
     leaves = {names.leaf(name) for name in params}
     unset = [read for read in unset if not describes_robot(read.name) or names.leaf(read.name) in leaves]
-    known = context.once(namespaces_around) | {command.param for command in graph.tree.commands}
-    known |= {name for found in kept.each(_found_elsewhere, graph.reads_of_nodes) for name in found}
-    with_default = {key for keys in kept.each(_defaulted, graph.reads_of_nodes) for key in keys}
+    known = namespaces_around(context) | {command.param for command in graph.tree.commands}
+    known |= {name for found in context.each(_found_elsewhere, graph.reads_of_nodes) for name in found}
+    with_default = {key for keys in context.each(_defaulted, graph.reads_of_nodes) for key in keys}
     first: dict[tuple[int, str], ParamRead] = {}
     for read in unset:
         key = (id(read.node), read.name)

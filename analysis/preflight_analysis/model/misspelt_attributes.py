@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tags import tags_of
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.problems import MissingAttribute
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import nearest
@@ -37,8 +38,9 @@ def misspelt(context: Context, tag: Tag, file: str, needed: Iterable[str]) -> Mi
     return None
 
 
+@derived
 def explained(context: Context) -> frozenset[Location]:
-    """Where those are written that stand for a missing one: that finding says it all. Ask through `context.once`."""
+    """Where those are written that stand for a missing one: that finding says it all."""
     tags = Tags(context.launch_files)
     found = set()
     for problem in problems_of(context, MissingAttribute):

@@ -10,6 +10,7 @@ from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.evaluation.moveit import MoveItController, controller_params, full_action, moveit_controllers
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
 from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.controllers import controllers_of
 from preflight_analysis.model.nearest import nearest
@@ -64,24 +65,26 @@ class Unserved(NamedTuple):
     reason: str = ""
 
 
+@derived
 def known_to_moveit(context: Context) -> tuple[Known, ...]:
-    """The controllers of all nodes of MoveIt; ask through `context.once`."""
+    """The controllers of all nodes of MoveIt."""
     tree = context.tree
     given = ((node, controller_params(tree, node)) for node in tree.nodes)
     found = [(node, each) for node, params in given for each in moveit_controllers(params, node)]
-    loaded = {each.name: each for each in context.once(loaded_controllers)} if found else {}
+    loaded = {each.name: each for each in loaded_controllers(context)} if found else {}
     return tuple(
         Known(node, each, full_action(node, each), loaded.get(names.resolve(each.name, node.name)))
         for node, each in found
     )
 
 
+@derived
 def unserved(context: Context) -> tuple[Unserved, ...]:
-    """The controllers that MoveIt knows under a wrong name, or with a wrong action; ask through `context.once`."""
-    known = context.once(known_to_moveit)
+    """The controllers that MoveIt knows under a wrong name, or with a wrong action."""
+    known = known_to_moveit(context)
     served = context.graph.actions if context.graph is not None else {}
     actions = {each.action for each in known}
-    loaded = context.once(loaded_controllers) if known else ()
+    loaded = loaded_controllers(context) if known else ()
     free = [each for each in loaded if each.action is not None and each.action not in actions]
     found: list[Unserved] = []
     for each in known:
@@ -112,13 +115,14 @@ def _meant(known: Known, free: list[Loaded]) -> tuple[Loaded | None, str]:
     return (unknown[near], "the launch loads") if near is not None else (None, "")
 
 
+@derived
 def loaded_controllers(context: Context) -> tuple[Loaded, ...]:
-    """The controllers that spawners of the launch load; ask through `context.once`."""
+    """The controllers that spawners of the launch load."""
     return tuple(_of_ros2(context) if context.tree.ros.ament else _of_ros1(context))
 
 
 def _of_ros2(context: Context) -> Iterator[Loaded]:
-    for each in context.once(controllers_of):
+    for each in controllers_of(context):
         if each.spawner is None:
             continue
         commanded = [claim for claim in each.claims if claim.commands]

@@ -9,6 +9,7 @@ from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import Meant
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.meant import meant_values
 from preflight_analysis.model.nearest import nearest
@@ -43,11 +44,12 @@ class NamedNode(NamedTuple):
         return param.place if param is not None else argument_location(context, self.node, self.meant.value)
 
 
+@derived
 def named_nodes(context: Context) -> tuple[NamedNode, ...]:
-    """All of a launch; ask through `context.once`."""
+    """All of a launch."""
     return tuple(
         NamedNode(node, meant, names.resolve(meant.value, node.name))
-        for node, values in context.once(meant_values)
+        for node, values in meant_values(context)
         for meant in values
         if meant.meaning.kind == "node" and isinstance(meant.value, str) and names.is_legal(meant.value) and meant.value
     )
@@ -65,17 +67,18 @@ class MissingNodes(NamedTuple):
         return frozenset(near for _, near in self.each if near is not None)
 
 
+@derived
 def missing_nodes(context: Context) -> MissingNodes:
-    """Those of a launch; ask through `context.once`. A node may have something below its name that is no node, such
+    """Those of a launch. A node may have something below its name that is no node, such
     as a server of dynamic_reconfigure: that is not missing."""
     tree = context.graph.tree if context.graph is not None else context.tree
     there = {node.name for node in (*context.tree.nodes, *tree.nodes_and_simulated) if node.kind != "process"}
     first: dict[tuple[str, bool], NamedNode] = {}
-    for named in context.once(named_nodes):
+    for named in named_nodes(context):
         if named.name not in there and (named.is_managed or not _is_below(named.name, there)):
             first.setdefault((named.name, named.is_managed), named)
     unnamed = {node.name for node in context.tree.nodes if node.kind != "process"}
-    unnamed.difference_update(named.name for named in context.once(named_nodes))
+    unnamed.difference_update(named.name for named in named_nodes(context))
     few = len(first) <= _MAX_TYPOS
     return MissingNodes([(each, nearest(each.name, unnamed) if few else None) for each in first.values()])
 
@@ -87,4 +90,4 @@ def _is_below(name: str, there: set[str]) -> bool:
 
 def managed_by(context: Context) -> Mapping[str, LaunchNode]:
     """The nodes whose lifecycle another node manages, by their full names."""
-    return {named.name: named.node for named in context.once(named_nodes) if named.is_managed}
+    return {named.name: named.node for named in named_nodes(context) if named.is_managed}

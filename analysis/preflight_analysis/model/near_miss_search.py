@@ -14,6 +14,7 @@ from operator import is_, itemgetter
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.model.channels import channels_of, of_all_kinds
 from preflight_analysis.model.context import Context
@@ -29,16 +30,17 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
 
     Where what is not known of some node may well be the other end, only strong evidence counts.
     """
-    graph, seekers = context.graph, context.once(_all_seekers)[kind]
+    graph, seekers = context.graph, _all_seekers(context)[kind]
     if graph is None or not seekers:
         return ()
-    candidates = context.once(_all_candidates)[kind]
-    near = context.kept.patched(_found, kind, candidates, seekers, graph.blind > 0).near
+    candidates = _all_candidates(context)[kind]
+    near = context.whole(_found, kind, candidates, seekers, graph.blind > 0).near
     if not graph.domains.by_node:
         return near
     return tuple(each for each in near if graph.domains.apart(each.consumer.node, each.provider.node) is None)
 
 
+@derived
 def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
     """Those of topics, for which several rules ask: do so through `context.once`."""
     return near_misses(context, "topics")
@@ -105,18 +107,21 @@ class _Found:
     near: tuple[NearMiss, ...] = ()
 
 
+@derived
 def _all_candidates(context: Context) -> Mapping[ChannelKind, tuple[_Candidate, ...]]:
     """Those of each kind, in the order of the graph; of one name in several domains the first one."""
     channels = channels_of(context)
     if context.graph is not None and context.graph.domains.by_node:
         channels = {kind: [each for each in some if not each.domain] for kind, some in channels.items()}
-    return of_all_kinds(context, _candidate, channels, context.once(_namesakes))
+    return of_all_kinds(context, _candidate, channels, _namesakes(context))
 
 
+@derived
 def _all_seekers(context: Context) -> Mapping[ChannelKind, tuple[_Seeker, ...]]:
-    return of_all_kinds(context, _seeker, context.once(all_dangling_consumers), context.once(_namesakes))
+    return of_all_kinds(context, _seeker, all_dangling_consumers(context), _namesakes(context))
 
 
+@derived
 def _namesakes(context: Context) -> Mapping[int, int]:
     """Of nodes with the name of one before them, by id, how many of those there are."""
     nodes = context.graph.tree.nodes if context.graph is not None else ()

@@ -9,6 +9,7 @@ from operator import is_not
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.finding import Fix
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import replacement
 from preflight_analysis.tracing.interface import ParamUse
@@ -22,19 +23,22 @@ OF_ALL_NODES = {
 """What the client libraries of ROS 2 declare for each node, whatever is known of it; the second since Jazzy."""
 
 
+@derived
 def namespaces(context: Context) -> frozenset[str]:
-    """Those in which parameters are. Ask through `context.once`."""
-    return frozenset(context.once(each_namespace))
+    """Those in which parameters are."""
+    return frozenset(each_namespace(context))
 
 
+@derived
 def namespaces_around(context: Context) -> frozenset[str]:
-    """Those in which parameters are, and all that hold these but the root. Ask through `context.once`."""
-    return frozenset(names.with_namespaces(context.once(namespaces)))
+    """Those in which parameters are, and all that hold these but the root."""
+    return frozenset(names.with_namespaces(namespaces(context)))
 
 
+@derived
 def each_namespace(context: Context) -> tuple[str, ...]:
-    """That of each parameter. Ask through `context.once`."""
-    return context.kept.each(namespace_of, context.tree.all_params)
+    """That of each parameter."""
+    return context.each(namespace_of, context.tree.all_params)
 
 
 def changed_names(before: Sequence[Param], params: Sequence[Param]) -> set[str]:

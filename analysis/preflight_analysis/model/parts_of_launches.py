@@ -6,6 +6,7 @@ import os
 import re
 
 from preflight_analysis.evaluation.problems import ArgumentNeeded
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import problems_of
 from preflight_analysis.model.written_elsewhere import in_package
@@ -20,6 +21,7 @@ _ARGUMENTS = (
 """Of `<arg>` and `<let>`, and in Python of declarations and what an include is given."""
 
 
+@derived
 def is_part(context: Context) -> bool:
     """Whether what is launched here is made to be included: it needs arguments, and in ROS 2 all that is configured
     where it is included is known in it, declared or not."""

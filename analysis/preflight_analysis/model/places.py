@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import EndpointRef, Related
 from preflight_analysis.graph.model import Connection, ParamRead
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
@@ -35,8 +36,9 @@ class Verbs:
     consumes: str
 
 
+@derived
 def known_by_source(context: Context) -> frozenset[int]:
-    """The ids of the nodes that are known from their source alone. Ask through `context.once`."""
+    """The ids of the nodes that are known from their source alone."""
     graph = context.graph
     pairs = zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ()
     return frozenset(id(node) for node, interface in pairs if interface.source == "source")

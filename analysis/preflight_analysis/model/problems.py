@@ -14,6 +14,7 @@ from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.writer import replaced
 from preflight_analysis.evaluation.problems import Problem
 from preflight_analysis.findings.finding import Fix, Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.model.context import Context
 
@@ -30,11 +31,12 @@ def problems_of(context: Context, *kinds: type[K]) -> Iterator[Problem[K]]:
 
 def numbered_problems(context: Context, *kinds: type[K]) -> list[tuple[int, Problem[K]]]:
     """As `problems_of`, with their places among all problems of the tree."""
-    by_kind = context.once(_by_kind)
+    by_kind = _by_kind(context)
     found = sorted(chain.from_iterable(by_kind.get(kind, ()) for kind in kinds))
     return cast(list[tuple[int, Problem[K]]], found)
 
 
+@derived
 def _by_kind(context: Context) -> dict[type[ProblemKind], list[tuple[int, Problem[ProblemKind]]]]:
     """All rules about problems look here, lest each looks at all of them."""
     found: dict[type[ProblemKind], list[tuple[int, Problem[ProblemKind]]]] = {}

@@ -8,7 +8,7 @@ from itertools import combinations
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 
@@ -40,7 +40,7 @@ class _Made:
     """The variable that it, or the list that it is in, is assigned to."""
 
 
-@memoize_by_file
+@derived
 def made_twice(launch_file: LaunchFile) -> tuple[Twice, ...]:
     """The pairs of nodes of which one is made always, and the other one of its name only in a branch."""
     source = PythonSource(launch_file.document.text, launch_file.document.lines)

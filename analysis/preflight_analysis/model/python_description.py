@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource, last_name
 
@@ -34,7 +34,7 @@ class SameName:
     second: Span
 
 
-@memoize_by_file
+@derived
 def always_twice(launch_file: LaunchFile) -> tuple[SameName, ...]:
     """The nodes that are started whatever happens, and have the literal name of one before them."""
     source = PythonSource(launch_file.document.text, launch_file.document.lines)

@@ -83,29 +83,34 @@ class Slip:
     location: Location
 
 
-def imports_of(context: Context, path: str) -> tuple[Absent | Slip, ...]:
+@query
+def imports_of(db: Database, environment: Environment, path: str) -> tuple[Absent | Slip, ...]:
     """What a program imports at its start that is not there, and what the own modules do that it imports."""
-    return tuple(dict.fromkeys(_Imports(context).of(path)))
+    return tuple(dict.fromkeys(_Imports(db, environment).of(path)))
 
 
 def absent_module(context: Context, file: str, name: str) -> tuple[str, str | None] | None:
     """The module of an own package that is not there, of one that a file imports by its full name, and the nearest that
     is there."""
-    found = _Imports(context).find(name, file)
+    found = _Imports(context.disk.db, context.environment).find(name, file)
     return found if isinstance(found, tuple) else None
 
 
 def slip_of(context: Context, file: str, name: str) -> str | None:
     """The module that is meant by one that nobody knows; None where the name is no slip, or somebody may have it."""
+    return _slip_of(context.disk.db, context.environment, file, name)
+
+
+def _slip_of(db: Database, environment: Environment, file: str, name: str) -> str | None:
     top = re.split("[.:]", name)[0]
     known = WELL_KNOWN | sys.stdlib_module_names
-    if len(top) < _SHORT or top in known or top in context.environment.packages:
+    if len(top) < _SHORT or top in known or top in environment.packages:
         return None
     near = nearest(top, known)
     if near is None or not is_slip(top, near) or not _is_likely(top, near):
         return None
-    package = package_around(context.environment, file)
-    return near if package is not None and not _may_exist(context, package, top) else None
+    package = package_around(environment, file)
+    return near if package is not None and not _may_exist(db, environment, package, top) else None
 
 
 def _is_likely(name: str, near: str) -> bool:
@@ -114,16 +119,16 @@ def _is_likely(name: str, near: str) -> bool:
     return min(len(name), len(near)) >= _LONG or set(folded(name)) == set(folded(near))
 
 
-def _may_exist(context: Context, package: Package, name: str) -> bool:
+def _may_exist(db: Database, environment: Environment, package: Package, name: str) -> bool:
     """Whether some distribution of ROS has a module of this name, or the package makes it, or the workspace says of it
     that it is needed or installed."""
     if any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
         return True
-    disk, share = context.disk, package.share
+    disk, share = Disk(db), package.share
     if any(disk.exists(os.path.join(share, each)) for each in (name, f"{name}.py", f"src/{name}")):
         return True
     pattern = re.compile(rf"(?i)(?<![a-z0-9]){re.escape(name).replace('_', '[_-]')}(?![a-z0-9])")
-    return any(pattern.search(disk.content(path) or "") for path in _that_install(disk.db, context.environment, share))
+    return any(pattern.search(disk.content(path) or "") for path in _that_install(db, environment, share))
 
 
 @query
@@ -143,8 +148,8 @@ def _that_install(db: Database, environment: Environment, share: str) -> tuple[s
 
 
 class _Imports:
-    def __init__(self, context: Context) -> None:
-        self._context, self._disk = context, context.disk
+    def __init__(self, db: Database, environment: Environment) -> None:
+        self._db, self._disk, self._environment = db, Disk(db), environment
         self._seen: set[str] = set()
 
     def of(self, path: str) -> Iterator[Absent | Slip]:
@@ -162,7 +167,9 @@ class _Imports:
                     yield Absent(*found, line)
                 elif found:
                     pending += found
-                elif not name.startswith(".") and (near := slip_of(self._context, file, name)) is not None:
+                elif (
+                    not name.startswith(".") and (near := _slip_of(self._db, self._environment, file, name)) is not None
+                ):
                     top = re.split("[.:]", name)[0]
                     beside = os.path.join(os.path.dirname(path), top)
                     if not self._disk.exists(beside) and not self._disk.exists(f"{beside}.py"):
@@ -198,8 +205,8 @@ class _Imports:
             for _ in range(level - 1):
                 folder = os.path.dirname(folder)
             return [folder], os.path.basename(folder), parts
-        packages = self._context.environment.packages
-        near = (packages.get(parts[0]), package_around(self._context.environment, file))
+        packages = self._environment.packages
+        near = (packages.get(parts[0]), package_around(self._environment, file))
         own = {each.share: each for each in near if each is not None and each in self._own()}
         folders: dict[str, None] = {}
         for package in own.values():
@@ -210,7 +217,7 @@ class _Imports:
         return list(folders), parts[0], parts[1:]
 
     def _own(self) -> list[Package]:
-        return list(self._context.environment.own_packages)
+        return list(self._environment.own_packages)
 
     def _modules(self, folder: str) -> Iterator[str]:
         for name in self._disk.names(folder):
@@ -233,7 +240,7 @@ class _Imports:
             init = self._disk.content(os.path.join(folder, "__init__.py")) or ""
             if _DYNAMIC.search(init) or (last and word.search(init)):
                 return True
-            package = package_around(self._context.environment, folder)
+            package = package_around(self._environment, folder)
             for name in _BUILD_FILES if package is not None else ():
                 content = self._disk.content(os.path.join(package.share, name)) if package is not None else None
                 if content is not None and word.search(content):

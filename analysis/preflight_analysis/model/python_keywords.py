@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.model.nearest import nearest
@@ -25,7 +25,7 @@ class UnknownKeyword:
     call: Span
 
 
-@memoize_by_file
+@derived
 def unknown_keywords(launch_file: LaunchFile) -> tuple[UnknownKeyword, ...]:
     """The first one of each call that is made in any case, and of which all keywords are written out."""
     source = PythonSource(launch_file.document.text, launch_file.document.lines)

@@ -13,6 +13,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.graph.model import Connection
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import dangling_consumers, dangling_topic_providers
 from preflight_analysis.model.names_in_sources import meant_in_sources
@@ -71,10 +72,11 @@ def in_use_around(context: Context, connections: Sequence[Connection]) -> list[b
     ]
 
 
+@derived
 def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     """For ends of topics and services without another one, by id, the name that their remaps were most likely to give:
     theirs is a slip of it, several launch files around have it, and no other one has theirs. Likewise, of consumers
-    without a remap, what the sources of the workspace offer. Ask through `context.once`."""
+    without a remap, what the sources of the workspace offer."""
     consumers = (*dangling_consumers(context, "topics"), *dangling_consumers(context, "services"))
     partial = {path for path, launch_file in context.launch_files.items() if launch_file.partial}
     read = [each for each in consumers if each.node.location.file not in partial]  # where each remap is known
@@ -85,9 +87,9 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
         for each in slips
         if (meant := meant_in_sources(context, each)) is not None
     }
-    publishers = context.once(dangling_topic_providers)
+    publishers = dangling_topic_providers(context)
     lone = [each for each in (*consumers, *publishers) if each.remap is not None]
-    found = zip(lone, context.kept.each(_used, lone, _Targets(around(context, _TARGETS))), strict=True) if lone else ()
+    found = zip(lone, context.each(_used, lone, _Targets(around(context, _TARGETS))), strict=True) if lone else ()
     by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
     return {**by_launches, **by_source, **_beside(context, lone, publishers)}
 
@@ -96,7 +98,7 @@ def _beside(context: Context, lone: Sequence[Connection], publishers: Sequence[C
     """Likewise by what the same node is given beside."""
     topics = context.graph.topics if context.graph is not None else {}
     slips = {found: Elsewhere(name, 0, beside=name) for found, name in slips_beside(publishers, topics).items()}
-    slashes = zip(lone, context.kept.each(without_slash, lone), strict=True)
+    slashes = zip(lone, context.each(without_slash, lone), strict=True)
     lacking = {id(each): Elsewhere(found[0], 0, beside=found[1]) for each, found in slashes if found is not None}
     return {**slips, **lacking}
 

@@ -21,6 +21,7 @@ from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import FileSection, LaunchNode, ParamSource
 from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import nearest
@@ -117,7 +118,7 @@ class FileUse:
 
 def given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, ParamSource]]]:
     """The parameter files that nodes of a launch get, by the path of what people edit."""
-    return context.once(_given_files)
+    return _given_files(context)
 
 
 def param_files(context: Context) -> tuple[FileUse, ...]:
@@ -129,12 +130,13 @@ def param_files(context: Context) -> tuple[FileUse, ...]:
 
 def param_file(context: Context, path: str) -> FileUse | None:
     """What is so of a parameter file, whether a node gets it or not; None where it is not there."""
-    return context.once(_param_file, path)
+    return _param_file(context, path)
 
 
+@derived
 def _given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, ParamSource]]]:
     given: dict[str, list[tuple[LaunchNode, ParamSource]]] = {}
-    for path, node, source in chain.from_iterable(context.kept.each(_files_of, context.tree.nodes_and_simulated)):
+    for path, node, source in chain.from_iterable(context.each(_files_of, context.tree.nodes_and_simulated)):
         given.setdefault(path, []).append((node, source))
     return given
 
@@ -152,6 +154,7 @@ class _Names(NamedTuple):
     all: frozenset[str]
 
 
+@derived
 def _names(context: Context) -> _Names:
     beside = _beside(context)
     controllers: dict[str, list[str]] = {}
@@ -185,13 +188,14 @@ def _beside(context: Context) -> dict[str, list[str]]:
     return found
 
 
+@derived
 def _param_file(context: Context, path: str) -> FileUse | None:
     document = context.document(path)
     if document is None:
         return None
     file = read_param_file(document)
     given = given_files(context).get(path, ())
-    there = context.once(_names)
+    there = _names(context)
     reader = _Reader(path, file)
     getters = _getters(context, path, given, reader, there)
     reaching: dict[int, list[Getter]] = defaultdict(list)
@@ -419,7 +423,7 @@ class _Search:
     def _may_want(self, name: str, section: Section) -> bool:
         """Whether the node declares one of the parameters of a section, as far as that is known: another one may have a
         name like its own, as `map_server` and `map_saver`."""
-        interface = self.context.once(_interfaces).get(name)
+        interface = _interfaces(self.context).get(name)
         if interface is None or not section.params or not interface.speaks_of("parameters"):
             return True
         declared = {use.name.removeprefix("~") for use in interface.params}
@@ -427,6 +431,7 @@ class _Search:
         return lists or not declared.isdisjoint(param.name for param in section.params)
 
 
+@derived
 def _interfaces(context: Context) -> Mapping[str, Interface]:
     graph = context.graph
     return dict(zip((n.name for n in graph.tree.nodes), graph.interfaces, strict=True)) if graph is not None else {}

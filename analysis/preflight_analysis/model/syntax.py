@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.finding import Fix
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix
@@ -61,7 +61,7 @@ class Tags:
         return _by_start(launch_file) if launch_file is not None else {}
 
 
-@memoize_by_file
+@derived
 def _by_start(launch_file: LaunchFile) -> Mapping[int, Tag]:
     if launch_file.root is None:
         return {}

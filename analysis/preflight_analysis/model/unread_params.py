@@ -13,6 +13,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.model import ParamRead
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness, nearest, share_words
 from preflight_analysis.model.param_matching import asked_by, matched, sought_leaf
@@ -37,22 +38,20 @@ class Unread:
     """Whether no other read would do as well."""
 
 
+@derived
 def unread_params(context: Context) -> tuple[Unread, ...]:
-    """Those of which it is known that nobody reads them: every private one, others only where something was meant.
-
-    Ask through `context.once`.
-    """
-    graph, kept = context.graph, context.kept
-    known = kept.each(reports_params, graph.interfaces) if graph is not None else ()
+    """Those of which it is known that nobody reads them: every private one, others only where something was meant."""
+    graph = context.graph
+    known = context.each(reports_params, graph.interfaces) if graph is not None else ()
     if graph is None or not any(known):
         return ()
     nodes = graph.tree.nodes
-    found = kept.patched(
+    found = context.whole(
         matched,
         "",
-        kept.grouped(namespace_of, "unread", context.tree.all_params),
-        kept.each(asked_by, graph.reads_of_nodes),
-        kept.each(_name, nodes),
+        context.grouped(namespace_of, "unread", context.tree.all_params),
+        context.each(asked_by, graph.reads_of_nodes),
+        context.each(_name, nodes),
         known,
     )
     if "/" in found.asked.counts:
@@ -61,17 +60,17 @@ def unread_params(context: Context) -> tuple[Unread, ...]:
     private = [(places[each.holder], each.unread) for each in found.private]
     holders = [nodes[at] for at, _ in private]
     unset = [found.unset_of_nodes[at] for at, _ in private]
-    of_holders = kept.each_row(_of_holder, ([params for _, params in private], holders, unset))
+    of_holders = context.each_row(_of_holder, ([params for _, params in private], holders, unset))
     of_nobody: tuple[Unread, ...] = ()
     orphans = found.orphans
-    if orphans and (plugins := kept.get(_plugins_in, "", context.tree.all_params)):
+    if orphans and (plugins := context.one(_plugins_in, "", context.tree.all_params)):
         orphans = tuple(param for param in orphans if plugins.isdisjoint(param.name.split("/")))
     if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.
-        near = kept.each(_unless_far, found.unset_of_nodes, *kept.get(_leaves_and_spaces, "", orphans))
+        near = context.each(_unless_far, found.unset_of_nodes, *context.one(_leaves_and_spaces, "", orphans))
         of_known = tuple(chain.from_iterable(compress(near, (node.name not in found.opaque for node in nodes))))
         alone = graph.tree.complete and not found.opaque
-        of_nobody = kept.get(_of_nobody, None, orphans, of_known, found.sought, alone)
+        of_nobody = context.one(_of_nobody, None, orphans, of_known, found.sought, alone)
     return (*chain.from_iterable(of_holders), *of_nobody)
 
 

@@ -45,7 +45,7 @@ def _is_topic(given: Argument) -> bool:
 
 def _configured(config: Document | None) -> Iterator[tuple[str, str, str, NamedBy]]:
     """Name, type and direction of each bridge of a file, and where its name is written."""
-    for row in config.once(rows_of) if config is not None else ():
+    for row in rows_of(config) if config is not None else ():
         key, (type_, _) = row.ros_topic, row.values.get("ros_type_name", ("", None))
         direction, _ = row.values.get("direction", ("BIDIRECTIONAL", None))
         if config is not None and key is not None and _TYPE.match(type_):

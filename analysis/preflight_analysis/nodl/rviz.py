@@ -15,6 +15,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast
 from preflight_analysis.evaluation import names
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.tracing.interface import Endpoint, NamedBy
 
 _LIBRARIES = ("rviz_default_plugins", "rviz")
@@ -63,15 +64,12 @@ _POLICIES = {
 def displayed(config: Document, kinds_in_types: bool) -> tuple[Endpoint, ...]:
     """What the enabled displays of a configuration subscribe to, each topic once. `kinds_in_types`: whether that ROS
     writes `package/msg/Name` for `package/Name`."""
-    return config.once(_with_kinds if kinds_in_types else _without_kinds)
+    return _displayed(config, "/msg/" if kinds_in_types else "/")
 
 
-def _with_kinds(config: Document) -> tuple[Endpoint, ...]:
-    return tuple(_subscribers(config, "/msg/"))
-
-
-def _without_kinds(config: Document) -> tuple[Endpoint, ...]:
-    return tuple(_subscribers(config, "/"))
+@derived
+def _displayed(config: Document, slash: str) -> tuple[Endpoint, ...]:
+    return tuple(_subscribers(config, slash))
 
 
 def _subscribers(config: Document, slash: str) -> Iterator[Endpoint]:

@@ -86,7 +86,7 @@ def rename(context: QueryContext, offset: int, new: str) -> tuple[RenameEdit, ..
 def _written(context: QueryContext, edit: RenameEdit) -> RenameEdit:
     """The edit as the format of its file has it."""
     document = context.document(edit.location.file)
-    edits = document.once(writer_of).replace(edit.location.span, edit.text) if document is not None else ()
+    edits = writer_of(document).replace(edit.location.span, edit.text) if document is not None else ()
     if len(edits) != 1:
         raise RenameRefusedError(f"The name at {shown(context, edit.location)} cannot be changed")
     return replace(edit, location=edits[0].location, text=edits[0].text)

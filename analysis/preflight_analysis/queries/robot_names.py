@@ -181,7 +181,7 @@ def names_of(name: RobotName) -> Iterator[tuple[Location, bool]]:
 def users_of(analysis: Analysis, joint: str) -> Iterator[User]:
     """The controllers that have a joint in their parameters, those of MoveIt last."""
     context = analysis.context
-    for each in context.once(controllers.controllers_of):
+    for each in controllers.controllers_of(context):
         for claim in each.claims:
             if claim.joint == joint:
                 yield User(each.name, each.type, "commands" if claim.commands else "reads", claim.param)
@@ -191,7 +191,7 @@ def users_of(analysis: Analysis, joint: str) -> Iterator[User]:
             for named in controllers.joints_of_ros1(analysis.tree, controller):
                 if named.joint == joint and type_ is not None:
                     yield User(controller, str(type_.value), "uses", named.param)
-    for known in context.once(known_to_moveit):
+    for known in known_to_moveit(context):
         if joint in known.controller.joints:
             yield User(known.controller.name, known.controller.type, "uses", known.controller.joints_param)
 

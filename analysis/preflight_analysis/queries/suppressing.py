@@ -39,7 +39,7 @@ def _candidates(document: Document, offset: int, rule: str) -> Iterator[Edit]:
     for suppression in read_suppressions(_parsed(document.path, document.text))[0]:
         if suppression.first_line <= line <= suppression.last_line:
             yield layout.insertion(document, suppression.location.span.end, f", {rule}")
-    yield from document.once(writer_of).suppress(offset, f"preflight: ignore[{rule}]")
+    yield from writer_of(document).suppress(offset, f"preflight: ignore[{rule}]")
 
 
 def _parsed(path: str, text: str) -> Document:

@@ -37,7 +37,7 @@ class TreeSource:
 def tree_source(analyses: Sequence[Analysis], file: str) -> TreeSource | None:
     """The file in the first root that loads it; None where none does."""
     for analysis in analyses:
-        for loaded in analysis.context.once(trees_of):
+        for loaded in trees_of(analysis.context):
             for part in loaded.parts:
                 if part.path == file:
                     return TreeSource(analysis, loaded, part)

@@ -9,6 +9,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.robot.model import Description
 from preflight_analysis.robot.parse import parse_description
 from preflight_analysis.robot.semantic import Semantic, parse_semantic
@@ -55,12 +56,12 @@ class SemanticRobot:
 def robots_of(tree: LaunchTree) -> tuple[Robot, ...]:
     """The descriptions that the launch has, each once; the same objects each time. One whose command was not run is not
     there (`unread_of`), nor is what is no URDF."""
-    return tree.once(_robots)
+    return _robots(tree)
 
 
 def unread_of(tree: LaunchTree) -> tuple[Param, ...]:
     """The parameters that hold a description which is not known, or not as a whole."""
-    return tree.once(_unread)
+    return _unread(tree)
 
 
 def robot_of(tree: LaunchTree, node: LaunchNode) -> Robot | None:
@@ -74,7 +75,7 @@ def robot_of(tree: LaunchTree, node: LaunchNode) -> Robot | None:
 
 def semantics_of(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
     """The semantic descriptions that the launch has, each once for the nodes that get it."""
-    return tree.once(_semantics)
+    return _semantics(tree)
 
 
 def given_robot(tree: LaunchTree, node: LaunchNode) -> Robot | None:
@@ -87,6 +88,7 @@ def given_robot(tree: LaunchTree, node: LaunchNode) -> Robot | None:
     return mine[0] if len(mine) == 1 else None
 
 
+@derived
 def _semantics(tree: LaunchTree) -> tuple[SemanticRobot, ...]:
     found: dict[str, SemanticRobot] = {}
     for param, nodes in _params(tree, SEMANTIC):
@@ -107,6 +109,7 @@ def _is_name(value: str) -> bool:
     return bool(value) and names.is_legal(value)
 
 
+@derived
 def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
     found: dict[str, Robot] = {}
     for param, nodes in _params(tree, DESCRIPTION):
@@ -121,6 +124,7 @@ def _robots(tree: LaunchTree) -> tuple[Robot, ...]:
     return tuple(found.values())
 
 
+@derived
 def _unread(tree: LaunchTree) -> tuple[Param, ...]:
     raw = {id(robot.param) for robot in robots_of(tree) if robot.description.kind == "xacro" or robot.description.lacks}
     given = (param for param, _ in _params(tree, DESCRIPTION))

@@ -30,8 +30,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     # MVT001 reports them, by more than the name; others have a controller that the launch loads.
-    wrong = [each.known for each in context.once(unserved)]
-    served = [each for each in context.once(known_to_moveit) if each.loaded is not None]
+    wrong = [each.known for each in unserved(context)]
+    served = [each for each in known_to_moveit(context) if each.loaded is not None]
     of_moveit = {(id(each.node), each.action) for each in (*wrong, *served)}
     pairs, unknown, lacks = near_misses(context, "actions"), not_analysed(graph), not_all_known(graph)
     near = [each for each in pairs if (id(each.consumer.node), each.consumer.name) not in of_moveit]

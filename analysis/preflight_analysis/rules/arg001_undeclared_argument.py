@@ -25,7 +25,7 @@ _TEXTS = re.compile(r"readme\b|.*\.(?:md|rst|txt|sh)\Z", re.IGNORECASE)
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    part_of_another = context.once(is_part)
+    part_of_another = is_part(context)
     for problem in problems_of(context, UndeclaredArgument):
         name, place = problem.kind.name, problem.location
         about = Subject("argument", name)

@@ -13,8 +13,8 @@ from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.configurations import IMPLICIT
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.model.arguments import declarations, pass_on
 from preflight_analysis.model.context import Context
@@ -58,7 +58,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield from _check_ros2(rule, context)
         yield from _passed_in_vain_ros2(rule, context)
         return
-    for launch_file, unused, substituted in filter(None, context.kept.each(_unused, context.launch_files.values())):
+    for launch_file, unused, substituted in filter(None, context.each(_unused, context.launch_files.values())):
         path, declared = launch_file.path, declarations(launch_file)
         in_texts = _used_in_texts(context, path, substituted)
         if in_texts is None:
@@ -67,7 +67,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             tags = declared[name]
             value = tags[0].value("name")
             location = context.location(path, value.span if value is not None else tags[0].head_span)
-            givers = [include for include in context.once(_includers).get(path, ()) if name in include.args]
+            givers = [include for include in _includers(context).get(path, ()) if name in include.args]
             # An include that passes it would break without the declaration: it is part of what the files agreed on.
             if not any(tag.value("value") is not None for tag in tags):
                 for include in {include.origin[-1]: include for include in givers}.values():
@@ -134,7 +134,7 @@ def _given_in_vain(rule: Rule, context: Context, include: Include, name: str, de
             )
 
 
-@memoize_by_file
+@derived
 def _files_given(launch_file: LaunchFile) -> Mapping[str, set[str]]:
     """The files that the includes of a file pass each argument: where they are several, they may agree on what all of
     them declare."""
@@ -173,7 +173,7 @@ def _is_left_out(context: Context, path: str, name: str) -> bool:
 def _declared_below(context: Context, path: str, name: str) -> tuple[Include, Location] | None:
     """The include in a file that is not passed an argument which the included file declares and may be given, and
     where it does; nothing if one is passed it, under whatever name of another."""
-    for include in context.once(_includes).get(path, ()):
+    for include in _includes(context).get(path, ()):
         if include.path is None or name in include.args:
             continue
         launch_file = context.launch_files.get(include.path)
@@ -194,6 +194,7 @@ def _unused(launch_file: LaunchFile) -> tuple[LaunchFile, frozenset[str], tuple[
     return (launch_file, frozenset(unused), arguments.substituted) if unused and not arguments.passes_all else None
 
 
+@derived
 def _includes(context: Context) -> Mapping[str, list[Include]]:
     """The includes in each file."""
     found: dict[str, list[Include]] = {}
@@ -202,6 +203,7 @@ def _includes(context: Context) -> Mapping[str, list[Include]]:
     return found
 
 
+@derived
 def _includers(context: Context) -> Mapping[str, list[Include]]:
     """The includes of each file."""
     found: dict[str, list[Include]] = {}
@@ -253,9 +255,9 @@ def _removal(context: Context, path: str, name: str, tags: tuple[Action, ...]) -
 def _passed_in_vain_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     """What is passed to files that include nothing themselves. As an argument is known in all that comes after, no file
     may name it which does not pass it."""
-    for path, includers in context.once(_includers).items():
+    for path, includers in _includers(context).items():
         launch_file = context.launch_files.get(path)
-        if launch_file is None or path in context.once(_includes):
+        if launch_file is None or path in _includes(context):
             continue
         for name, span in _named_once(launch_file):
             givers = {each.origin[-1]: each for each in includers if name in each.args}
@@ -266,7 +268,7 @@ def _passed_in_vain_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
                     yield from _given_in_vain(rule, context, include, name, context.location(path, span))
 
 
-@memoize_by_file
+@derived
 def _named_once(launch_file: LaunchFile) -> tuple[tuple[str, Span], ...]:
     """The arguments that a file declares and names nowhere else, not even in a comment."""
     python, text = launch_file.is_python, launch_file.document.text
@@ -286,7 +288,7 @@ def _uses_others(text: str) -> bool:
     return not set(_IMPORT.findall(text)) <= _WITHOUT_NAMES
 
 
-@memoize_by_file
+@derived
 def _arguments(launch_file: LaunchFile) -> _Arguments:
     root = launch_file.root
     if root is None:

@@ -18,7 +18,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     own: dict[tuple[str, str], str | None] = {}
     said: set[Location] = set()
     # In the order in which they are evaluated.
-    for use in filter(None, context.kept.each(_of_argument, context.tree.uses)):
+    for use in filter(None, context.each(_of_argument, context.tree.uses)):
         file, key = use.location.file, (use.location.file, use.name)
         if use.kind == "declaration":
             own[key] = use.value

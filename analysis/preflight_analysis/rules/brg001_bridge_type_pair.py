@@ -59,7 +59,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _of_gazebo(rule: Rule, context: Context) -> Iterator[Finding]:
     """The types that the bridge has right, and Gazebo has another one for the topic."""
-    gazebo = context.once(gazebo_of)
+    gazebo = gazebo_of(context)
     if gazebo is None:
         return
     pairs = gazebo_types()

@@ -69,7 +69,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     channels = _channels(graph)
-    gazebo = context.once(gazebo_of)
+    gazebo = gazebo_of(context)
     for bridge in bridges(context):
         channel = channels.get((bridge.node.name, bridge.topic))
         if channel is None or channel.external:

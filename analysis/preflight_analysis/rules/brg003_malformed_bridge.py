@@ -45,7 +45,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             subject=Subject("file", place.file),
             related=include_chain(node.origin),
         )
-    for entry in context.once(entries):
+    for entry in entries(context):
         old = any(key.startswith(_OLD) for key in entry.keys)
         if "service_name" in entry.keys or (old and context.environment.distro not in _WITHOUT_OLD):
             continue

@@ -26,7 +26,7 @@ _WORDS = {"publishes": "publisher", "subscribes": "subscriber"}
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    gazebo = context.once(gazebo_of)
+    gazebo = gazebo_of(context)
     if gazebo is None:
         return
     given = list(to_gazebo(context))

@@ -18,7 +18,7 @@ from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    gazebo = context.once(gazebo_of)
+    gazebo = gazebo_of(context)
     # A plugin that is not known, or is within what is not known, may load others.
     if gazebo is None or not gazebo.whole:
         return

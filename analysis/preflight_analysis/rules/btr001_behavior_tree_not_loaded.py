@@ -24,7 +24,7 @@ _WITH_FOLDERS = frozenset({"lyrical", "rolling"})
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _of_folders(rule, context)
     seen = set[tuple[str, int]]()
-    for loaded in context.once(trees_of):
+    for loaded in trees_of(context):
         for path, wrong in _wrong(context, loaded):
             if (path, wrong.span.start) in seen:
                 continue

@@ -39,7 +39,7 @@ class _Complaint(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen = set[tuple[str, int]]()
-    for loaded in context.once(trees_of):
+    for loaded in trees_of(context):
         if not loaded.is_navigator:
             continue
         only_nav = has_only_nodes_of_nav(context, loaded)

@@ -35,7 +35,7 @@ class _Ports(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen = set[tuple[str, int]]()
-    for loaded in context.once(trees_of):
+    for loaded in trees_of(context):
         yield from _of_subtrees(rule, context, loaded, seen)
         only_nav = loaded.is_navigator and has_only_nodes_of_nav(context, loaded)
         for part in loaded.parts:

@@ -20,7 +20,7 @@ from preflight_analysis.trees.children import children_of
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen = set[tuple[str, int]]()
-    for loaded in context.once(trees_of):
+    for loaded in trees_of(context):
         own = own_nodes(context.disk.db, context.environment)
         for part, used in loaded.nodes:
             number = children_of(used, is_version_4=is_version_4(context, loaded))

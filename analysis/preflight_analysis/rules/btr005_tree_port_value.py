@@ -44,7 +44,7 @@ class _Wrong(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     seen = set[tuple[str, int]]()
-    for loaded in context.once(trees_of):
+    for loaded in trees_of(context):
         types = dict[tuple[str, int, str], tuple[Kind, str]]()
         for part, used in loaded.nodes:
             for wrong in (*_values(context, loaded, used), *_types(context, loaded, part.path, used, types)):

@@ -84,7 +84,7 @@ def _of_controller_of_ros1(
 
 
 def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
-    for each in context.once(controllers_of):
+    for each in controllers_of(context):
         robot = robot_of(context, each) if each.spawner is not None else None
         if robot is not None and robot.joints:
             yield from _of_controller(rule, context, each, robot)

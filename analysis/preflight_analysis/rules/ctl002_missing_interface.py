@@ -26,7 +26,7 @@ _FULL_NAMES = ("_interface", "_interfaces")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for each in context.once(controllers_of):
+    for each in controllers_of(context):
         robot = robot_of(context, each) if each.spawner is not None else None
         systems = robot.systems if robot is not None else ()
         if not systems:

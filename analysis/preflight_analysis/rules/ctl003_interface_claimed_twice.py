@@ -24,7 +24,7 @@ _SIDES = (("left_wheel", "right_wheel"), ("left_wheel_names", "right_wheel_names
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.tree.ros.ament:
         yield from _of_several(rule, context)
-        for each in context.once(controllers_of):
+        for each in controllers_of(context):
             yield from _of_both_sides(rule, context, each.name, {param.name: param for param in each.params})
         return
     params = context.tree.params
@@ -56,7 +56,7 @@ def _of_several(rule: Rule, context: Context) -> Iterator[Finding]:
     # One of the spawners may be left out by a condition that is not known.
     tree = context.tree
     undecided = any(each.decides for each in tree.unknowns) or not (tree.complete or tree.file.endswith(".py"))
-    for each in context.once(controllers_of):
+    for each in controllers_of(context):
         spawner = each.spawner
         if spawner is None or not each.is_active:
             continue

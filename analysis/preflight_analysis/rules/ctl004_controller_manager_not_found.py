@@ -96,7 +96,7 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     there = {*managers, *(node.name for node in tree.nodes_and_simulated)}
     types: dict[str, set[str]] = {}
-    for each in context.once(controllers_of):
+    for each in controllers_of(context):
         types.setdefault(each.manager, set()).add(each.name)
     for node in spawners:
         asked = asked_of(node)

@@ -21,7 +21,7 @@ _SAID = "chained controller '{controller}' does not exist: '{name}' claims '{joi
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    found = context.once(controllers_of)
+    found = controllers_of(context)
     for each in found:
         others = {other.name for other in found if other.manager == each.manager}
         robot = robot_of(context, each)

@@ -36,7 +36,7 @@ _ONLY_LOADED = "--load-only"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     managers = {node.name: node for node in context.tree.nodes_and_simulated}
-    for each in context.once(controllers_of):
+    for each in controllers_of(context):
         needed, manager = _NEEDED.get(each.type, ()), managers.get(each.given_to)
         package = context.environment.packages.get(each.type.partition("/")[0])
         if package is not None and package.is_within(context.environment.workspace):
@@ -69,7 +69,7 @@ def _is_known(context: Context, manager: LaunchNode, spawner: LaunchNode) -> boo
 
 def _apart(context: Context, manager: LaunchNode, controller: Controller, name: str) -> tuple[str, Related] | None:
     """The only section of the manager's files that has the parameter and is for no controller of the launch."""
-    others = {names.join(manager.namespace, each.name) for each in context.once(controllers_of)}
+    others = {names.join(manager.namespace, each.name) for each in controllers_of(context)}
     found = [
         (section.key, Related("the section", context.location(document.path, section.spans[-1])))
         for source in manager.param_sources

@@ -12,6 +12,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.distributions import BEFORE_MELODIC, otherwise_in
 from preflight_analysis.model.frames import frames_of, place_of_mention, place_of_param, place_of_use
@@ -74,7 +75,7 @@ def _ask_tf2(context: Context) -> bool | None:
 
 
 def _of_mentions(rule: Rule, context: Context) -> Iterator[Finding]:
-    broadcasters = context.once(_broadcasters)
+    broadcasters = _broadcasters(context)
     for mention in frames_of(context).mentions:
         written = str(mention.param.value)
         # Who gets what a node broadcasts takes it off (`BufferCore::setTransform`).
@@ -90,6 +91,7 @@ def _of_mentions(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
+@derived
 def _broadcasters(context: Context) -> frozenset[str]:
     """The names of the nodes that publish transforms."""
     topics = context.graph.topics.values() if context.graph is not None else ()

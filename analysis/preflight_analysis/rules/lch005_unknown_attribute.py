@@ -19,7 +19,7 @@ from preflight_analysis.rules.rule import Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tags = Tags(context.launch_files)
-    elsewhere = context.once(explained)
+    elsewhere = explained(context)
     for problem in problems_of(context, UnknownAttribute):
         if problem.location in elsewhere:
             continue

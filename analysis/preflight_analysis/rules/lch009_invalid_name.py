@@ -10,7 +10,7 @@ from preflight_analysis.evaluation.problems import InvalidName, Problem
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.model.arguments import empty_arguments
 from preflight_analysis.model.context import Context
@@ -55,7 +55,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-@memoize_by_file
+@derived
 def _with_blanks(launch_file: LaunchFile) -> tuple[Value, ...]:
     return tuple(launch_file.root.gather(_named_with_blanks)) if launch_file.root is not None else ()
 

@@ -67,7 +67,7 @@ def _unset(rule: Rule, context: Context, problem: Problem[UnsetParameter]) -> Fi
             related=(Related("unresolved, may set it", not_followed),),
         )
     message = f"parameter '{name}' is not set: no <set_parameter> before this line"
-    part = context.once(is_part)
+    part = is_part(context)
     if part:
         message += "; the including launch file has to set it"
     return problem_claim(rule, problem, message, subject=about, kind="absent", doubts=doubts(SET_ASIDE=part))

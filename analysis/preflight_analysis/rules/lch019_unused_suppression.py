@@ -16,7 +16,7 @@ from preflight_analysis.rules.rule import Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     """Comments that cannot silence anything; those that merely did not are reported after all rules have run."""
     known = {r.id for r in registry.all_rules()}
-    for suppressions, malformed in context.kept.each(read_suppressions, context.documents.values()):
+    for suppressions, malformed in context.each(read_suppressions, context.documents.values()):
         for each in malformed:
             message = "'preflight: ignore' names no rule; write ignore[TOP001]"
             yield rule.claim(message, each.location, subject=Subject("suppression"), kind="invalid")

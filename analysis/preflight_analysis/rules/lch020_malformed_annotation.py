@@ -20,12 +20,12 @@ _MOST = 3
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
-    for node in compress(nodes, context.kept.each(_is_malformed, nodes)):
+    for node in compress(nodes, context.each(_is_malformed, nodes)):
         for problem in read_annotation(node.action)[1]:
             location = context.location(node.location.file, problem.span)
             about = Subject("annotation")
             yield rule.claim(problem.message, location, subject=about, related=include_chain(node.origin))
-    for node in compress(nodes, context.kept.each(_has_bare_types, nodes)):
+    for node in compress(nodes, context.each(_has_bare_types, nodes)):
         yield from _bare_types(rule, node, context)
 
 

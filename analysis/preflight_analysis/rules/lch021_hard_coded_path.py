@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Value
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.files import in_named_package
@@ -48,7 +48,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-@memoize_by_file
+@derived
 def _absolute_paths(launch_file: LaunchFile) -> tuple[tuple[int, str], ...]:
     """What is written like an absolute path where a path may stand, outside of substitutions, with its offset."""
     if launch_file.root is None:

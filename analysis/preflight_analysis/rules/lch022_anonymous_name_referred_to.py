@@ -41,7 +41,7 @@ class _Reference:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     nodes = context.tree.nodes
-    plain_names = zip(context.kept.each(_plain_name, nodes), nodes, strict=True)
+    plain_names = zip(context.each(_plain_name, nodes), nodes, strict=True)
     anonymous = {name: node for name, node in plain_names if name is not None}
     if not anonymous:
         return
@@ -51,8 +51,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     real = names.with_namespaces(node.name for node in nodes)
     seen: set[Location] = set()
     references = chain(
-        context.kept.each(_references_of_node, nodes, hit),
-        context.kept.each(_references_of_param, context.tree.all_params, hit),
+        context.each(_references_of_node, nodes, hit),
+        context.each(_references_of_param, context.tree.all_params, hit),
     )
     for found in chain.from_iterable(filter(None, references)):
         reference = _placed(context, found)

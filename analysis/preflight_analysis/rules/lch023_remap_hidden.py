@@ -11,6 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.model.syntax import Tags, removal
@@ -24,17 +25,18 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     tags = Tags(context.launch_files)
     seen: set[Location] = set()
-    found = [*filter(None, context.kept.each(_of_node, context.tree.nodes, rule))]
+    found = [*filter(None, context.each(_of_node, context.tree.nodes, rule))]
     one_hides = any(each.in_one_file for each in found)
     for each in found:
         for old, winner in each.replaced if one_hides else ():
             place = old.origin[-1]
-            if place not in seen and place not in context.once(_effective):
+            if place not in seen and place not in _effective(context):
                 seen.add(place)
                 yield from _hidden(rule, context, tags, old, winner)
         yield from each.same_name
 
 
+@derived
 def _effective(context: Context) -> frozenset[Location]:
     return frozenset(remap.origin[-1] for node in context.tree.nodes for remap in node.remaps)
 
@@ -60,7 +62,7 @@ def _behind_the_first(rule: Rule, context: Context) -> Iterator[Finding]:
     """In ROS 2 the first rule that fits is the one, and those of `<set_remap>` stand before the node's own."""
     seen: set[Location] = set()
     nodes = context.tree.nodes
-    for node, behind in zip(nodes, context.kept.each(_behind, nodes), strict=True):
+    for node, behind in zip(nodes, context.each(_behind, nodes), strict=True):
         for remap, winner in behind:
             place = remap.origin[-1]
             if place in seen:

@@ -20,11 +20,11 @@ from preflight_analysis.rules.rule import Rule
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # Names that are written as they are are the same in every context: no other use of the tag has to be looked at.
     reached: dict[Location, list[Remap]] = {}
-    for remap in chain.from_iterable(context.kept.each(_to_itself, context.tree.nodes)):
+    for remap in chain.from_iterable(context.each(_to_itself, context.tree.nodes)):
         reached.setdefault(remap.origin[-1], []).append(remap)
     tags = Tags(context.launch_files)
     # Where another name was meant, TOP004 says so.
-    explained = {idle.remap.origin[-1] for idle in context.once(idle_remaps)} if reached else ()
+    explained = {idle.remap.origin[-1] for idle in idle_remaps(context)} if reached else ()
     for location, remaps in reached.items():
         remap = remaps[0]
         if location not in explained and all(map(_idle, remaps)) and _literal(context, remap):

@@ -12,7 +12,7 @@ from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.evaluation import expression, values
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix, Related
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Value
 from preflight_analysis.launch.substitutions import is_eval
 from preflight_analysis.model.context import Context
@@ -35,7 +35,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield from _findings(launch_file)
 
 
-@memoize_by_file
+@derived
 def _findings(launch_file: LaunchFile) -> tuple[Finding, ...]:
     if launch_file.root is None:
         return ()
@@ -183,7 +183,7 @@ def _compare_with(launch_file: LaunchFile, value: Value, written: str, plain: st
     if not written or text.count(written) != 1:
         return ()
     start = value.span.start + text.index(written)
-    edits = launch_file.document.once(writer_of).replace(Span(start, start + len(written)), plain)
+    edits = writer_of(launch_file.document).replace(Span(start, start + len(written)), plain)
     return fix(f"Compare with {plain}", edits, preferred=True)
 
 

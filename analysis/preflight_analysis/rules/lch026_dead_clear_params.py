@@ -37,9 +37,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     related=include_chain(use.origin),
                 )
             continue
-        kept = [param for param in below if _set_before(context, param.origin, use, tag)]
-        if kept:
-            yield _kept(rule, use, namespace, kept)
+        staying = [param for param in below if _set_before(context, param.origin, use, tag)]
+        if staying:
+            yield _kept(rule, use, namespace, staying)
 
 
 def _lives(tree: LaunchTree, namespace: str) -> bool:
@@ -59,14 +59,14 @@ def _set_before(context: Context, origin: Origin, use: Use, tag: Tag) -> bool:
     return False
 
 
-def _kept(rule: Rule, use: Use, namespace: str, kept: list[Param]) -> Finding:
-    shown = quoted(param.name for param in kept[:3])
-    more = f" and {len(kept) - 3} more" if len(kept) > 3 else ""
+def _kept(rule: Rule, use: Use, namespace: str, staying: list[Param]) -> Finding:
+    shown = quoted(param.name for param in staying[:3])
+    more = f" and {len(staying) - 3} more" if len(staying) > 3 else ""
     return rule.claim(
         f"clear_params does not clear {shown}{more}: roslaunch deletes '{namespace}' before it sets any parameter",
         use.location,
         subject=Subject("name", namespace),
-        related=(*(Related(f"'{p.name}' is set here", p.origin[-1]) for p in kept[:3]), *include_chain(use.origin)),
+        related=(*(Related(f"'{p.name}' is set here", p.origin[-1]) for p in staying[:3]), *include_chain(use.origin)),
     )
 
 

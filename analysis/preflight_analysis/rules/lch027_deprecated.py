@@ -11,7 +11,7 @@ from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.distributions import BEFORE_MELODIC, BEFORE_NOETIC, otherwise_in
@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         document = launch_file.document
         old = _old_language(launch_file)
         for tag in old.masters:
-            fixes = fix("Remove <master>", document.once(writer_of).remove(tag), preferred=True)
+            fixes = fix("Remove <master>", writer_of(document).remove(tag), preferred=True)
             message = "<master> is removed since ROS Fuerte; roslaunch ignores it"
             place = context.location(path, tag.head_span)
             yield rule.claim(message, place, subject=Subject("element"), effect="note", fixes=fixes)
@@ -65,7 +65,7 @@ def _includes(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
-    for node in filter(None, context.kept.each(_of_retired_package, context.tree.nodes)):
+    for node in filter(None, context.each(_of_retired_package, context.tree.nodes)):
         for each in retired(context, node):
             attribute = "type" if each.executable is not None else "pkg"
             yield rule.claim(
@@ -108,7 +108,7 @@ def _joint_state_publishers(rule: Rule, context: Context) -> Iterator[Finding]:
     """Its parameter `use_gui`: https://github.com/ros/joint_state_publisher/pull/34."""
     if context.environment.distro in BEFORE_NOETIC:
         return
-    for node in filter(None, context.kept.each(_as_joint_state_publisher, context.tree.nodes)):
+    for node in filter(None, context.each(_as_joint_state_publisher, context.tree.nodes)):
         for name in (f"{node.name}/use_gui", os.path.join(node.namespace, "use_gui")):
             param = context.tree.params.get(name)
             if param is None:
@@ -135,7 +135,7 @@ class _OldLanguage:
     in_order: tuple[Span, ...]
 
 
-@memoize_by_file
+@derived
 def _old_language(launch_file: LaunchFile) -> _OldLanguage:
     root, text = launch_file.root, launch_file.document.text
     if root is None:

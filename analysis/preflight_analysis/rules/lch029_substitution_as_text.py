@@ -55,8 +55,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_claim(
             rule, problem, message, subject=Subject("substitution", text), candidates=(meant,), fixes=fixes
         )
-    of_tree = context.kept.each(_left_in, context.tree.all_params)
-    of_nodes = context.kept.each(_left_in_node, context.tree.nodes)
+    of_tree = context.each(_left_in, context.tree.all_params)
+    of_nodes = context.each(_left_in_node, context.tree.nodes)
     tags = Tags(context.launch_files)
     lost = {unknown.param for unknown in context.tree.unknowns if unknown.param is not None}
     for param, text in (*filter(None, of_tree), *chain.from_iterable(of_nodes)):
@@ -101,7 +101,7 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     declared = {*declarations(context.launch_files[where.file]), *(context.tree.args if ament else ())}
     unknown = arg is not None and arg[1] not in declared
     if tag is not None and not unknown and document is not None:
-        edits = document.once(writer_of).set_attribute(tag.action, attribute, "true")
+        edits = writer_of(document).set_attribute(tag.action, attribute, "true")
         fixes = fix(f'Add {attribute}="true" to the tag', edits, preferred=True)
     needed = f"ParameterFile(..., {attribute}=True)" if python else f'<{tag_name} {attribute}="true">'
     place = _place(context, param, text)

@@ -36,7 +36,7 @@ class _Load:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
-    loading = [*filter(None, context.kept.each(_if_loading, tree.nodes))]
+    loading = [*filter(None, context.each(_if_loading, tree.nodes))]
     if not loading:
         return
     nodes = {node.name: node for node in tree.nodes if node.kind != "composable"}

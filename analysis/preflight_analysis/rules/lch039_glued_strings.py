@@ -13,7 +13,7 @@ from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.model.context import Context
@@ -60,7 +60,7 @@ def _in_parameters(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-@memoize_by_file
+@derived
 def _glued(launch_file: LaunchFile) -> tuple[tuple[int, Span, tuple[str, ...]], ...]:
     """Where the comma goes, all that is glued, and the strings of it."""
     source = PythonSource(launch_file.document.text, launch_file.document.lines)

@@ -11,7 +11,7 @@ from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.model.context import Context
@@ -46,7 +46,7 @@ def _fixes(launch_file: LaunchFile, span: Span, instead: _Instead) -> tuple[Fix,
     return fix(f"Write {instead.classes[0]}(...)", edits, preferred=True)
 
 
-@memoize_by_file
+@derived
 def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str, _Instead | None], ...]:
     source = PythonSource(launch_file.document.text, launch_file.document.lines)
     if source.module is None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from preflight_analysis.documents.span import Span
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.model.context import Context
@@ -31,7 +31,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.claim(message, context.location(path, span), subject=Subject("keyword", message))
 
 
-@memoize_by_file
+@derived
 def _no_lists(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
     source = PythonSource(launch_file.document.text, launch_file.document.lines)
     if source.module is None:

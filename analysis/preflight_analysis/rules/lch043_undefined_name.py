@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.problems import PythonException
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.model.context import Context
@@ -49,7 +49,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-@memoize_by_file
+@derived
 def _undefined(launch_file: LaunchFile) -> tuple[tuple[str, str | None, Span, bool], ...]:
     """The names, each with what was probably meant, its first place, and whether the file speaks of its function."""
     source = PythonSource(launch_file.document.text, launch_file.document.lines)

@@ -17,7 +17,7 @@ from preflight_analysis.rules.rule import Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     complete = context.tree.complete
-    for named, near in context.once(missing_nodes).each:
+    for named, near in missing_nodes(context).each:
         if near is None and not complete:
             continue
         node, location, written = named.node, named.location(context), str(named.meant.value)

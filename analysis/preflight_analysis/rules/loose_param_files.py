@@ -21,6 +21,7 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.joint_names import meant_around
@@ -85,7 +86,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
             of_file = Subject("file", path)
             yield prm016.RULE.claim(message, document.location(span), subject=of_file, doubts=_LOOSE)
-        for missing in document.once(prm018.missing_in):
+        for missing in prm018.missing_in(document):
             if _is_in_base(context, files | given, missing):
                 continue
             yield prm018.RULE.claim(
@@ -120,7 +121,7 @@ def _unknown_joints(context: Context, document: Document) -> Iterator[Finding]:
     """Of what programs of all kinds call joints, by names alone."""
     if robots_of(context.tree):
         return
-    for nodes in document.once(_joint_lists):
+    for nodes in _joint_lists(document):
         beside = frozenset(node.value for node in nodes)
         for node in nodes:
             meant = meant_around(context, node.value, beside)
@@ -134,6 +135,7 @@ def _unknown_joints(context: Context, document: Document) -> Iterator[Finding]:
                 )
 
 
+@derived
 def _joint_lists(document: Document) -> tuple[tuple[yaml.ScalarNode, ...], ...]:
     found = []
     for key, value in _pairs(document):
@@ -165,7 +167,7 @@ def _mappings(document: Document) -> Iterator[list[tuple[yaml.ScalarNode, yaml.N
 
 def _unknown_names(context: Context, share: str, document: Document) -> Iterator[Finding]:
     """Of names that stand together those that no source has, where one source asks for most of the others."""
-    for group in document.once(_groups):
+    for group in _groups(document):
         names = tuple(sorted(group)) if len(group) >= _TOGETHER else ()
         found = meant_in_one_file(context.disk.db, context.environment, (share,), names) if names else {}
         for name, asked in found.items():
@@ -178,6 +180,7 @@ def _unknown_names(context: Context, share: str, document: Document) -> Iterator
             )
 
 
+@derived
 def _groups(document: Document) -> tuple[Mapping[str, Span], ...]:
     """The keys of each mapping of a YAML file that have plain values, and where they stand."""
     return tuple(

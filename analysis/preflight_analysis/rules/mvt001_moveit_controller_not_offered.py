@@ -20,7 +20,7 @@ from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for each in context.once(unserved):
+    for each in unserved(context):
         if each.meant is None:
             yield from _other_action(rule, context, each.known)
             continue

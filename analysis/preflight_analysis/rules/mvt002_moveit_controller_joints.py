@@ -22,7 +22,7 @@ from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for each in context.once(known_to_moveit):
+    for each in known_to_moveit(context):
         unknown = _unknown(context, each)
         yield from _not_in_robot(rule, context, each, unknown)
         if each.loaded is not None and each.loaded.follows_trajectories:

@@ -91,7 +91,7 @@ def _correct_parameter(document: Document | None, connection: Connection, new: s
 
 
 def _replacement(document: Document, span: Span, old: str, new: str) -> Fix | None:
-    edits = document.once(writer_of).replace(span, new)
+    edits = writer_of(document).replace(span, new)
     return Fix(f"Replace '{old}' with '{new}'", edits, True) if edits else None
 
 
@@ -114,5 +114,5 @@ def _insert_remap(document: Document | None, connection: Connection, target: str
     namespace = names.parent(connection.node.name)
     relative = not source.startswith("/") and target.startswith(namespace)
     written = target[len(namespace) :] if relative else target
-    edits = document.once(writer_of).add_remap(connection.node.action, source, written)
+    edits = writer_of(document).add_remap(connection.node.action, source, written)
     return Fix(f"Remap '{source}' to '{written}' in {connection.node.name}", edits, preferred) if edits else None

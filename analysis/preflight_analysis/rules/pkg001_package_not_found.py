@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterable, Iterator
-from functools import cache, partial
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.span import Location
@@ -15,6 +14,7 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.findings.lack import Lack
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.below_packages import has_what_is_asked_of, lacks_what_is_asked_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installed import (
@@ -45,13 +45,12 @@ _ROLES = frozenset(
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    meant = cache(partial(_meant, context))
     for problem in problems_of(context, PackageNotFound):
         name, chain = problem.kind.name, include_chain(problem.origin)
-        yield _finding(rule, context, name, meant(name), problem.location, chain, stops=problem.fatal)
+        yield _finding(rule, context, name, _meant(context, name), problem.location, chain, stops=problem.fatal)
     for node in _nodes_without_package(context):
         location, chain = attribute_location(context, node, "pkg"), include_chain(node.origin)
-        yield _finding(rule, context, node.package, meant(node.package), location, chain, stops=False)
+        yield _finding(rule, context, node.package, _meant(context, node.package), location, chain, stops=False)
 
 
 def _nodes_without_package(context: Context) -> Iterator[LaunchNode]:
@@ -63,6 +62,7 @@ def _nodes_without_package(context: Context) -> Iterator[LaunchNode]:
             yield node
 
 
+@derived
 def _meant(context: Context, name: str) -> tuple[Package | None, str | None]:
     """The package in a folder of that name, and the name of the one that was probably meant."""
     renamed = _in_folder_of_that_name(context, name)
@@ -112,7 +112,7 @@ def _not_here(
         package = debian_package_of(context, name)
         which = f"; install {package}" if package else f"; it is released for {enumerated(having)}"
         text = f"package '{name}' is not installed{which}"
-    elif name in context.once(_named_by_manifests):
+    elif name in _named_by_manifests(context):
         text += " nor released for any distribution"
     elif (having_it := has_what_is_asked_of(context, location.file, name)) is not None:
         other, path = having_it
@@ -122,7 +122,7 @@ def _not_here(
     else:
         text += f"; it is not released for any distribution, and no {MANIFEST} of the workspace names it"
         # Whoever uses several such packages has them elsewhere. A single one may be left over from before a rename.
-        if context.once(_strangers) == {name}:
+        if _strangers(context) == {name}:
             near = _of_like_words(context, name)
             if near is not None and (
                 is_of_family(context, name, near.name) or lacks_what_is_asked_of(context, location.file, name, near)
@@ -149,14 +149,15 @@ def _not_here(
 def _is_own_or_akin(context: Context, file: str, name: str, other: Package) -> bool:
     """Whether a package is that of the launch file, or has a word of another's name that not all may have."""
     own = package_around(context.environment, file)
-    generic = _GENERIC | context.once(words_of_folders)
+    generic = _GENERIC | words_of_folders(context)
     common = set(name.split("_")) & set(other.name.split("_")) - generic
     return bool(common) or (own is not None and own.name == other.name)
 
 
+@derived
 def _strangers(context: Context) -> frozenset[str]:
     """The packages of the launch that nobody knows: not here, not released, named by no manifest."""
-    generation, named = context.tree.generation, context.once(_named_by_manifests)
+    generation, named = context.tree.generation, _named_by_manifests(context)
     names = {problem.kind.name for problem in problems_of(context, PackageNotFound)}
     names.update(node.package for node in _nodes_without_package(context))
     return frozenset(name for name in names if name not in named and not distributions_with(name, generation))
@@ -165,7 +166,7 @@ def _strangers(context: Context) -> frozenset[str]:
 def _of_like_words(context: Context, name: str) -> Package | None:
     """The one package of the workspace whose name differs in one word, or has some more: as before a rename. A word
     that all packages of the project may have, as its folder has it, tells nothing."""
-    generic = _GENERIC | context.once(words_of_folders)
+    generic = _GENERIC | words_of_folders(context)
     words, environment = name.split("_"), context.environment
     here, own = [], package_around(environment, context.root)
     for package in environment.own_packages:
@@ -179,6 +180,7 @@ def _of_like_words(context: Context, name: str) -> Package | None:
     return here[0] if len(here) == 1 else None
 
 
+@derived
 def _named_by_manifests(context: Context) -> frozenset[str]:
     return frozenset[str]().union(*(package.dependencies for package in context.environment.packages.values()))
 

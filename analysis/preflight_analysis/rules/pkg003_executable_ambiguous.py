@@ -38,11 +38,11 @@ def _different(found: Executable) -> list[str]:
     """
     share = f"{(found.package_path or '').rstrip('/')}/"
     first = found.candidates[0]
-    kept = [first]
+    different = [first]
     for path in found.candidates[1:]:
-        if path.startswith(share) == first.startswith(share) and not any(_same(path, other) for other in kept):
-            kept.append(path)
-    return kept
+        if path.startswith(share) == first.startswith(share) and not any(_same(path, other) for other in different):
+            different.append(path)
+    return different
 
 
 def _same(path: str, other: str) -> bool:

@@ -17,7 +17,7 @@ from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix
@@ -32,13 +32,13 @@ _TEST_FOLDERS = ("test", "tests")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     files = tuple(context.launch_files.values())
     manifests: dict[str, Document | Unreadable] = {}
-    for launch_file, found in zip(files, context.kept.each(_missing, files, context.environment), strict=True):
+    for launch_file, found in zip(files, context.each(_missing, files, context.environment), strict=True):
         if found is not None:
             owner, missing = found
             if owner.manifest not in manifests:
                 manifests[owner.manifest] = context.disk.text(owner.manifest)
             manifest = manifests[owner.manifest]
-            yield from context.kept.get(_findings, launch_file.path, rule, launch_file, owner, missing, manifest)
+            yield from context.one(_findings, launch_file.path, rule, launch_file, owner, missing, manifest)
 
 
 def _findings(
@@ -76,7 +76,7 @@ def _missing(launch_file: LaunchFile, environment: Environment) -> tuple[Package
     return (owner, missing) if missing else None
 
 
-@memoize_by_file
+@derived
 def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     """The packages that the file names, under whatever conditions, each with the first place."""
     in_tags = launch_file.root.gather(_packages_of, launch_file.generation) if launch_file.root is not None else ()

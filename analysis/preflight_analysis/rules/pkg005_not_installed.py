@@ -30,7 +30,7 @@ _LAUNCH = "launch"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     disk, named = context.disk, set[str]()
-    for use in filter(None, context.kept.each(_of_file, context.tree.uses)):
+    for use in filter(None, context.each(_of_file, context.tree.uses)):
         if not _by_share(context, use.location):
             continue
         # What stands at the place in the source is taken for what is there once it is installed.

@@ -3,7 +3,6 @@
 import os
 import re
 from collections.abc import Iterator
-from functools import lru_cache
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with, system_keys
 from preflight_analysis.documents.document import Document
@@ -15,6 +14,8 @@ from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installed import is_of_family, near_package
 from preflight_analysis.model.nearest import did_you_mean, is_slip_of_words, nearest
@@ -30,9 +31,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         manifest = context.documents.get(package.manifest)
         if manifest is None or not package.manifest.endswith(f"/{MANIFEST}"):
             continue
-        for spans, name in context.kept.get(_unknown, package.manifest, manifest, context.environment):
+        for spans, name in context.one(_unknown, package.manifest, manifest, context.environment):
             near = near_package(context, name)
-            if near is None and (key := _near_key(name)) is not None and not is_of_family(context, name, key):
+            if (
+                near is None
+                and (key := _near_key(context.disk.db, name)) is not None
+                and not is_of_family(context, name, key)
+            ):
                 near = key
             if near is None:
                 continue  # a private package, as most that nobody has released
@@ -70,8 +75,8 @@ def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[tuple[
     return tuple((tuple(spans), name) for name, spans in unknown.items())
 
 
-@lru_cache(maxsize=1024)
-def _near_key(name: str) -> str | None:
+@query
+def _near_key(db: Database, name: str) -> str | None:
     """The package of the operating system of whose name this is a slip."""
     near = nearest(name, system_keys()) if name not in system_keys() else None
     return near if near is not None and len(name) >= _LONG and is_slip_of_words(name, near) else None

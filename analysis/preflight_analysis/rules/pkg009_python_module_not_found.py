@@ -20,7 +20,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         path = node.resolved.path
         if path is None or package_around(context.environment, path) is None:
             continue
-        for found in imports_of(context, path):
+        for found in imports_of(context.disk.db, context.environment, path):
             if found.name in said:
                 continue
             said.add(found.name)

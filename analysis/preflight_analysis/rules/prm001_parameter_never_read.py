@@ -46,14 +46,14 @@ _NOT_SET = "unused parameter '{name}'; {node} reads '{read}', which is not set{d
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
-    unread, by_source = context.once(unread_params), context.once(known_by_source)
+    unread, by_source = unread_params(context), known_by_source(context)
     # A launch may set thousands that no source reads.
     lost = [each for each in unread if each.meant is None]
-    yield from context.kept.each_row(_hint, (lost, [id(each.holder) in by_source for each in lost]), rule)
+    yield from context.each_row(_hint, (lost, [id(each.holder) in by_source for each in lost]), rule)
     for each in unread:
         if each.meant is not None:
             found, meant = _finding(rule, context, context.graph, each, each.meant), each.meant
-            died = context.once(missing_params).get(id(meant.node), ())
+            died = missing_params(context).get(id(meant.node), ())
             ended = any(lacking.died is not None and lacking.read.name == meant.name for lacking in died)
             yield replace(found, crash_of=meant.node.name) if ended else found
     explained = {each.param.name for each in unread}
@@ -69,11 +69,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _one_level_too_high(rule: Rule, context: Context, graph: Graph, explained: Collection[str]) -> Iterator[Finding]:
     """Files that are loaded among the private parameters of a node that is known in part, and of which it reads most in
     one namespace below: a costmap's without `ns="local_costmap"`."""
-    rows = context.kept.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
+    rows = context.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
     if not any(rows):
         return
     read, given = {each.name for each in graph.param_reads}, graph.tree.params
-    by_namespace = context.kept.grouped(namespace_of, "one level", context.tree.all_params)
+    by_namespace = context.grouped(namespace_of, "one level", context.tree.all_params)
     for node, asked in zip(graph.tree.nodes, rows, strict=True):
         below = [space for space in asked.own if names.parent(space) == f"{node.name}/"] if asked is not None else []
         if asked is None or not below:
@@ -145,11 +145,11 @@ def _of_partly_known(context: Context, graph: Graph, explained: Collection[str])
     """Parameters of nodes that only the catalogue or the source knows, and that maybe not in full, which are a slip of
     one in the same namespace that nothing sets. So are, where the source says so, those that the node reads by this
     very name elsewhere alone, where nothing sets it: `mode` instead of `~mode`."""
-    rows = context.kept.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
+    rows = context.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
     if not any(rows):
         return
     read, given = {each.name for each in graph.param_reads}, graph.tree.params
-    by_namespace = context.kept.grouped(namespace_of, "partly known", context.tree.all_params)
+    by_namespace = context.grouped(namespace_of, "partly known", context.tree.all_params)
     for node, asked in zip(graph.tree.nodes, rows, strict=True):
         if asked is None:
             continue
@@ -269,7 +269,7 @@ def _finding(
     else:
         template = _SEARCHED if read.use.access == "search" else _NOT_SET
     who = holder if template is _NOT_READ and holder is not None else read.node
-    by_source = id(read.node) in context.once(known_by_source)
+    by_source = id(read.node) in known_by_source(context)
     value = repr(set_too.value) if set_too is not None else ""
     return rule.claim(
         say(template, name=param.name, node=who.name, read=name, value=value, default=_default(read)),

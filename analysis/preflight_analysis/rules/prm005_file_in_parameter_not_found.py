@@ -134,9 +134,9 @@ def _is_beside(near: str, path: str) -> bool:
 
 def _in_params(context: Context) -> Iterator[_Named]:
     params = context.tree.all_params
-    texts_of_each = context.kept.each(_texts_of_param, params)
+    texts_of_each = context.each(_texts_of_param, params)
     found = compress(zip(params, texts_of_each, strict=True), texts_of_each)
-    of_nodes = context.kept.each(_texts_of_params, context.tree.nodes)
+    of_nodes = context.each(_texts_of_params, context.tree.nodes)
     for param, texts in chain(found, chain.from_iterable(of_nodes)):
         command = isinstance(param.value, CommandValue)
         what = "the command" if command else f"parameter '{param.name.rpartition('/')[2]}'"
@@ -169,7 +169,7 @@ def _texts_of_param(param: Param) -> tuple[str, ...]:
 
 def _in_arguments(context: Context) -> Iterator[_Named]:
     nodes = context.tree.nodes
-    texts_of_each = context.kept.each(_texts_of_arguments, nodes)
+    texts_of_each = context.each(_texts_of_arguments, nodes)
     for node, texts in compress(zip(nodes, texts_of_each, strict=True), texts_of_each):
         if not _elsewhere(context.tree, node):
             what = f"the arguments of '{node.executable}'"
@@ -199,7 +199,7 @@ def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
 
 def _apart_from_folder(context: Context) -> Iterator[_Named]:
     """Files whose folder is another argument, by what is known of the node."""
-    for node, values in context.once(meant_values):
+    for node, values in meant_values(context):
         for each in values:
             is_file = each.meaning.kind == "file" and each.meaning.folder and each.param is None
             if is_file and isinstance(each.value, str) and not _elsewhere(context.tree, node):

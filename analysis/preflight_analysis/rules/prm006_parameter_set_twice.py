@@ -69,7 +69,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         yield from _of_ros2_nodes(rule, context)
         return
     tags = Tags(context.launch_files)
-    for param, lost in filter(None, context.kept.each(_with_lost, context.tree.all_params)):
+    for param, lost in filter(None, context.each(_with_lost, context.tree.all_params)):
         winner = _setting(tags, param)
         if winner is None:
             continue
@@ -103,7 +103,7 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     a value in the node's own tag or call that does not count, and what loses against this usual order."""
     reported: set[tuple[Location, Location]] = set()
     nodes = context.tree.nodes
-    each_lost = context.kept.each(_lost_values, nodes)
+    each_lost = context.each(_lost_values, nodes)
     for node, lost_values in compress(zip(nodes, each_lost, strict=True), each_lost):
         by_place = _settings(node, {param.name for param, _ in lost_values})
         for param, old in lost_values:
@@ -128,7 +128,7 @@ def _dead_arguments(rule: Rule, context: Context, reported: set[tuple[Location, 
     """What an argument gives and a later file sets again, to the value that the argument has by default: the argument
     cannot change it."""
     nodes = context.tree.nodes
-    each_lost = context.kept.each(_same_values, nodes)
+    each_lost = context.each(_same_values, nodes)
     for node, same_values in compress(zip(nodes, each_lost, strict=True), each_lost):
         by_place = _settings(node, {param.name for param, _ in same_values})
         for param, old in same_values:

@@ -11,8 +11,8 @@ from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.kept import Before
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.name_tally import NO_NAMES, NameTally
@@ -33,13 +33,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     tree = context.tree
     if not tree.nodes:
         return
-    outside = [*filter(None, context.kept.each(_outside, tree.all_params))]
+    outside = [*filter(None, context.each(_outside, tree.all_params))]
     if not outside:
         return
     homeless = _homeless(context, outside)
     if not homeless:
         return
-    homes = context.kept.get(_homes, "", tuple([node.name for node in tree.nodes]))
+    homes = context.one(_homes, "", tuple([node.name for node in tree.nodes]))
     for prefix, params in homeless.items():
         parent, _, leaf = prefix.rpartition("/")
         near = _near(leaf, homes.get(parent, ()))
@@ -56,10 +56,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=include_chain(params[0].origin),
             )
             continue
-        if leaf in context.once(_left_out) or leaf in context.once(_words_of_arguments):
+        if leaf in _left_out(context) or leaf in _words_of_arguments(context):
             continue  # the section of a node that a condition leaves out, or of a controller that a spawner is given
         meant = f"{parent}/{near}"
-        if meant in context.once(_known):
+        if meant in _known(context):
             continue  # what that node reads is known: whether it misses this parameter is for PRM001 to say
         places = [_prefix_place(context, param, leaf) for param in params]
         related = [related_node(n) for n in tree.nodes if n.name == meant][-1:]
@@ -74,17 +74,19 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+@derived
 def _left_out(context: Context) -> frozenset[str]:
     """The names that nodes have in the launch files, and none in the launch: conditions leave these out."""
     written = {name for launch_file in context.launch_files.values() for name in _names_of_nodes(launch_file)}
     return frozenset(written - {names.leaf(node.name) for node in context.tree.nodes})
 
 
+@derived
 def _words_of_arguments(context: Context) -> frozenset[str]:
     return frozenset(word for node in context.tree.nodes for word in node.args.split())
 
 
-@memoize_by_file
+@derived
 def _names_of_nodes(launch_file: LaunchFile) -> tuple[str, ...]:
     return tuple(launch_file.root.gather(_name_of_node)) if launch_file.root is not None else ()
 
@@ -113,15 +115,14 @@ def _outside(param: Param) -> Param | None:
 
 def _homeless(context: Context, params: Iterable[Param]) -> dict[str, list[Param]]:
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
-    kept = context.kept
-    namespaces = kept.grouped(namespace_of, "outside", params)
-    homes = kept.patched(_tally, "homes", kept.each(_node_name, context.tree.nodes))
-    prefixes = zip(namespaces, kept.each(_at_fault, namespaces, homes), strict=True)
+    namespaces = context.grouped(namespace_of, "outside", params)
+    homes = context.whole(_tally, "homes", context.each(_node_name, context.tree.nodes))
+    prefixes = zip(namespaces, context.each(_at_fault, namespaces, homes), strict=True)
     at_fault = {namespace: prefix for namespace, prefix in prefixes if prefix is not None}
     found: dict[str, list[Param]] = {}
     for param in params if at_fault else ():
         prefix = at_fault.get(namespace_of(param))
-        if prefix is not None and param.name not in context.once(_read):
+        if prefix is not None and param.name not in _read(context):
             found.setdefault(prefix, []).append(param)
     return found
 
@@ -205,11 +206,13 @@ def _fixes(context: Context, places: list[Location], leaf: str, near: str) -> tu
     return (Fix(found[0].title, tuple(edit for fix in found for edit in fix.edits), True),)
 
 
+@derived
 def _read(context: Context) -> frozenset[str]:
     graph = context.graph
     return frozenset(read.name for read in graph.param_reads) if graph is not None else frozenset()
 
 
+@derived
 def _known(context: Context) -> frozenset[str]:
     """The nodes of which it is known what they read."""
     graph = context.graph

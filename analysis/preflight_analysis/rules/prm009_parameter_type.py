@@ -38,8 +38,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     reported: set[tuple[str, str]] = set()
-    of_nodes = context.kept.each(_with_default, graph.reads_of_nodes)
-    refused = context.kept.patched(_refused, "", graph.tree, of_nodes, rule)
+    of_nodes = context.each(_with_default, graph.reads_of_nodes)
+    refused = context.whole(_refused, "", graph.tree, of_nodes, rule)
     for read, found in chain.from_iterable(refused):
         if (read.name, read.node.name) not in reported:
             reported.add((read.name, read.node.name))

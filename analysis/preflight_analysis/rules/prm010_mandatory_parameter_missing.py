@@ -19,6 +19,7 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.missing_params import missing_params
 from preflight_analysis.model.nearest import likeness, nearest
@@ -51,11 +52,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is not None and graph.tree.ros.own_parameters:
         yield from _of_ros2(rule, context, graph)
         return
-    missing = context.once(missing_params)
+    missing = missing_params(context)
     if graph is None or not missing:
         return
     # A parameter that was meant for it and that nobody reads is where to mend it: there PRM001 says it.
-    explained = {unread.meant.name for unread in context.once(unread_params) if unread.meant is not None}
+    explained = {unread.meant.name for unread in unread_params(context) if unread.meant is not None}
     for node in graph.tree.nodes:
         optional: list[str] = []
         for each in missing.get(id(node), ()):
@@ -63,7 +64,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if lacking.name in explained or (died is None and not lacking.use.mandatory):
                 continue
             if died is not None:
-                unread = context.once(_never_read)
+                unread = _never_read(context)
                 leaf = names.leaf(lacking.name)
                 meant = _elsewhere(lacking, unread.by_leaf.get(leaf, ()))
                 meant = meant or _misspelt(lacking, unread.by_namespace.get(node.name, ()))
@@ -71,7 +72,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             else:
                 optional.append(lacking.name)
         if optional:
-            yield context.kept.get(_hint, node.name, rule, node, tuple(optional))
+            yield context.one(_hint, node.name, rule, node, tuple(optional))
 
 
 def _hint(rule: Rule, node: LaunchNode, params: tuple[str, ...]) -> Finding:
@@ -87,7 +88,7 @@ def _hint(rule: Rule, node: LaunchNode, params: tuple[str, ...]) -> Finding:
 
 def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
     """Nodes that ended for a parameter that has to be set. Of a name that was meant for it PRM013 says more."""
-    refusals = context.kept.each(_refusals, graph.interfaces)
+    refusals = context.each(_refusals, graph.interfaces)
     yield from _of_sources(rule, context, graph)
     for node, uses in zip(graph.tree.nodes, refusals, strict=True):
         given = {f"~{param.name}" for param in node.params} if uses else ()
@@ -106,7 +107,7 @@ def _of_ros2(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
 def _of_sources(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]:
     """Nodes whose source declares, whatever the launch sets, a parameter by its type alone. Nothing is said where not
     all that they get is known."""
-    needed = context.kept.each(_needed, graph.interfaces)
+    needed = context.each(_needed, graph.interfaces)
     if not any(needed) or context.environment.distro in _WITH_ZEROS:
         return
     if any(each.fatal for each in graph.tree.problems) or any(problems_of(context, *_UNREAD)):
@@ -148,6 +149,7 @@ class _NeverRead:
     by_namespace: Mapping[str, list[Param]]
 
 
+@derived
 def _never_read(context: Context) -> _NeverRead:
     read = {each.name for each in context.graph.param_reads} if context.graph is not None else ()
     unread = [param for param in context.tree.all_params if param.name not in read]

@@ -39,7 +39,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def marked(document: Document, key: Span) -> tuple[Fix, ...]:
     """A fix that writes `ros__parameters` above a key: in the place of a slip of it, or between it and the node."""
-    writer = document.once(writer_of)
+    writer = writer_of(document)
     if not isinstance(writer, YamlWriter):
         return ()
     above = [(document.text[span.start : span.end], span) for span in writer.ancestors(key)]

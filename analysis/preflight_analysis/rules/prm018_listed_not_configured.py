@@ -17,6 +17,7 @@ from preflight_analysis.evaluation.ros2.param_files import Section, read_param_f
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.places import getters_of
 from preflight_analysis.model.problems import include_chain, quoted
@@ -103,12 +104,12 @@ class Missing(NamedTuple):
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _of_moveit(rule, context)
     getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes_and_simulated)):
+    for path, getter in chain.from_iterable(context.each(getters_of, context.tree.nodes_and_simulated)):
         getters.setdefault(path, getter)
     found: list[tuple[str, Missing]] = []
     for path in getters:
         document = context.documents.get(path)
-        found += ((path, each) for each in document.once(missing_in)) if isinstance(document, Document) else ()
+        found += ((path, each) for each in missing_in(document)) if isinstance(document, Document) else ()
     if not found:
         return
     given: dict[str, set[str]] = {}
@@ -168,6 +169,7 @@ def _of_moveit(rule: Rule, context: Context) -> Iterator[Finding]:
                 )
 
 
+@derived
 def missing_in(document: Document) -> tuple[Missing, ...]:
     """Those of a parameter file."""
     sections = read_param_file(document).sections

@@ -19,6 +19,7 @@ from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, is_slip
 from preflight_analysis.model.places import getters_of
@@ -50,11 +51,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     environment = context.environment
     distro = distribution_of(context.tree.generation, environment.distro)
     getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes_and_simulated)):
+    for path, getter in chain.from_iterable(context.each(getters_of, context.tree.nodes_and_simulated)):
         getters.setdefault(path, getter)
     for path, getter in getters.items():
         document = context.documents.get(path)
-        for named in document.once(_types_in) if document is not None else ():
+        for named in _types_in(document) if document is not None else ():
             of_nav = _of_nav(context, named)
             if of_nav is not None:
                 message, near = of_nav
@@ -104,6 +105,7 @@ def _of_nav(context: Context, named: _Named) -> tuple[str, str | None] | None:
     return f"unknown {named.kind} '{named.type}': Nav2 does not have it in {distro}{has_it}", near
 
 
+@derived
 def _types_in(document: Document) -> tuple[_Named, ...]:
     found = []
     for param in (param for section in read_param_file(document).sections for param in section.params):

@@ -18,6 +18,7 @@ from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context, Plugin, Plugins
 from preflight_analysis.model.nearest import is_slip
 from preflight_analysis.model.places import getters_of
@@ -51,7 +52,7 @@ class Wrong(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.kept.each(getters_of, context.tree.nodes)):
+    for path, getter in chain.from_iterable(context.each(getters_of, context.tree.nodes)):
         getters.setdefault(path, getter)
     for path, getter in getters.items():
         document = context.documents.get(path)
@@ -72,7 +73,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def wrong_in(document: Document, plugins: Plugins) -> Iterator[Wrong]:
     """Those of a parameter file."""
-    for loaded, type_, values, below in document.once(_loaded):
+    for loaded, type_, values, below in _loaded(document):
         plugin = plugins.plugin(type_)
         if plugin is None or not plugin.params:
             continue
@@ -89,6 +90,7 @@ def wrong_in(document: Document, plugins: Plugins) -> Iterator[Wrong]:
                 yield Wrong(name, param.name_span, near[0], plugin)
 
 
+@derived
 def _loaded(document: Document) -> tuple[tuple[str, str, Mapping[str, object], tuple[FileParam, ...]], ...]:
     """The plugins of a file: name and type of each, and what is set below it, by name and as parameters."""
     found = []

@@ -85,7 +85,7 @@ def _beside_nodes(
 def _below_nodes(context: Context, graph: Graph) -> Mapping[str, tuple[Param, ...]]:
     """ROS 1: the parameters below the name of each node."""
     nodes, found = {node.name for node in graph.tree.nodes}, dict[str, tuple[Param, ...]]()
-    groups = context.kept.grouped(namespace_of, "params in sources", context.tree.all_params)
+    groups = context.grouped(namespace_of, "params in sources", context.tree.all_params)
     for namespace, params in groups.items() if not context.tree.ros.ament else ():
         home = namespace
         while home and home not in nodes:

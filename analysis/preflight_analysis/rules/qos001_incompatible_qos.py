@@ -19,7 +19,7 @@ _MESSAGE = "incompatible QoS on '{name}': {node} publishes {offered}, {other} re
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is not None:
-        yield from chain.from_iterable(context.kept.each(_of_topic, context.graph.topics.values(), rule))
+        yield from chain.from_iterable(context.each(_of_topic, context.graph.topics.values(), rule))
 
 
 def _of_topic(channel: Channel, rule: Rule) -> tuple[Finding, ...]:

@@ -71,19 +71,19 @@ def run_rules(
     if context.of_branches:
         said = {(finding.rule, finding.location) for finding in found}
         found += [each for each in context.of_branches if (each.rule, each.location) not in said]
-    by_file = context.kept.grouped(_file, "", found)
-    of_documents = context.kept.each(read_suppressions, context.documents.values())
+    by_file = context.grouped(_file, "", found)
+    of_documents = context.each(read_suppressions, context.documents.values())
     suppressions = {path: each for path, (each, _) in zip(context.documents, of_documents, strict=True) if each}
     chains = _first_chains(context)
     guessed = {unknown.location.file for unknown in context.tree.unknowns if unknown.decides}
     sorted_findings: list[Finding] = []
     for path in sorted({*by_file, *suppressions}):
         silenced = suppressions.get(path, ())
-        sorted_findings += context.kept.get(
+        sorted_findings += context.one(
             _of_file,
             path,
             path,
-            context.kept.patched(_alike, path, by_file.get(path, ())),
+            context.whole(_alike, path, by_file.get(path, ())),
             silenced,
             context.documents[path] if silenced else None,
             chains.get(path, ()),
@@ -206,16 +206,16 @@ def _of_file(
     if is_guessed:
         findings = tuple(doubted(f, Doubt(Reason.BRANCHES)) if f.confidence == "certain" else f for f in findings)
     filtered = apply_suppressions(unique(findings), suppressions, document)
-    kept = [_in_context(finding, chain, root) for finding in filtered.kept]
+    left = [_in_context(finding, chain, root) for finding in filtered.kept]
     judge = next((rule for rule in rules if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:
         useless = (judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran)
-        kept += [in_root(finding, root) for finding in useless]
-    kept, others = most_severe(kept)
+        left += [in_root(finding, root) for finding in useless]
+    left, others = most_severe(left)
     counts = next((rule for rule in rules if rule.left_out is not None), None)
     if others and counts is not None and counts.left_out is not None:
-        kept.append(in_root(counts.left_out(counts, path, others), root))
-    return tuple(sorted(kept, key=_place))
+        left.append(in_root(counts.left_out(counts, path, others), root))
+    return tuple(sorted(left, key=_place))
 
 
 def _why_set_aside(context: Context, path: str, findings: Iterable[Finding]) -> str | None:
@@ -254,10 +254,10 @@ def unique(findings: Iterable[Finding]) -> list[Finding]:
     places: dict[tuple[str, Location], list[Finding]] = {}
     for finding in findings:
         places.setdefault((finding.rule, finding.location), []).append(finding)
-    kept: list[Finding] = []
+    left: list[Finding] = []
     for (_, place), found in places.items():
-        kept += found if len(found) == 1 else _of_all_contexts(place, found)
-    return kept
+        left += found if len(found) == 1 else _of_all_contexts(place, found)
+    return left
 
 
 def _of_all_contexts(place: Location, findings: Iterable[Finding]) -> Iterator[Finding]:
@@ -295,7 +295,7 @@ def _with_chain(finding: Finding, chain: tuple[Related, ...]) -> Finding:
 def _first_chains(context: Context) -> dict[str, tuple[Related, ...]]:
     chains: dict[str, tuple[Related, ...]] = {context.root: ()}
     includes = context.tree.includes
-    for include, chain in zip(includes, context.kept.each(_chain, includes), strict=True):
+    for include, chain in zip(includes, context.each(_chain, includes), strict=True):
         if include.path is not None:
             chains.setdefault(include.path, chain)
     return chains

@@ -33,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     # Where a remap that has no effect was meant for the client, TOP004 says so, with the better fix.
-    remapped = context.once(meant_endpoints)
+    remapped = meant_endpoints(context)
     pairs = near_misses(context, "services")
     near = [pair for pair in pairs if id(pair.consumer) not in remapped and not _loads(pair.consumer)]
     lacks, unknown = not_all_known(graph), not_analysed(graph)
@@ -51,7 +51,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         id(n): i.outcome.answers for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if i.outcome.answers
     }
     unused = by_type(context, "services", dangling_providers(context, "services")) if answers else {}
-    elsewhere = context.once(used_elsewhere)
+    elsewhere = used_elsewhere(context)
     meant = [_meant(each, answers.get(id(each.node), ()), unused) for each in lone] if answers else [None] * len(lone)
     hints: list[tuple[Connection, Connection | None]] = []
     for client, offer in zip(lone, meant, strict=True):
@@ -62,7 +62,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         else:
             hints.append((client, offer))
     if hints:
-        yield from context.kept.each_row(_hint, zip(*hints, strict=True), rule, unknown, lacks)
+        yield from context.each_row(_hint, zip(*hints, strict=True), rule, unknown, lacks)
 
 
 def _message(client: Connection, unknown: str) -> Text:

@@ -39,13 +39,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     # Where a remap that has no effect was meant for the end, TOP004 says so, with the better fix.
-    remapped = context.once(meant_endpoints)
-    pairs = context.once(topic_near_misses)
+    remapped = meant_endpoints(context)
+    pairs = topic_near_misses(context)
     near = [pair for pair in pairs if remapped.isdisjoint((id(pair.consumer), id(pair.provider)))]
     unknown, lacks = not_analysed(graph), not_all_known(graph)
     in_use = in_use_around(context, [pair.consumer for pair in near])
     columns = (near, in_use, *documents_of(context, near))
-    yield from context.kept.each_row(_near, columns, rule, unknown, lacks, graph.likely_complete)
+    yield from context.each_row(_near, columns, rule, unknown, lacks, graph.likely_complete)
     if graph.blind:
         return
     explained = {id(pair.consumer) for pair in near} | remapped
@@ -54,16 +54,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         # RViz alone shows what another launch publishes.
         others = [each for each in others if not each.endpoint.displayed]
     if others:
-        elsewhere = context.once(used_elsewhere)
+        elsewhere = used_elsewhere(context)
         for each in others:
             if id(each) in elsewhere:
                 yield elsewhere_finding(rule, context, each, _lone_message(unknown, each), elsewhere[id(each)])
         others = [each for each in others if id(each) not in elsewhere]
-        dangling = by_type(context, "topics", context.once(dangling_topic_providers))
+        dangling = by_type(context, "topics", dangling_topic_providers(context))
         # Of what a display might show instead its type says nothing.
         of_types = [() if each.endpoint.displayed else dangling.get(each.endpoint.type, ()) for each in others]
-        lone = context.kept.each_row(lone_of_type, (others, of_types))
-        yield from context.kept.each_row(_hint, (others, lone), rule, unknown, lacks)
+        lone = context.each_row(lone_of_type, (others, of_types))
+        yield from context.each_row(_hint, (others, lone), rule, unknown, lacks)
 
 
 def _near(

@@ -26,17 +26,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None or graph.blind:
         return
-    reported = {id(pair.provider) for pair in context.once(topic_near_misses)} | context.once(meant_endpoints)
-    dangling = [each for each in context.once(dangling_topic_providers) if id(each) not in reported]
-    elsewhere = context.once(used_elsewhere)
+    reported = {id(pair.provider) for pair in topic_near_misses(context)} | meant_endpoints(context)
+    dangling = [each for each in dangling_topic_providers(context) if id(each) not in reported]
+    elsewhere = used_elsewhere(context)
     for each in dangling:
         if id(each) in elsewhere:
             said = say(_LONE, topics=f"'{each.name}'", have="has", node=each.node.name)
             yield elsewhere_finding(rule, context, each, said, elsewhere[id(each)])
     dangling = [each for each in dangling if id(each) not in elsewhere]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
-    grouped = context.kept.grouped(_place, rule.id, dangling)
-    yield from context.kept.each(_finding, grouped.values(), rule, not_all_known(graph))
+    grouped = context.grouped(_place, rule.id, dangling)
+    yield from context.each(_finding, grouped.values(), rule, not_all_known(graph))
 
 
 def _place(connection: Connection) -> tuple[Location, str]:

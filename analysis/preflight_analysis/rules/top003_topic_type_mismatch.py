@@ -19,7 +19,7 @@ _SAID = "type mismatch on '{name}': {node} {does} {types}"
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from mismatches(rule, context, "topics", Verbs("publishes", "subscribes to"))
-    for first, second in chain.from_iterable(context.kept.each(_of_one_node, channels_of(context)["topics"])):
+    for first, second in chain.from_iterable(context.each(_of_one_node, channels_of(context)["topics"])):
         does = "publishes" if first.endpoint.role == "publisher" else "subscribes to"
         types = f"both {first.endpoint.type} and {second.endpoint.type}"
         yield rule.claim(

@@ -28,10 +28,10 @@ _OF_SEVERAL = "remap of '{name}' has no effect: none of its {number} nodes uses 
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    idle = context.once(idle_remaps)
+    idle = idle_remaps(context)
     documents = [context.documents.get(each.remap.source_location.file) for each in idle]
     written = [each.meant is not None and _is_written(context, each) for each in idle]
-    yield from context.kept.each_row(_finding, (idle, documents, written), rule)
+    yield from context.each_row(_finding, (idle, documents, written), rule)
 
 
 def _is_written(context: Context, idle: IdleRemap) -> bool:
@@ -114,7 +114,7 @@ def _fix(document: Document | None, location: Location, meant: Connection) -> tu
     written = document.text[location.span.start : location.span.end] if document is not None else ""
     if document is None or not written or "$(" in written or "&" in written:
         return ()
-    edits = document.once(writer_of).replace(location.span, _given(meant))
+    edits = writer_of(document).replace(location.span, _given(meant))
     return fix(f"Replace '{written}' with '{_given(meant)}'", edits, preferred=True)
 
 

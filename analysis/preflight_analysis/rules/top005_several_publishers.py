@@ -34,7 +34,7 @@ _SHARED = ("visualization_msgs/", "diagnostic_msgs/", "actionlib_msgs/", "dynami
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     channels = [*context.graph.topics.values()] if context.graph is not None else []
-    for channel, finding in zip(channels, context.kept.each(_of_channel, channels, rule), strict=True):
+    for channel, finding in zip(channels, context.each(_of_channel, channels, rule), strict=True):
         if finding is not None:
             module = _imported_by_all(context, channel)
             yield finding if module is None else _of_module(finding, module)

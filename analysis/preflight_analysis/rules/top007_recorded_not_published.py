@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph, nodes = context.graph, context.tree.nodes
     if graph is None:
         return
-    for node, recorded in zip(nodes, context.kept.each(_recorded, nodes, context.tree.generation), strict=True):
+    for node, recorded in zip(nodes, context.each(_recorded, nodes, context.tree.generation), strict=True):
         for written, topic in recorded:
             near = _near(graph, topic) if not node.unknowns else None
             if near is None:

@@ -34,7 +34,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph, nodes = context.graph, context.tree.nodes
     if graph is None:
         return
-    for node, played in zip(nodes, context.kept.each(_played, nodes, context.tree.generation), strict=True):
+    for node, played in zip(nodes, context.each(_played, nodes, context.tree.generation), strict=True):
         for written, topic in played:
             consumer = _meant(graph, topic)
             if consumer is None:

@@ -36,7 +36,7 @@ class _Named(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     reported: set[Location] = set()
-    for found in context.kept.each(_copies_of, context.tree.nodes):
+    for found in context.each(_copies_of, context.tree.nodes):
         yield from _findings(rule, found, reported)
     if not context.tree.ros.own_parameters:
         for params in grouped(context.tree.all_params).values():

@@ -15,6 +15,7 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.asked_variables import lack_of_asked
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.elsewhere import absent_top_said, lacks_recording, paths_said
@@ -66,9 +67,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     processes = context.graph.processes
-    failures = context.kept.each(_failed, processes)
+    failures = context.each(_failed, processes)
     for node, interface in compress(zip(context.tree.nodes, processes, strict=True), failures):
-        outcome, lost = interface.outcome, context.once(_LostParams)
+        outcome, lost = interface.outcome, _lost_params(context)
         # After a mock reply of ours, or without a value that we did not compute, the crash may be our own doing.
         reads = [read for read in context.graph.param_reads if read.node is node]
         lacking = next(filter(None, map(lost.why, reads)), None)
@@ -78,7 +79,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue  # PKG009 says it
         lacking = lacking or lost.named_in(told) or _unresolved_param(node, told)
         # Of a parameter that is missing another rule says more, as a warning.
-        reported = any(missing.died is not None for missing in context.once(missing_params).get(id(node), ()))
+        reported = any(missing.died is not None for missing in missing_params(context).get(id(node), ()))
         reported = reported or any(_is_reported(context.graph, node, use) for use in interface.params)
         sandbox = (
             outcome.lacks is not None
@@ -280,6 +281,11 @@ class _LostParams:
         said = any(leaf.search(line) for line in (outcome.reason or "", *outcome.stderr_tail))
         setter = "another launch" if self._complete else "an unresolved part of the launch"
         return f"'{read.name}', which {setter} may set" if said else None
+
+
+@derived
+def _lost_params(context: Context) -> _LostParams:
+    return _LostParams(context)
 
 
 def _is_reported(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:

@@ -23,9 +23,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     if context.graph is None:
         return
-    skipped = filter(None, context.kept.each_row(_skipped, (context.tree.nodes, context.graph.processes)))
-    there = context.kept.grouped(_where_and_why, rule.id, skipped)
-    yield from context.kept.each(_finding, there.values(), rule)
+    skipped = filter(None, context.each_row(_skipped, (context.tree.nodes, context.graph.processes)))
+    there = context.grouped(_where_and_why, rule.id, skipped)
+    yield from context.each(_finding, there.values(), rule)
 
 
 @dataclass(frozen=True, slots=True)

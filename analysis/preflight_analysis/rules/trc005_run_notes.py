@@ -21,7 +21,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if context.graph is None:
         return
     processes = context.graph.processes
-    noted = context.kept.each(_is_noted, processes)
+    noted = context.each(_is_noted, processes)
     for node, interface in compress(zip(context.tree.nodes, processes, strict=True), noted):
         for note in interface.notes:
             yield rule.claim(

@@ -32,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             tags.setdefault((node.location.file, node.action.span), []).append((node, interface))
     for (file, _), seen in tags.items():
         # What agrees does so wherever it stands; what differs is said with its places.
-        if context.kept.get(_agree, seen[0][0].name, *map(tuple, zip(*seen, strict=True))):
+        if context.one(_agree, seen[0][0].name, *map(tuple, zip(*seen, strict=True))):
             continue
         outdated = compare(seen)
         if outdated is not None:

@@ -12,6 +12,7 @@ from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import OF_ENDS, channels_of, doubts_of_ends, of_all_kinds
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.controllers import controllers_of
@@ -34,7 +35,7 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
     graph = context.graph
     if graph is None:
         return
-    for consumer, provider, difference in chain.from_iterable(context.once(_all_misfits)[kind]):
+    for consumer, provider, difference in chain.from_iterable(_all_misfits(context)[kind]):
         site, other = (consumer, provider)
         if not consumer.is_placed and provider.is_placed:
             site, other = provider, consumer
@@ -109,9 +110,10 @@ def _is_assumed(context: Context, end: Connection) -> bool:
     endpoint = end.endpoint
     if not endpoint.assumed or endpoint.similar or endpoint.of_other_distribution or not endpoint.catalogued:
         return endpoint.assumed
-    return end.node.name not in context.once(_active_controllers)
+    return end.node.name not in _active_controllers(context)
 
 
+@derived
 def _active_controllers(context: Context) -> frozenset[str]:
     """The full names of the nodes of controllers that the launch activates."""
     return frozenset(
@@ -134,6 +136,7 @@ _Misfit = tuple[Connection, Connection, str]
 """A consumer, a provider that does not fit it, and what to add to the message."""
 
 
+@derived
 def _all_misfits(context: Context) -> Mapping[ChannelKind, tuple[tuple[_Misfit, ...], ...]]:
     return of_all_kinds(context, _misfits, channels_of(context))
 

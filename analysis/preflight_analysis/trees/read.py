@@ -12,6 +12,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Attribute, Document, Element, SyntaxProblem
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml import parse_xml
+from preflight_analysis.incremental.derived import derived
 
 _EXPLICIT = frozenset({"Action", "Condition", "Control", "Decorator"})
 SUBTREES = frozenset({"SubTree", "SubTreePlus"})
@@ -65,6 +66,7 @@ class TreeFile:
     format: str = ""
 
 
+@derived
 def read_trees(document: Document) -> TreeFile:
     """The trees of a file whose text the document has. Never raises; ask through `document.once`."""
     parsed = parse_xml(document.path, document.text, lines=document.lines)

@@ -29,6 +29,7 @@ from preflight_analysis.findings.doubt import Doubt, Reason
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.policy import doubted
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.launch.python_actions import OF_CODE
@@ -281,9 +282,10 @@ def _outcome(left_out: NotTaken) -> tuple[str, bool]:
 
 def takes(tree: LaunchTree, left_out: NotTaken) -> bool:
     """Whether a launch takes a tag that another one leaves out."""
-    return (left_out.place, left_out.written.text, left_out.condition == "if") in tree.once(_outcomes)
+    return (left_out.place, left_out.written.text, left_out.condition == "if") in _outcomes(tree)
 
 
+@derived
 def _outcomes(tree: LaunchTree) -> frozenset[tuple[Location, str, bool]]:
     """The values of the launch that are true or false, by place and text."""
     values = (use for use in tree.uses if use.kind == "value" and use.value is not None)

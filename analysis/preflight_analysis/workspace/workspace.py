@@ -157,7 +157,7 @@ class Analysis:
         """The text of a launch file or of one that is handed over, as the analysis has it; None of any other."""
         found = self.documents.get(path)
         if found is None and path.endswith(".xml"):
-            parts = (part for loaded in self.context.once(trees_of) for part in loaded.parts)
+            parts = (part for loaded in trees_of(self.context) for part in loaded.parts)
             found = next((part.document for part in parts if part.path == path), None)
         return found
 

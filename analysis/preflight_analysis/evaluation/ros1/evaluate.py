@@ -58,9 +58,9 @@ from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Include, LaunchTree, Use
 from preflight_analysis.generation import ros
 from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.knowledge.model import Knowledge
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.launch.read import generation_of
@@ -396,7 +396,7 @@ def _is_of_ros2(environment: Environment, path: str, launch_file: LaunchFile) ->
     return package is not None and package.is_ament
 
 
-@memoize_by_file
+@derived
 def _has_marks_of_ros2(launch_file: LaunchFile) -> bool:
     return ros(generation_of(launch_file.document.path, launch_file.document.text)).ament
 

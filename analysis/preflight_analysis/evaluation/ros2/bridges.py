@@ -18,6 +18,7 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast,
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.evaluation.words import beside_ros, words_of
+from preflight_analysis.incremental.derived import derived
 
 if TYPE_CHECKING:
     from preflight_analysis.evaluation.ros2.state import State
@@ -68,6 +69,7 @@ class Row:
 _ROS_NAMES = ("topic_name", "ros_topic_name", "gz_topic_name", "ign_topic_name")
 
 
+@derived
 def rows_of(document: Document) -> tuple[Row, ...]:
     """The entries of a file of a bridge; ask through `document.once`."""
     root = root_of(document)
@@ -82,6 +84,7 @@ def _row(node: yaml.Node) -> Row:
     return Row(values, keys, span_of(pairs[0][0] if pairs else node), isinstance(node, yaml.MappingNode))
 
 
+@derived
 def root_of(document: Document) -> yaml.Node | None:
     """What a file of a bridge has; None where that is nothing, or no YAML."""
     try:

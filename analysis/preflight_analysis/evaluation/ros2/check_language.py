@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from preflight_analysis.evaluation.ros2.actions.registry import tags
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import NODE_KINDS, Action, LaunchFile
 from preflight_analysis.launch.problems import (
     ConflictingAttributes,
@@ -19,7 +19,7 @@ from preflight_analysis.launch.problems import (
 _ANNOTATIONS = ("topics", "services", "params", "actions")
 
 
-@memoize_by_file
+@derived
 def check_language_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
     """Everything in the file at which launch would stop while it reads it, in document order."""
     if launch_file.root is None:

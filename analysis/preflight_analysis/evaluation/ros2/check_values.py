@@ -14,7 +14,7 @@ from preflight_analysis.evaluation.ros2.actions.registry import tags
 from preflight_analysis.evaluation.ros2.entity import PARAM_TYPES
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce, is_of_type
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Literal, Substitution, Value
 from preflight_analysis.launch.problems import BadSubstitution, BadValue, LanguageProblem
 from preflight_analysis.launch.schema import Attribute
@@ -32,7 +32,7 @@ _EXPECTED = {
 _EXPECTED_IN_YAML = {**_EXPECTED, "float": "a number with a decimal point"}
 
 
-@memoize_by_file
+@derived
 def check_values_ros2(launch_file: LaunchFile) -> tuple[LanguageProblem, ...]:
     """Everything in the file at which launch would stop while it reads the values, in document order."""
     if launch_file.root is None:

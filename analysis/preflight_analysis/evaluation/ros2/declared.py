@@ -12,6 +12,7 @@ from dataclasses import field
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile
 
 MAX_FILES = 500
@@ -41,7 +42,7 @@ def required_arguments(launch_file: LaunchFile, included: Included) -> list[Decl
     """The arguments in the order in which they are met, each name once: one that has a default where it is met first
     is not required."""
     reader = _Reader(included)
-    reader.read(launch_file, launch_file.once(_steps_of), None)
+    reader.read(launch_file, _steps_of(launch_file), None)
     ways = {id(includes): includes for _, includes in reader.found if includes}
     passed = {way: [name for include in includes for name in include.passed] for way, includes in ways.items()}
     for declared, includes in reader.found:
@@ -64,6 +65,7 @@ class _Step:
         return self.action.kind
 
 
+@derived
 def _steps_of(launch_file: LaunchFile) -> tuple[_Step, ...]:
     """A file is gone through once for each file above it: what of it counts is looked for once."""
     return _steps(launch_file.root.children) if launch_file.root is not None else ()
@@ -119,7 +121,7 @@ class _Reader:
             if step.kind != "include":
                 self.read(file, step.below, below, conditional=conditional_below)
             elif (found := self._below(file, step.action)) is not None:
-                self.read(found, found.once(_steps_of), below, conditional=conditional_below)
+                self.read(found, _steps_of(found), below, conditional=conditional_below)
                 self._files.pop()
 
     def _declare(self, file: LaunchFile, step: _Step, conditional: bool, includes: list[_Step] | None) -> None:

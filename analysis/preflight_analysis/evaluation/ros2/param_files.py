@@ -20,6 +20,7 @@ from preflight_analysis.documents.exact import exact
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, constructed, parse_yaml, span_of
 from preflight_analysis.evaluation.ros2 import rcl_yaml
+from preflight_analysis.incremental.derived import derived
 
 MARK = "ros__parameters"
 EVERY = "/**"
@@ -105,9 +106,10 @@ class ParamFile:
 
 def read_param_file(document: Document) -> ParamFile:
     """The sections of a parameter file in the order in which they are written."""
-    return document.once(_of_document)
+    return _of_document(document)
 
 
+@derived
 def _of_document(document: Document) -> ParamFile:
     return _read(document.text)
 

@@ -34,6 +34,7 @@ from preflight_analysis.evaluation.ros2.types import ITEMS, NotOfTypeError, coer
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.ros2.written import is_from_yaml, read_param_value
 from preflight_analysis.evaluation.tree import FileSection, LaunchNode, Param, ParamSource
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, Value
 from preflight_analysis.launch.problems import BadValue
 from preflight_analysis.launch.substitutions_ros2 import parse_value_ros2
@@ -213,12 +214,12 @@ def file_source(
     if not (made or substitute):
         return of_file(file, path, lines, origin, to)
     before = _document_before(performer, text) if made else None
-    places: _Places = before.once(_places) if before is not None else {}
+    places: _Places = _places(before) if before is not None else {}
     source = of_file(file, path, lines, origin, to, made_of=places if made else None)
     source = source._replace(made_from=before.path if before is not None else None)
     if to.composable:
         return source
-    sections = _sections_made(text, path) if before is None else before.once(_sections_rewritten, text)
+    sections = _sections_made(text, path) if before is None else _sections_rewritten(before, text)
     return source._replace(sections=sections)
 
 
@@ -236,6 +237,7 @@ def _document_before(performer: Performer, text: str) -> Document | None:
     return found if isinstance(found, Document) and not is_own else None
 
 
+@derived
 def _places(document: Document) -> _Places:
     """Where its parameters stand."""
     places: dict[str, tuple[tuple[FileParam, str, Location], ...]] = {}
@@ -246,9 +248,10 @@ def _places(document: Document) -> _Places:
     return places
 
 
+@derived
 def _sections_rewritten(document: Document, text: str) -> tuple[FileSection, ...]:
     """Those of a text that was made from the document."""
-    places = document.once(_places)
+    places = _places(document)
     return _sections(text, lambda param, key: _place_before(places, param, key))
 
 

@@ -38,8 +38,8 @@ from preflight_analysis.evaluation.ros2.context import Configuration, Context
 from preflight_analysis.evaluation.ros2.place import Place, PythonRun
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable, unknown_text
 from preflight_analysis.evaluation.tree import Command, Edited
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.configurations import substitutions_of
-from preflight_analysis.launch.memoize_by_file import memoize_by_file
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ProblemKind
 from preflight_analysis.launch.python_actions import actions_of
@@ -288,7 +288,7 @@ def called(
     return Answer(replace(place, run=run), actions, None, changed, gone, _variables(reply))
 
 
-@memoize_by_file
+@derived
 def calls_own_code(launch_file: LaunchFile) -> bool:
     """Whether there is code of the file's own, which may do with configurations what it likes."""
     for action in launch_file.root.walk() if launch_file.root is not None else ():

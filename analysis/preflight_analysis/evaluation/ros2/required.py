@@ -18,6 +18,7 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import Walk
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.launch.python_classes import NO_CLASSES
@@ -66,7 +67,7 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
         return None
     within = state.surroundings
     if within is not None:
-        path = _path_without_context(state.files.db, within, action.once(_file_of))
+        path = _path_without_context(state.files.db, within, _file_of(action))
     else:
         within = Surroundings(state.files, state.executables, state.environment, state.cwd, state.results)
         path = _path(within, value)
@@ -83,6 +84,7 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
     return None if found.partial else found
 
 
+@derived
 def _file_of(include: Action) -> Value | None:
     """What an include names, wherever that stands."""
     value = include.value("file")
