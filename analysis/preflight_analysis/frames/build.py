@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import chain
+from typing import Literal
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import Known, KnownMeanings, known_of_nodes, params_of_nodes
 from preflight_analysis.evaluation.partial_text import named
 from preflight_analysis.evaluation.ros2.spawners import SPAWN
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.frames.edges import (
     edges_of_node,
     edges_of_plugins,
@@ -39,10 +40,11 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else (None,) * len(nodes)
     known = known_of_nodes(tree, meanings, kept)
     params = params_of_nodes(tree, known, kept)
-    prefixed, lacking = [_has_prefix(tree)] * len(nodes), kept.each(_lacks_params, nodes)
+    prefixed, lacking = [_has_prefix(tree, kept)] * len(nodes), kept.each(_lacks_params, nodes)
     edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params, prefixed, lacking), generation)
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
+    silent = kept.each_row(_gap, (nodes, interfaces, known, unnamed, edges))
     mentions = kept.each_row(mentions_of_node, (nodes, known, params), generation)
     simulates = _simulates(nodes)
     simulated = _of_sensors(tree) if simulates else ()
@@ -51,14 +53,18 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
         (*_of_robots(tree, meanings.distro), *chain.from_iterable(edges)),
         (*chain.from_iterable(uses), *simulated, *shown),
         tuple(chain.from_iterable(mentions)),
-        tuple(_gaps(tree, nodes, interfaces, known, unnamed, edges)),
+        tuple(_gaps(tree, nodes, silent)),
         simulates,
     )
 
 
-def _has_prefix(tree: LaunchTree) -> bool:
+def _has_prefix(tree: LaunchTree, kept: Kept) -> bool:
     """Whether ROS 1's `tf_prefix` is set, which each node heeds or not."""
-    return not tree.ros.own_parameters and any(name.endswith("/tf_prefix") for name in tree.params)
+    return not tree.ros.own_parameters and any(kept.each(_is_prefix, tree.all_params))
+
+
+def _is_prefix(param: Param) -> bool:
+    return names.leaf(param.name) == "tf_prefix"
 
 
 def _lacks_params(node: LaunchNode) -> bool:
@@ -99,36 +105,21 @@ def _robot_of(tree: LaunchTree, publisher: LaunchNode) -> Robot | None:
     return max(robots, key=lambda robot: len(names.parent(robot.param.name)), default=None)
 
 
-def _gaps(
-    tree: LaunchTree,
-    nodes: Sequence[LaunchNode],
-    interfaces: Sequence[Interface | None],
-    known: Sequence[Known | None],
-    unnamed: Sequence[bool],
-    edges: Sequence[tuple[Edge, ...]],
-) -> Iterator[str]:
+_Gap = Literal["unread", "unseen", "unclear"]
+
+
+def _gaps(tree: LaunchTree, nodes: Sequence[LaunchNode], silent: Sequence[_Gap | None]) -> Iterator[str]:
     """Why there may be more frames than are known."""
     if not tree.complete:
         yield "parts of the launch are unresolved"
-    unread, unseen, unclear = list[str](), list[str](), list[str]()
-    rows = zip(nodes, interfaces, known, unnamed, edges, strict=True)
-    for node, interface, about, has_others, found in rows:
-        if is_state_publisher(node):
-            robot = _robot_of(tree, node)
-            if robot is not None and robot.description.lacks:
-                yield f"the robot description of {_named(node)} is incomplete: {named(robot.description.lacks)}"
-            elif robot is None or not robot.description.is_whole:
-                unread.append(_named(node))
-        elif has_others:
-            unclear.append(_named(node))
-        elif found or (about is not None and about.is_used):
-            continue
-        elif interface is None or not interface.known:
-            unseen.append(_named(node))
-        elif any(end.role == "publisher" and names.leaf(end.name) in _TF for end in interface.endpoints):
-            unclear.append(_named(node))
-        elif interface.source in ("trace", "similar", "source") and not interface.likely_complete:
-            unseen.append(_named(node))
+    found: dict[_Gap, list[str]] = {"unread": [], "unseen": [], "unclear": []}
+    for node, gap in zip(nodes, silent, strict=True):
+        robot = _robot_of(tree, node) if gap == "unread" else None
+        if robot is not None and robot.description.lacks:
+            yield f"the robot description of {_named(node)} is incomplete: {named(robot.description.lacks)}"
+        elif gap is not None and (robot is None or not robot.description.is_whole):
+            found[gap].append(_named(node))
+    unread, unseen, unclear = found.values()
     if unread:
         yield f"the robot description of {_some(unread)} is not known"
     if unclear:
@@ -137,6 +128,24 @@ def _gaps(
         yield f"{len(unseen)} of {len(nodes)} nodes are not analysed: {_some(unseen)}"
     if _simulates(nodes):
         yield "a simulator may broadcast more"
+
+
+def _gap(
+    node: LaunchNode, interface: Interface | None, about: Known | None, has_others: bool, found: tuple[Edge, ...]
+) -> _Gap | None:
+    """Why a node may broadcast more; `unread` of one that publishes a robot, whatever is known of that."""
+    if is_state_publisher(node):
+        return "unread"
+    if has_others:
+        return "unclear"
+    if found or (about is not None and about.is_used):
+        return None
+    if interface is None or not interface.known:
+        return "unseen"
+    if any(end.role == "publisher" and names.leaf(end.name) in _TF for end in interface.endpoints):
+        return "unclear"
+    observed = interface.source in ("trace", "similar", "source")
+    return "unseen" if observed and not interface.likely_complete else None
 
 
 def _named(node: LaunchNode) -> str:

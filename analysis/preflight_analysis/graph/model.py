@@ -107,6 +107,11 @@ class Graph:
         """Those of all nodes, one node after another."""
         return tuple(chain.from_iterable(self.reads_of_nodes))
 
+    @cached_property
+    def read_names(self) -> frozenset[str]:
+        """The full names of the parameters that nodes read."""
+        return frozenset([read.name for read in self.param_reads])
+
     def channels(self, kind: ChannelKind) -> Mapping[str, Channel]:
         """All of a kind, by their keys: the name, and the domain where the ends of one name cannot reach each other."""
         return {"topics": self.topics, "services": self.services, "actions": self.actions}[kind]

@@ -69,8 +69,10 @@ class MissingNodes(NamedTuple):
 
 @derived
 def missing_nodes(context: Context) -> MissingNodes:
-    """Those of a launch. A node may have something below its name that is no node, such
-    as a server of dynamic_reconfigure: that is not missing."""
+    """Those of a launch. A node may have something below its name that is no node, such as a server of
+    dynamic_reconfigure: that is not missing."""
+    if not named_nodes(context):
+        return MissingNodes(())
     tree = context.graph.tree if context.graph is not None else context.tree
     there = {node.name for node in (*context.tree.nodes, *tree.nodes_and_simulated) if node.kind != "process"}
     first: dict[tuple[str, bool], NamedNode] = {}

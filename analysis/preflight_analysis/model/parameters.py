@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import compress
 from operator import is_not
 
@@ -33,6 +33,12 @@ def namespaces(context: Context) -> frozenset[str]:
 def namespaces_around(context: Context) -> frozenset[str]:
     """Those in which parameters are, and all that hold these but the root."""
     return frozenset(names.with_namespaces(namespaces(context)))
+
+
+@derived
+def by_namespace(context: Context) -> Mapping[str, tuple[Param, ...]]:
+    """All parameters by their namespace. A group that is as before an edit is the same object."""
+    return context.grouped(namespace_of, "", context.tree.all_params)
 
 
 @derived

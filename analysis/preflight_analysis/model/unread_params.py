@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import chain, compress
+from itertools import chain
 
 from rapidfuzz.distance import OSA
 
@@ -16,10 +16,9 @@ from preflight_analysis.graph.model import ParamRead
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness, nearest, share_words
-from preflight_analysis.model.param_matching import asked_by, matched, sought_leaf
-from preflight_analysis.model.parameters import grouped, namespace_of
+from preflight_analysis.model.param_matching import matched, sought_leaf
+from preflight_analysis.model.parameters import by_namespace, grouped, namespace_of
 from preflight_analysis.model.well_known import is_for_tools
-from preflight_analysis.tracing.interface import Interface
 
 _PLUGIN = re.compile(r"""<plugin\b[^<>]{0,500}?\bname\s*=\s*["']([^"'<>]+)["']""")
 _CLASS = re.compile(r"\w+(?:/|::)\w+")
@@ -41,37 +40,29 @@ class Unread:
 @derived
 def unread_params(context: Context) -> tuple[Unread, ...]:
     """Those of which it is known that nobody reads them: every private one, others only where something was meant."""
-    graph = context.graph
-    known = context.each(reports_params, graph.interfaces) if graph is not None else ()
-    if graph is None or not any(known):
+    graph, found = context.graph, matched(context)
+    if graph is None or found is None:
         return ()
     nodes = graph.tree.nodes
-    found = context.whole(
-        matched,
-        "",
-        context.grouped(namespace_of, "unread", context.tree.all_params),
-        context.each(asked_by, graph.reads_of_nodes),
-        context.each(_name, nodes),
-        known,
-    )
-    if "/" in found.asked.counts:
-        return ()
     places = {node.name: at for at, node in enumerate(nodes)}
-    private = [(places[each.holder], each.unread) for each in found.private]
-    holders = [nodes[at] for at, _ in private]
-    unset = [found.unset_of_nodes[at] for at, _ in private]
-    of_holders = context.each_row(_of_holder, ([params for _, params in private], holders, unset))
+    of_holders: list[Unread] = []
+    for name, params in found.private:
+        at = places[name]
+        of_holders += context.one(_of_holder, params[0].name, params, nodes[at], found.unset_of_nodes[at])
     of_nobody: tuple[Unread, ...] = ()
     orphans = found.orphans
-    if orphans and (plugins := context.one(_plugins_in, "", context.tree.all_params)):
-        orphans = tuple(param for param in orphans if plugins.isdisjoint(param.name.split("/")))
+    if orphans:
+        plugins: frozenset[str] = frozenset().union(*context.each(_plugins_in, by_namespace(context).values()))
+        orphans = tuple(param for param in orphans if plugins.isdisjoint(param.name.split("/"))) if plugins else orphans
     if orphans and not found.lists:
         # Of thousands of reads few have anything in common with those.
-        near = context.each(_unless_far, found.unset_of_nodes, *context.one(_leaves_and_spaces, "", orphans))
-        of_known = tuple(chain.from_iterable(compress(near, (node.name not in found.opaque for node in nodes))))
+        known = (
+            reads for node, reads in zip(nodes, found.unset_of_nodes, strict=True) if node.name not in found.opaque
+        )
+        near = tuple(_unless_far(chain.from_iterable(known), orphans))
         alone = graph.tree.complete and not found.opaque
-        of_nobody = context.one(_of_nobody, None, orphans, of_known, found.sought, alone)
-    return (*chain.from_iterable(of_holders), *of_nobody)
+        of_nobody = context.one(_of_nobody, None, orphans, near, found.sought, alone)
+    return (*of_holders, *of_nobody)
 
 
 def _plugins_in(params: tuple[Param, ...]) -> frozenset[str]:
@@ -79,15 +70,6 @@ def _plugins_in(params: tuple[Param, ...]) -> frozenset[str]:
     their names."""
     texts = (param.value for param in params if isinstance(param.value, str) and "<plugin" in param.value)
     return frozenset(chain.from_iterable(map(_PLUGIN.findall, texts)))
-
-
-def _name(node: LaunchNode) -> str:
-    return node.name
-
-
-def reports_params(interface: Interface) -> bool:
-    """Whether all is known that the node reads. An annotation without a single parameter does not speak of them."""
-    return interface.tells_all("parameters") and (not interface.declared or bool(interface.params))
 
 
 def fits(value: object, read: ParamRead) -> bool:
@@ -102,18 +84,13 @@ def fits(value: object, read: ParamRead) -> bool:
     return type(value) is type(default)
 
 
-def _unless_far(reads: tuple[ParamRead, ...], leaves: frozenset[str], spaces: frozenset[str]) -> tuple[ParamRead, ...]:
-    """Those of one node that have a last part or a namespace in common with others."""
-    found = []
+def _unless_far(reads: Iterable[ParamRead], params: tuple[Param, ...]) -> Iterator[ParamRead]:
+    """Those that have a last part or a namespace in common with a parameter."""
+    leaves, spaces = {names.leaf(param.name) for param in params}, {*map(namespace_of, params)}
     for read in reads:
         namespace, _, leaf = read.name.rpartition("/")
         if leaf in leaves or namespace in spaces:
-            found.append(read)
-    return tuple(found)
-
-
-def _leaves_and_spaces(params: tuple[Param, ...]) -> tuple[frozenset[str], frozenset[str]]:
-    return frozenset(names.leaf(param.name) for param in params), frozenset(map(namespace_of, params))
+            yield read
 
 
 def _of_holder(params: Iterable[Param], holder: LaunchNode, unset: tuple[ParamRead, ...]) -> tuple[Unread, ...]:

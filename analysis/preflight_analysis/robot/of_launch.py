@@ -131,14 +131,20 @@ def _unread(tree: LaunchTree) -> tuple[Param, ...]:
     return tuple(param for param in given if isinstance(param.value, CommandValue) or id(param) in raw)
 
 
-def _params(tree: LaunchTree, wanted: str) -> Iterator[tuple[Param, tuple[LaunchNode, ...]]]:
+@derived
+def _params(tree: LaunchTree, wanted: str) -> tuple[tuple[Param, tuple[LaunchNode, ...]], ...]:
+    return tuple(_those_of(tree, wanted))
+
+
+def _those_of(tree: LaunchTree, wanted: str) -> Iterator[tuple[Param, tuple[LaunchNode, ...]]]:
     if tree.ros.own_parameters:
         for node in tree.nodes:
             for param in node.params:
                 if param.name == wanted:
                     yield param, (node,)
         return
+    ending = f"/{wanted}"
     for name, param in tree.params.items():
-        if names.leaf(name) == wanted:
+        if name.endswith(ending):
             space = names.parent(name)
             yield param, tuple(node for node in tree.nodes if node.name.startswith(space))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import items_of
 from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.claim import Subject
@@ -14,6 +15,7 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.controllers import Claim, Controller, controllers_of, place_of
+from preflight_analysis.model.parameters import by_namespace
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.rule import Rule
 
@@ -27,12 +29,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for each in controllers_of(context):
             yield from _of_both_sides(rule, context, each.name, {param.name: param for param in each.params})
         return
-    params = context.tree.params
-    for name in params:
-        controller, _, leaf = name.rpartition("/")
-        if leaf == _SIDES[0][0]:
-            own = {side: params[f"{controller}/{side}"] for side in _SIDES[0] if f"{controller}/{side}" in params}
+    groups = by_namespace(context)
+    for controller, own in zip(groups, context.each(_sides, groups.values()), strict=True):
+        if own:
             yield from _of_both_sides(rule, context, controller, own)
+
+
+def _sides(params: tuple[Param, ...]) -> Mapping[str, Param]:
+    """Of the parameters of a controller of ROS 1 those that list the joints of a side."""
+    return {leaf: param for param in params if (leaf := names.leaf(param.name)) in _SIDES[0]}
 
 
 def _of_both_sides(rule: Rule, context: Context, controller: str, params: Mapping[str, Param]) -> Iterator[Finding]:

@@ -22,7 +22,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     frames = frames_of(context)
     spaces: list[Mapping[str, Sequence[Edge]]] = [frames.parents(space) for space in frames.spaces]
     for child, known in chain.from_iterable(each.items() for each in spaces):
-        edges = [edge for edge in known if not edge.guessed and _is_in_ros(edge, frames)]
+        edges = [edge for edge in known if not edge.guessed and _is_in_ros(edge, frames)] if len(known) > 1 else ()
         if len(edges) < 2:
             continue
         # A joint is where it belongs; what contradicts it is told.

@@ -16,6 +16,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.distributions import BEFORE_MELODIC, otherwise_in
 from preflight_analysis.model.frames import frames_of, place_of_mention, place_of_param, place_of_use
+from preflight_analysis.model.parameters import by_namespace
 from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.model.well_known import is_transform
 from preflight_analysis.rules.further_reading import FRAMES, TF2
@@ -44,13 +45,12 @@ def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
     """ROS 1: costmaps of other nodes than move_base."""
     nodes = {node.name for node in context.tree.nodes if node.package != _REFUSE_ROS1[0]}
     asked = _ask_tf2(context)
-    for param in context.tree.all_params if asked is not False else ():
-        above, _, leaf = param.name.rpartition("/")
+    costmaps = ((above, group) for above, group in by_namespace(context).items() if "costmap" in names.leaf(above))
+    for above, param in ((above, param) for above, group in costmaps if asked is not False for param in group):
         written = param.value
-        if leaf not in _OF_COSTMAPS or not isinstance(written, str) or not written.startswith("/"):
+        if names.leaf(param.name) not in _OF_COSTMAPS or not isinstance(written, str) or not written.startswith("/"):
             continue
-        owner, costmap = names.parent(above), names.leaf(above)
-        if "costmap" not in costmap or not written.strip("/") or owner.rstrip("/") not in nodes:
+        if not written.strip("/") or names.parent(above).rstrip("/") not in nodes:
             continue
         place = place_of_param(context, param)
         yield rule.claim(
@@ -58,7 +58,7 @@ def _of_costmaps(rule: Rule, context: Context) -> Iterator[Finding]:
             place,
             subject=Subject("frame", written),
             doubts=(
-                *doubts(OTHER_VERSION=asked is None, NOT_ANALYSED=owner),
+                *doubts(OTHER_VERSION=asked is None, NOT_ANALYSED=names.parent(above)),
                 *otherwise_in(context, BEFORE_MELODIC),
             ),
             related=include_chain(param.origin),

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.python import PythonWriter
+from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
@@ -17,6 +18,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.parameters import by_namespace
 from preflight_analysis.model.problems import fix, include_chain, quoted, shortened
 from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
@@ -45,19 +47,30 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _in_parameters(rule: Rule, context: Context) -> Iterator[Finding]:
     """Lists of numbers, or of `true` and `false`, with one text that is made of several such. ROS 2 refuses them."""
-    for param in context.tree.all_params:
+    for found in context.each(_lists_with_text, by_namespace(context).values()):
+        yield from (
+            rule.claim(
+                f"{quoted(words)} are one text in '{param.name}': the comma between them is missing",
+                param.place,
+                subject=Subject("parameter", param.name),
+                related=include_chain(param.origin),
+            )
+            for param, words in found
+        )
+
+
+def _lists_with_text(params: tuple[Param, ...]) -> tuple[tuple[Param, list[str]], ...]:
+    """Those with the values in their first text."""
+    found: list[tuple[Param, list[str]]] = []
+    for param in params:
         value = param.value
         texts = [item for item in value if isinstance(item, str)] if isinstance(value, list) else []
         if not isinstance(value, list) or not texts or len(value) - len(texts) < _PLAIN:
             continue
         kind = _BOOLEAN if any(isinstance(item, bool) for item in value) else _NUMBER
         if all(len(text.split()) > 1 and all(map(kind.fullmatch, text.split())) for text in texts):
-            yield rule.claim(
-                f"{quoted(texts[0].split())} are one text in '{param.name}': the comma between them is missing",
-                param.place,
-                subject=Subject("parameter", param.name),
-                related=include_chain(param.origin),
-            )
+            found.append((param, texts[0].split()))
+    return tuple(found)
 
 
 @derived

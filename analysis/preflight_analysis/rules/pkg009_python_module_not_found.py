@@ -16,10 +16,11 @@ from preflight_analysis.rules.rule import Rule
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     said: set[str] = set()
-    for node in context.tree.nodes:
-        path = node.resolved.path
+    first_of = {node.resolved.path: node for node in reversed(context.tree.nodes)}
+    for path in dict.fromkeys(node.resolved.path for node in context.tree.nodes):
         if path is None or package_around(context.environment, path) is None:
             continue
+        node = first_of[path]
         for found in imports_of(context.disk.db, context.environment, path):
             if found.name in said:
                 continue

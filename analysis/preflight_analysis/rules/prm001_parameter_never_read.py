@@ -16,7 +16,7 @@ from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.missing_params import missing_params
 from preflight_analysis.model.nearest import nearest_typo
-from preflight_analysis.model.parameters import namespace_of, renamed
+from preflight_analysis.model.parameters import by_namespace, renamed
 from preflight_analysis.model.params_in_sources import is_asked_beside
 from preflight_analysis.model.places import known_by_source, related_node, related_param_read
 from preflight_analysis.model.problems import include_chain
@@ -72,14 +72,14 @@ def _one_level_too_high(rule: Rule, context: Context, graph: Graph, explained: C
     rows = context.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
     if not any(rows):
         return
-    read, given = {each.name for each in graph.param_reads}, graph.tree.params
-    by_namespace = context.grouped(namespace_of, "one level", context.tree.all_params)
+    read, given = graph.read_names, graph.tree.params
+    groups = by_namespace(context)
     for node, asked in zip(graph.tree.nodes, rows, strict=True):
         below = [space for space in asked.own if names.parent(space) == f"{node.name}/"] if asked is not None else []
         if asked is None or not below:
             continue
         files: dict[str, list[Param]] = {}
-        for param in by_namespace.get(node.name, ()):
+        for param in groups.get(node.name, ()):
             if param.name not in read and param.name not in explained:
                 files.setdefault(param.place.file, []).append(param)
         for file, params in files.items():
@@ -106,10 +106,15 @@ def _as_on_the_command_line(
     rule: Rule, context: Context, graph: Graph, explained: Collection[str]
 ) -> Iterator[Finding]:
     """Parameters of a node whose names begin as private ones do among its arguments, be the node known or not."""
-    odd = [p for p in graph.tree.all_params if "/_" in p.name and p.name not in explained]
+    odd = [
+        param
+        for found in context.each(_with_underscore, by_namespace(context).values())
+        for param in found
+        if param.name not in explained
+    ]
     if not odd:
         return
-    nodes, read = {node.name for node in graph.tree.nodes}, {each.name for each in graph.param_reads}
+    nodes, read = {node.name for node in graph.tree.nodes}, graph.read_names
     for param in odd:
         above, _, leaf = param.name.rpartition("/")
         if above in nodes and param.name not in read and _ARGUMENT.fullmatch(leaf):
@@ -124,6 +129,10 @@ def _as_on_the_command_line(
                 related=include_chain(param.origin),
                 fixes=renamed(context, param, f"{above}/{leaf[1:]}"),
             )
+
+
+def _with_underscore(params: tuple[Param, ...]) -> tuple[Param, ...]:
+    return tuple([param for param in params if "/_" in param.name])
 
 
 def _hint(unread: Unread, in_source: bool, rule: Rule) -> Finding:
@@ -148,13 +157,13 @@ def _of_partly_known(context: Context, graph: Graph, explained: Collection[str])
     rows = context.each_row(_asked_in_part, (graph.tree.nodes, graph.interfaces, graph.reads_of_nodes))
     if not any(rows):
         return
-    read, given = {each.name for each in graph.param_reads}, graph.tree.params
-    by_namespace = context.grouped(namespace_of, "partly known", context.tree.all_params)
+    read, given = graph.read_names, graph.tree.params
+    groups = by_namespace(context)
     for node, asked in zip(graph.tree.nodes, rows, strict=True):
         if asked is None:
             continue
         for namespace in {*asked.own, node.name} if asked.astray else asked.own:
-            for param in by_namespace.get(namespace, ()):
+            for param in groups.get(namespace, ()):
                 if param.name in read or param.name in explained or is_for_tools(param.name):
                     continue
                 wanted = {name: each for name, each in asked.own.get(namespace, {}).items() if name not in given}

@@ -7,15 +7,13 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.derived import derived
-from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.name_tally import NO_NAMES, NameTally
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.parameters import namespace_of
 from preflight_analysis.model.places import related_node
@@ -116,8 +114,9 @@ def _outside(param: Param) -> Param | None:
 def _homeless(context: Context, params: Iterable[Param]) -> dict[str, list[Param]]:
     """The parameters that are neither read nor below a node or in its namespace, by the part of the name at fault."""
     namespaces = context.grouped(namespace_of, "outside", params)
-    homes = context.whole(_tally, "homes", context.each(_node_name, context.tree.nodes))
-    prefixes = zip(namespaces, context.each(_at_fault, namespaces, homes), strict=True)
+    nodes = frozenset([node.name for node in context.tree.nodes])
+    homes = frozenset(names.with_namespaces(nodes))
+    prefixes = zip(namespaces, context.each(_at_fault, tuple(namespaces), nodes, homes), strict=True)
     at_fault = {namespace: prefix for namespace, prefix in prefixes if prefix is not None}
     found: dict[str, list[Param]] = {}
     for param in params if at_fault else ():
@@ -127,24 +126,15 @@ def _homeless(context: Context, params: Iterable[Param]) -> dict[str, list[Param
     return found
 
 
-def _node_name(node: LaunchNode) -> str:
-    return node.name
-
-
-def _tally(before: Before[NameTally] | None, names: tuple[str, ...]) -> NameTally:
-    (old,), last = before if before is not None else (((),), NO_NAMES)
-    return last.changed(old, names)[0]
-
-
-def _at_fault(namespace: str, homes: NameTally) -> str | None:
+def _at_fault(namespace: str, nodes: frozenset[str], homes: frozenset[str]) -> str | None:
     """The first part of the namespace in which no node and no namespace of nodes is, None if it leads to one. `homes`
-    are the names of nodes."""
+    are the names of nodes with their namespaces."""
     prefix = ""
     for part in namespace.split("/")[1:]:
         prefix = f"{prefix}/{part}"
-        if prefix in homes.counts:
+        if prefix in nodes:
             break
-        if prefix not in homes.around:
+        if prefix not in homes:
             return prefix
     return None
 
@@ -209,7 +199,7 @@ def _fixes(context: Context, places: list[Location], leaf: str, near: str) -> tu
 @derived
 def _read(context: Context) -> frozenset[str]:
     graph = context.graph
-    return frozenset(read.name for read in graph.param_reads) if graph is not None else frozenset()
+    return graph.read_names if graph is not None else frozenset()
 
 
 @derived

@@ -151,7 +151,7 @@ class _NeverRead:
 
 @derived
 def _never_read(context: Context) -> _NeverRead:
-    read = {each.name for each in context.graph.param_reads} if context.graph is not None else ()
+    read = context.graph.read_names if context.graph is not None else ()
     unread = [param for param in context.tree.all_params if param.name not in read]
     by_leaf: dict[str, list[Param]] = {}
     for param in unread:

@@ -13,11 +13,11 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Alike, Finding, Fix
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.param_matching import reports_params
 from preflight_analysis.model.parameters import OF_ALL_NODES
 from preflight_analysis.model.params_in_sources import may_be_made
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, replacement
-from preflight_analysis.model.unread_params import reports_params
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterator, Mapping
+from itertools import chain
 
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.graph.model import Graph
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.parameters import grouped, namespace_of, renamed
+from preflight_analysis.model.param_matching import reports_params
+from preflight_analysis.model.parameters import by_namespace, renamed
 from preflight_analysis.model.params_in_sources import Asked, meant_in_one_file, meant_in_sources
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, replacement
-from preflight_analysis.model.unread_params import reports_params
 from preflight_analysis.model.well_known import is_for_tools, is_of_planning
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
 from preflight_analysis.rules.rule import Rule
@@ -33,13 +33,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    by_node = _below_nodes(context, graph)
+    nodes = frozenset([node.name for node in graph.tree.nodes])
+    groups = by_namespace(context) if not context.tree.ros.ament else {}
+    homes = dict(zip(groups, context.each(_home, tuple(groups), nodes), strict=True))
     reported: set[object] = set()
-    for node, interface in zip(graph.tree.nodes, graph.interfaces, strict=True):
-        package = _of_workspace(context, node)
-        if package is None or _others_speak(context, interface):
+    packages = context.each(_of_workspace, graph.tree.nodes, context.environment)
+    others = context.each(_others_speak, graph.interfaces, context.tree.ros.ament)
+    for node, interface, package, is_said in zip(graph.tree.nodes, graph.interfaces, packages, others, strict=True):
+        if package is None or is_said:
             continue
-        params = node.params if context.tree.ros.ament else by_node.get(node.name, ())
+        below = (groups[space] for space in groups if homes[space] == node.name)
+        params = node.params if context.tree.ros.ament else (*chain.from_iterable(below),)
         taken = {use.name.strip("~/") for use in interface.params}
         given = {_below(node, param) for param in params}
         found: dict[str, list[tuple[Param, Asked]]] = {}
@@ -55,60 +59,53 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             reported.add(param.place)
             yield _finding(rule, context, node, param, asked)
     if not context.tree.ros.ament:
-        yield from _beside_nodes(rule, context, graph, by_node)
+        loose = {space: group for space, group in groups.items() if homes[space] is None}
+        shares = tuple(sorted({package.share for package in packages if package is not None}))
+        yield from _beside_nodes(rule, context, shares, loose)
 
 
 def _beside_nodes(
-    rule: Rule, context: Context, graph: Graph, by_node: Mapping[str, Collection[Param]]
+    rule: Rule, context: Context, shares: tuple[str, ...], loose: Mapping[str, Collection[Param]]
 ) -> Iterator[Finding]:
     """Of files of parameters that are loaded in a namespace, where the nodes of the launch ask for most of them."""
-    nodes = {node.name for node in graph.tree.nodes}
-    packages = filter(None, (_of_workspace(context, node) for node in graph.tree.nodes))
-    shares = tuple(sorted({package.share for package in packages}))
-    read = {each.name for each in graph.param_reads}
-    owned = {id(param) for params in by_node.values() for param in params}
-    loose = [param for param in context.tree.all_params if id(param) not in owned and param.name not in nodes]
-    for namespace, group in grouped(loose).items() if shares else ():
+    nodes = {node.name for node in context.tree.nodes}
+    read = context.graph.read_names if context.graph is not None else frozenset()
+    for namespace, group in loose.items() if shares else ():
         by_file: dict[str, list[Param]] = {}
         for param in group:
-            by_file.setdefault(param.place.file, []).append(param)
+            if param.name not in nodes:
+                by_file.setdefault(param.place.file, []).append(param)
         for params in by_file.values():
             if len(params) < _LEAST or all(param.name in read for param in params):
                 continue
             leaves = {names.leaf(param.name): param for param in params}
             found = meant_in_one_file(context.disk.db, context.environment, shares, tuple(sorted(leaves)))
             for leaf, asked in found.items():
-                if leaves[leaf].name not in read and f"{namespace}/{asked.name}" not in graph.tree.params:
+                if leaves[leaf].name not in read and f"{namespace}/{asked.name}" not in context.tree.params:
                     yield _finding(rule, context, None, leaves[leaf], asked)
 
 
-def _below_nodes(context: Context, graph: Graph) -> Mapping[str, tuple[Param, ...]]:
-    """ROS 1: the parameters below the name of each node."""
-    nodes, found = {node.name for node in graph.tree.nodes}, dict[str, tuple[Param, ...]]()
-    groups = context.grouped(namespace_of, "params in sources", context.tree.all_params)
-    for namespace, params in groups.items() if not context.tree.ros.ament else ():
-        home = namespace
-        while home and home not in nodes:
-            home = home.rpartition("/")[0]
-        if home:
-            found[home] = (*found.get(home, ()), *params)
-    return found
+def _home(namespace: str, nodes: frozenset[str]) -> str | None:
+    """ROS 1: the node below whose name a namespace is."""
+    while namespace and namespace not in nodes:
+        namespace = namespace.rpartition("/")[0]
+    return namespace or None
 
 
-def _of_workspace(context: Context, node: LaunchNode) -> Package | None:
+def _of_workspace(node: LaunchNode, environment: Environment) -> Package | None:
     """The package of the node's program, of a nodelet that of its class, if that is in the workspace."""
     name = node.package
     if node.package == "nodelet":
         words = [word for word in split_args(node.args) if not word.startswith("-")]
         name = words[1].partition("/")[0] if len(words) > 1 else ""
-    package, environment = context.environment.packages.get(name), context.environment
+    package = environment.packages.get(name)
     return None if package is None or environment.is_installed(package) else package
 
 
-def _others_speak(context: Context, interface: Interface) -> bool:
+def _others_speak(interface: Interface, ament: bool) -> bool:
     """Whether the parameters of the node are known, so that PRM001 or PRM013 says which of them it does not read."""
     lists = any(use.access == "list" for use in interface.params)
-    if not context.tree.ros.ament:
+    if not ament:
         return interface.tells_all("parameters")
     return interface.source != "none" and not lists and bool(interface.params or reports_params(interface))
 

@@ -13,7 +13,7 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.parameters import grouped
+from preflight_analysis.model.parameters import by_namespace
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.rule import Rule
@@ -39,8 +39,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for found in context.each(_copies_of, context.tree.nodes):
         yield from _findings(rule, found, reported)
     if not context.tree.ros.own_parameters:
-        for params in grouped(context.tree.all_params).values():
-            yield from _findings(rule, _copies(map(_of_param, params)), reported)
+        for found in context.each(_copies_among, by_namespace(context).values()):
+            yield from _findings(rule, found, reported)
 
 
 def _findings(rule: Rule, found: Iterable[tuple[_Named, _Named]], reported: set[Location]) -> Iterator[Finding]:
@@ -58,7 +58,11 @@ def _findings(rule: Rule, found: Iterable[tuple[_Named, _Named]], reported: set[
 
 def _copies_of(node: LaunchNode) -> tuple[tuple[_Named, _Named], ...]:
     remaps = _copies(map(_of_remap, node.remaps))
-    return (*remaps, *_copies(map(_of_param, node.params)))
+    return (*remaps, *_copies_among(node.params))
+
+
+def _copies_among(params: tuple[Param, ...]) -> tuple[tuple[_Named, _Named], ...]:
+    return _copies(map(_of_param, params))
 
 
 def _of_remap(remap: Remap) -> _Named:
