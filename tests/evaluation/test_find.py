@@ -7,6 +7,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.workspace.sources import Sources
 
 pytestmark = pytest.mark.ros
@@ -57,5 +58,5 @@ def test_executables_of_the_devel_space_come_first(tmp_path: Path) -> None:
     launch = tmp_path / "x.launch"
     launch.write_text(f"<launch>{params}</launch>")
     environment = detect_environment(None, env)
-    tree = evaluate(str(launch), {}, Sources(), NoExecutables(), environment, "/")
+    tree = evaluate(str(launch), {}, Surroundings(Sources(), NoExecutables(), environment, "/"))
     assert [tree.params[f"/p{n}"].value for n in range(len(WRITTEN))] == asked.stdout.split()

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.detect import detect
 from preflight_analysis.environment.executables import ExecutableIndex
-from preflight_analysis.evaluation.commands import NoResults
 from preflight_analysis.evaluation.ros1 import evaluate as evaluate_module
 from preflight_analysis.evaluation.ros1.evaluate import evaluate
 from preflight_analysis.evaluation.ros1.scope import Scope
@@ -35,8 +34,7 @@ INCLUDED = """\
 @query
 def remembering(db: Database, within: Surroundings, path: str) -> LaunchTree:
     """A launch, of which includes and nodes are remembered."""
-    files, executables, environment = within.files, within.executables, within.environment
-    return evaluate(path, {}, files, executables, environment, within.cwd, within.commands, within)
+    return evaluate(path, {}, within, by_parts=True)
 
 
 class Twice:
@@ -44,15 +42,14 @@ class Twice:
 
     def __init__(self, folder: Path) -> None:
         self.sources = Sources()
-        self._environment = detect(str(folder), package_path=(str(folder),))
-        self._executables = ExecutableIndex(self._environment, self.sources)
-        self._cwd = str(folder)
-        self._surroundings = Surroundings(self.sources, self._executables, self._environment, self._cwd, NoResults())
+        environment = detect(str(folder), package_path=(str(folder),))
+        executables = ExecutableIndex(environment, self.sources)
+        self._surroundings = Surroundings(self.sources, executables, environment, str(folder))
 
     def tree(self, path: Path) -> LaunchTree:
         """The tree, which is the same both ways."""
-        common = (str(path), {}, self.sources, self._executables, self._environment, self._cwd)
-        without, remembered = evaluate(*common), remembering(self.sources.db, self._surroundings, str(path))
+        without = evaluate(str(path), {}, self._surroundings)
+        remembered = remembering(self.sources.db, self._surroundings, str(path))
         assert remembered == without
         assert [node.action for node in remembered.nodes] == [node.action for node in without.nodes]
         self.remembered = remembered

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.commands import NoResults
 from preflight_analysis.evaluation.ros2.evaluate import evaluate_ros2
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
@@ -75,8 +74,7 @@ YAML = (
 @query
 def remembering(db: Database, within: Surroundings, path: str) -> LaunchTree:
     """A launch, of which parts are remembered."""
-    files, executables, environment = within.files, within.executables, within.environment
-    return evaluate_ros2(path, {}, files, executables, environment, within.cwd, within.commands, within)
+    return evaluate_ros2(path, {}, within, by_parts=True)
 
 
 class Twice:
@@ -87,7 +85,7 @@ class Twice:
         (folder / "true.yaml").write_text("/**:\n  ros__parameters:\n    x: 1\nn:\n  ros__parameters: {y: 2}\n")
         environment = Environment(2, "jazzy", {"E": "e", "HOME": "/"}, (), {}, {}, (), (), None)
         executables, cwd = ExecutableIndex(environment, self.sources), str(folder)
-        self._within = Surroundings(self.sources, executables, environment, cwd, NoResults())
+        self._within = Surroundings(self.sources, executables, environment, cwd)
         self.remembered: LaunchTree | None = None
 
     def write(self, name: str, lines: list[str]) -> None:
@@ -98,8 +96,7 @@ class Twice:
     def tree(self, name: str = NAMES[0]) -> LaunchTree:
         """The tree, which is the same both ways."""
         within, path = self._within, str(self.folder / name)
-        common = (path, {}, self.sources, within.executables, within.environment, within.cwd)
-        without = evaluate_ros2(*common)
+        without = evaluate_ros2(path, {}, within)
         remembered = self.remembered = remembering(self.sources.db, within, path)
         assert repr(remembered) == repr(without)  # 1 is not 1.0
         assert remembered == without

@@ -42,6 +42,7 @@ from preflight_analysis.environment.model import Environment, Executable, Packag
 from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.evaluation.inversion import arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch
+from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
@@ -215,9 +216,8 @@ def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assu
     environment = environment_of(fixture)
     executables, results = _EveryExecutable(environment), _Results(fixture.commands)
     given, variables = arguments_and_variables(args)
-    tree = evaluate_launch(
-        fixture.root, given, sources, executables, environment, "/", results, assumed=assumed, variables=variables
-    )
+    within = Surroundings(sources, executables, environment, "/", results)
+    tree = evaluate_launch(fixture.root, given, within, assumed=assumed, variables=variables)
     documents: dict[str, Document] = {}
     launch_files = {}
     manifests = (package.manifest for path in tree.files if (package := package_around(environment, path)) is not None)

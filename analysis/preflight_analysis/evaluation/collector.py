@@ -14,10 +14,9 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.environment.installed_paths import located
-from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.catalogued import data_of
-from preflight_analysis.evaluation.commands import Commands, named_paths
-from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.commands import named_paths
+from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import (
     IncludeNotCatalogued,
     IncludeNotFound,
@@ -87,23 +86,18 @@ class Collector:
     def __init__(
         self,
         generation: int,
-        files: Files,
-        executables: Executables,
-        environment: Environment,
-        cwd: str,
-        results: Commands,
-        surroundings: Surroundings | None = None,
+        within: Surroundings,
+        *,
+        by_parts: bool = False,
         assumed: AbstractSet[Location] = frozenset(),
     ) -> None:
         self.generation = generation
         self._assumed = assumed
-        self.files = files
-        self.executables = executables
-        self.results = results
-        self.environment = environment
-        self.cwd = cwd
-        self.surroundings = surroundings
-        """Those that parts of the launch are remembered for; None: they are evaluated where they are."""
+        self.within = within
+        self.files, self.executables, self.results = within.files, within.executables, within.commands
+        self.environment, self.cwd = within.environment, within.cwd
+        self.by_parts = by_parts
+        """Whether parts of the launch are remembered; else they are evaluated where they are."""
         self.nodes: list[LaunchNode] = []
         self.includes: list[Include] = []
         self.args: dict[str, Arg] = {}

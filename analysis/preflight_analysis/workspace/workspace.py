@@ -21,7 +21,7 @@ from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
-from preflight_analysis.evaluation.launch import evaluate_launch
+from preflight_analysis.evaluation.launch import evaluate_launch, outline_of
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
@@ -289,17 +289,14 @@ class Workspace:
     def tree(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """What `path` launched with `args` would start; not remembered. The results of commands are those of the last
         `look_at_results`."""
-        return self._unremembered(path, args, outline=False)
+        return evaluate_launch(path, args, self._within(path))
 
     def outline(self, path: str, args: Mapping[str, str]) -> LaunchTree:
         """As `tree`, of what the index keeps: files, includes, and nodes by their names."""
-        return self._unremembered(path, args, outline=True)
+        return outline_of(path, args, self._within(path))
 
-    def _unremembered(self, path: str, args: Mapping[str, str], *, outline: bool) -> LaunchTree:
-        within = _surroundings(self.sources.db, self, self.environment_of(path))
-        executables, environment, commands = within.executables, within.environment, within.commands
-        given = self.sources, executables, environment, self.cwd, commands
-        return evaluate_launch(path, args, *given, knowledge=self.own_knowledge.files, outline=outline)
+    def _within(self, path: str) -> Surroundings:
+        return _surroundings(self.sources.db, self, self.environment_of(path))
 
     def look_at_results(self) -> None:
         """Notice results of commands that came, and what executables did elsewhere meanwhile."""
@@ -536,7 +533,8 @@ def _plugins(db: Database, workspace: Workspace, environment: Environment) -> Pl
 @query
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
     executables, commands = _executables(db, workspace, environment), QueriedCommands(db, workspace.commands)
-    return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands)
+    knowledge = workspace.own_knowledge.files
+    return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands, knowledge)
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)
@@ -549,18 +547,18 @@ def _if(
 ) -> Analysis:
     """A launch with other arguments, as if it took some tags whatever their conditions are."""
     within = _surroundings(db, workspace, workspace.environment_of(path))
-    files, environment, executables = within.files, within.environment, within.executables
     given, variables = arguments_and_variables(dict(args))
     # What is taken against its condition, or with other variables, is not remembered for launches where it is not so.
-    parts = None if assumed or variables else within
-    own = workspace.own_knowledge.files
-    surroundings = files, executables, environment, within.cwd, within.commands, parts
-    tree = evaluate_launch(path, given, *surroundings, assumed, variables, knowledge=own)
+    by_parts = not assumed and not variables
+    tree = evaluate_launch(path, given, within, by_parts=by_parts, assumed=assumed, variables=variables)
+    return _of_tree(db, workspace, Root(path, args), tree, within.environment)
+
+
+def _of_tree(db: Database, workspace: Workspace, root: Root, tree: LaunchTree, environment: Environment) -> Analysis:
     documents, launch_files = workspace.texts_of(tree)
-    index = _executables(db, workspace, environment)
-    plugins = _plugins(db, workspace, environment)
-    context = Context(path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
-    return Analysis(path, args, tree, documents, launch_files, environment, context, ())
+    index, plugins = _executables(db, workspace, environment), _plugins(db, workspace, environment)
+    context = Context(root.path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
+    return Analysis(root.path, root.args, tree, documents, launch_files, environment, context)
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)
@@ -624,17 +622,11 @@ def _left_out_around(tree: LaunchTree, file: str, offset: int) -> NotTaken | Non
 def _evaluated(db: Database, workspace: Workspace, path: str, args: tuple[tuple[str, str], ...]) -> Analysis:
     known: Analysis | None = db.previous
     within = _surroundings(db, workspace, workspace.environment_of(path))
-    files, environment, executables = within.files, within.environment, within.executables
-    own = workspace.own_knowledge.files
-    surroundings = files, executables, environment, within.cwd, within.commands, within
-    tree = evaluate_launch(path, dict(args), *surroundings, knowledge=own)
+    tree = evaluate_launch(path, dict(args), within, by_parts=True)
     if known is not None:
         tree = taken_over(tree, known.tree)
-    documents, launch_files = workspace.texts_of(tree)
-    index = _executables(db, workspace, environment)
-    plugins = _plugins(db, workspace, environment)
-    context = Context(path, tree, documents, launch_files, environment, index, plugins, workspace.sources)
-    return Analysis(path, args, tree, documents, launch_files, environment, context, workspace.settings.severities)
+    found = _of_tree(db, workspace, Root(path, args), tree, within.environment)
+    return replace(found, severities=workspace.settings.severities)
 
 
 @query(limit=MAX_ANALYSES)

@@ -12,8 +12,7 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names, values
 from preflight_analysis.evaluation.catalogued import in_catalogue
-from preflight_analysis.evaluation.commands import Commands, NoResults
-from preflight_analysis.evaluation.files import Executables, Files, without_dots
+from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.known_files import params_of_files
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.problems import (
@@ -60,40 +59,32 @@ from preflight_analysis.generation import ros
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
-from preflight_analysis.knowledge.model import Knowledge
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.launch.problems import ConflictingAttributes
 from preflight_analysis.launch.read import generation_of
 
 MAX_DEPTH = 150
 """Of groups and includes within each other. Real launches stay below twenty; Python's stack ends at a multiple."""
-NO_RESULTS = NoResults()
 
 
 def evaluate(
     path: str,
     args: Mapping[str, str],
-    files: Files,
-    executables: Executables,
-    environment: Environment,
-    cwd: str,
-    commands: Commands = NO_RESULTS,
-    surroundings: Surroundings | None = None,
-    assumed: AbstractSet[Location] = frozenset(),
+    within: Surroundings,
     *,
-    knowledge: tuple[Knowledge, ...] = (),
+    by_parts: bool = False,
+    assumed: AbstractSet[Location] = frozenset(),
     outline: bool = False,
 ) -> LaunchTree:
     """What `roslaunch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
-    paths in launch files are relative to `cwd`, as in roslaunch. Reads through `files` only; runs nothing: the values
-    of commands are those of `commands`, and what it does not know stands in the tree's `commands`. With
-    `surroundings`, of the same things, includes are remembered. The tags at `assumed` are taken whatever their
-    conditions say; give no `surroundings` then. Nor for an `outline`: that lacks what YAML says, where executables are,
-    and what is wrong in the language of the files. `knowledge` is that of the user's own files.
+    paths in launch files are relative to `within.cwd`, as in roslaunch. Reads through `within.files` only and runs
+    nothing: what it does not know of commands stands in the tree's `commands`. `by_parts`: includes and tags are remembered for
+    these surroundings. The tags at `assumed` are taken whatever their conditions say: not by parts then. Nor an
+    `outline`: that lacks what YAML says, where executables are, and what is wrong in the language of the files.
     """
-    state = State(files, executables, environment, cwd, commands, surroundings, assumed=assumed, outline=outline)
+    state, environment = State(within, by_parts=by_parts, assumed=assumed, outline=outline), within.environment
     path = os.path.normpath(path)
     found = state.read_launch_file(path)
     if isinstance(found, Unreadable):
@@ -107,7 +98,9 @@ def evaluate(
         if (asked_for := names_asked_for(found)) is not None:
             report_undeclared(state, found, args, asked_for)
     note_configs_of_rviz(state, state.nodes)
-    file_params = params_of_files(state, state.nodes, state.params, KnownMeanings(knowledge, environment.distro, 1))
+    file_params = params_of_files(
+        state, state.nodes, state.params, KnownMeanings(within.knowledge, environment.distro, 1)
+    )
     _check_machines(state)
     if not outline:
         _check_language(state)
@@ -311,10 +304,10 @@ _EVALUATED_APART: Mapping[str, _Evaluate] = {"node": _node, "test": _node, "incl
 
 def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default_machine: str | None) -> str | None:
     """As `_file`, for an included file: what it adds by itself is added, or it is evaluated where it is."""
-    surroundings, passed = state.surroundings, passed_to(inside, default_machine)
-    if surroundings is None or passed is None or len(inside.chain) > MAX_REMEMBERED_DEPTH:
+    by_parts, passed = state.by_parts, passed_to(inside, default_machine)
+    if not by_parts or passed is None or len(inside.chain) > MAX_REMEMBERED_DEPTH:
         return _file(state, inside, launch_file, default_machine)
-    record = _alone.answered(state.files.db, PassedArguments(inside.arguments), surroundings, passed)
+    record = _alone.answered(state.files.db, PassedArguments(inside.arguments), state.within, passed)
     if record is None:
         state.depends_on_outside = True
         return _file(state, inside, launch_file, default_machine)
@@ -322,19 +315,17 @@ def _included_file(state: State, inside: Scope, launch_file: LaunchFile, default
         inside.arguments.declared.update(record.declared)
         return record.default_machine
     # A node's name is taken, say: then order matters, and all of it is evaluated in its place.
-    state.surroundings = None
+    state.by_parts = False
     after = _file(state, inside, launch_file, default_machine)
-    state.surroundings = surroundings
+    state.by_parts = by_parts
     return after
 
 
 @query
-def _alone(db: Database, surroundings: Surroundings, passed: Passed) -> Record | None:
+def _alone(db: Database, within: Surroundings, passed: Passed) -> Record | None:
     """What an included file adds, whatever is around it; None where that depends on more than what is passed to it."""
-    files, executables = surroundings.files, surroundings.executables
-    environment, cwd, commands = surroundings.environment, surroundings.cwd, surroundings.commands
-    state = State(files, executables, environment, cwd, commands, surroundings, is_included=True)
-    found = files.launch_file(passed.file, 1)
+    state = State(within, by_parts=True, is_included=True)
+    found = within.files.launch_file(passed.file, 1)
     if isinstance(found, Unreadable):
         return None
     scope = passed.scope(found.document.lines, Arguments(lambda *question: db.ask(question)))

@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Set as AbstractSet
 
 from preflight_analysis.documents.span import Location, Origin, Span
-from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.collector import Collector
-from preflight_analysis.evaluation.commands import Commands
-from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros1.included import Record
 from preflight_analysis.evaluation.ros1.scope import Scope
 from preflight_analysis.evaluation.surroundings import Surroundings
@@ -26,18 +23,14 @@ class State(Collector):
 
     def __init__(
         self,
-        files: Files,
-        executables: Executables,
-        environment: Environment,
-        cwd: str,
-        results: Commands,
-        surroundings: Surroundings | None = None,
+        within: Surroundings,
         *,
+        by_parts: bool = False,
         is_included: bool = False,
         assumed: AbstractSet[Location] = frozenset(),
         outline: bool = False,
     ) -> None:
-        super().__init__(1, files, executables, environment, cwd, results, surroundings, assumed)
+        super().__init__(1, within, by_parts=by_parts, assumed=assumed)
         self.outline = outline
         """Whether nobody wants to know what YAML says and where executables are."""
         self.is_included = is_included
@@ -60,17 +53,7 @@ class State(Collector):
 
     def inner(self) -> State:
         """A state for one tag alone, to be taken over with `absorb`."""
-        within = self.surroundings
-        inner = State(
-            self.files,
-            self.executables,
-            self.environment,
-            self.cwd,
-            self.results,
-            within,
-            is_included=self.is_included,
-            assumed=self._assumed,
-        )
+        inner = State(self.within, by_parts=self.by_parts, is_included=self.is_included, assumed=self._assumed)
         inner._digests, inner._room = self._digests, self._room
         return inner
 

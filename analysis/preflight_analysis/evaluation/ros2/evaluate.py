@@ -9,9 +9,6 @@ from functools import cache
 
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Location
-from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.commands import Commands, NoResults
-from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.known_files import params_of_files
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.problems import DuplicateNode
@@ -31,48 +28,41 @@ from preflight_analysis.evaluation.ros2.walk import Ros2Language, Walk
 from preflight_analysis.evaluation.rviz import note_configs_of_rviz
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
-from preflight_analysis.knowledge.model import Knowledge
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.problems import LanguageProblem
-
-NO_RESULTS = NoResults()
 
 
 def evaluate_ros2(
     path: str,
     args: Mapping[str, str],
-    files: Files,
-    executables: Executables,
-    environment: Environment,
-    cwd: str,
-    commands: Commands = NO_RESULTS,
-    surroundings: Surroundings | None = None,
+    within: Surroundings,
+    *,
+    by_parts: bool = False,
     assumed: AbstractSet[Location] = frozenset(),
     variables: Mapping[str, str] | None = None,
-    *,
-    knowledge: tuple[Knowledge, ...] = (),
 ) -> LaunchTree:
     """What `ros2 launch path name:=value...` would start.
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. What
     starts of processes bring about comes after the rest, then, marked as deferred, what timers and other events do.
-    Reads through `files` only; runs nothing. With `surroundings`, of the same things, and within a query, parts are
-    remembered. The tags at `assumed` are taken whatever their conditions say, and `variables` of the environment are
-    others; give no `surroundings` then. `knowledge` is that of the user's own files.
+    Reads through `within.files` only; runs nothing. `by_parts`: within a query, parts are remembered for these
+    surroundings. The tags at `assumed` are taken whatever their conditions say, and `variables` of the environment are
+    others: not by parts then.
     """
-    within = surroundings if files.db.is_making else None
     try:
-        state = State(files, executables, environment, cwd, commands, within, assumed=assumed)
+        state = State(within, by_parts=by_parts and within.files.db.is_making, assumed=assumed)
         _launch(path, args, variables or {}, state)
     except NotByPartsError:
-        state = State(files, executables, environment, cwd, commands, assumed=assumed)
+        state = State(within, assumed=assumed)
         _launch(path, args, variables or {}, state)
     note_files_of_spawners(state)
     note_files_of_bridges(state)
     note_files_of_domain_bridges(state)
     note_configs_of_rviz(state, state.nodes)
-    file_params = params_of_files(state, state.nodes, None, KnownMeanings(knowledge, environment.distro, 2))
+    file_params = params_of_files(
+        state, state.nodes, None, KnownMeanings(within.knowledge, within.environment.distro, 2)
+    )
     simulated = simulated_managers(state)
     return LaunchTree(
         os.path.normpath(path),

@@ -14,7 +14,7 @@ from preflight_analysis.launch.model import Substitution, Value
 def named_in_catalogue(state: State, context: Context, place: Place, value: Value) -> CataloguedFile | None:
     """The file that the value of an include names, which is not known; None where the catalogue has nothing of its
     package."""
-    quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
+    quiet = State(state.within)
     path = _Performer(quiet, context, place).value(value)
     return in_catalogue(path.text, 2, state.environment) if path.known else None
 

@@ -65,12 +65,10 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
         return None
     if any(part.command not in ("find-pkg-share", "find-pkg-prefix", "env") for part in value.substitutions):
         return None
-    within = state.surroundings
-    if within is not None:
-        path = _path_without_context(state.files.db, within, _file_of(action))
+    if state.by_parts:
+        path = _path_without_context(state.files.db, state.within, _file_of(action))
     else:
-        within = Surroundings(state.files, state.executables, state.environment, state.cwd, state.results)
-        path = _path(within, value)
+        path = _path(state.within, value)
     if path is None:
         return None
     found = state.read_launch_file(path)
@@ -78,7 +76,7 @@ def _included_without_context(walk: Walk, file: LaunchFile, action: Action) -> L
         return None
     if found.is_python:
         # Whether it is executed at all is not known yet: launch keeps to itself what it raises now.
-        quiet = State(state.files, state.executables, state.environment, state.cwd, state.results)
+        quiet = State(state.within)
         quiet.commands, quiet.inputs = state.commands, state.inputs
         found, _ = recorded(quiet, walk.context, found, (file.document.location(value.span),))
     return None if found.partial else found
@@ -99,7 +97,7 @@ def _path_without_context(db: Database, within: Surroundings, value: Value | Non
 
 def _path(within: Surroundings, value: Value) -> str | None:
     """The file that a value leads to that asks for no launch configuration."""
-    quiet = State(within.files, within.executables, within.environment, within.cwd, within.commands)
+    quiet = State(within)
     empty, nowhere = Context(within.environment.variables, NO_CLASSES), Place("", LineIndex(""), ())
     result = Performer(quiet, empty, nowhere).value(value)
     if result.known:

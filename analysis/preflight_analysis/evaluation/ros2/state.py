@@ -9,11 +9,8 @@ from typing import cast
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin
-from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation.before import Before, Question
 from preflight_analysis.evaluation.collector import Collected, Collector
-from preflight_analysis.evaluation.commands import Commands
-from preflight_analysis.evaluation.files import Executables, Files
 from preflight_analysis.evaluation.ros2.context import NotByPartsError
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.tree import Arg, Edited, Include
@@ -39,16 +36,13 @@ class State(Collector):
 
     def __init__(
         self,
-        files: Files,
-        executables: Executables,
-        environment: Environment,
-        cwd: str,
-        results: Commands,
-        surroundings: Surroundings | None = None,
+        within: Surroundings,
+        *,
+        by_parts: bool = False,
         before: Before | None = None,
         assumed: AbstractSet[Location] = frozenset(),
     ) -> None:
-        super().__init__(2, files, executables, environment, cwd, results, surroundings, assumed)
+        super().__init__(2, within, by_parts=by_parts, assumed=assumed)
         self.nodes_before: list[int] = []
         """For each include how many nodes came before it."""
         self._before = before
@@ -69,8 +63,7 @@ class State(Collector):
 
     def part(self, before: Before) -> State:
         """That of a part that comes next."""
-        within = self.surroundings
-        part = State(self.files, self.executables, self.environment, self.cwd, self.results, within, before)
+        part = State(self.within, by_parts=self.by_parts, before=before)
         part._room, part._first_room = [*self._room], self._room[0]
         part._includes_before = self.include_count
         return part
@@ -136,6 +129,6 @@ class State(Collector):
     def has_room(self, length: int, origin: Origin) -> bool:
         """As for any launch; what there is no room for depends on all that comes before."""
         found = super().has_room(length, origin)
-        if self.surroundings is not None and not found:
+        if self.by_parts and not found:
             raise NotByPartsError
         return found

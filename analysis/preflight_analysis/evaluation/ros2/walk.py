@@ -189,14 +189,14 @@ class Walk:
     def _key(self, place: Place, action: Action) -> Hashable | None:
         """All that a part depends on beside what it asks for and reads; None for what is evaluated where it is: what
         is not written by itself, and what is too deep for Python's stack."""
-        if self.state.surroundings is None or place.partial or len(place.chain) > MAX_DEPTH_OF_PARTS:
+        if not self.state.by_parts or place.partial or len(place.chain) > MAX_DEPTH_OF_PARTS:
             return None
         written = place.written(action)
         if written is None:
             return None
         lines, source = place.lines.lines_of(written), place.lines.text[slice(*written)]
         size = len(action.attributes), len(action.children)
-        where = self.state.surroundings, place.file, place.chain, self._depth, self.deferred
+        where = self.state.within, place.file, place.chain, self._depth, self.deferred
         return where, action.kind, size, source, written.start - lines[0].start, lines
 
     def _part(self, key: Hashable, performer: Performer, action: Action, known: LaunchAction) -> None:
@@ -259,7 +259,7 @@ class Walk:
         """Whether an action may not hold others or include a file, as there are too many already, which is noted."""
         if self._depth <= MAX_DEPTH and self.state.include_count <= MAX_INCLUDES:
             return False
-        if self.state.surroundings is not None:
+        if self.state.by_parts:
             raise NotByPartsError
         if not self._exhausted:
             self._exhausted = True
