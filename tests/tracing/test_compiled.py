@@ -48,7 +48,9 @@ def test_a_run_uses_the_copy(tmp_path: Path) -> None:
     script = write_node(tmp_path, "import rospy\nrospy.init_node('n')\nrospy.spin()")
     asked = request(script)
     visible = Visible((*visible_paths(environment(tmp_path)), str(tmp_path)))
-    raw = run.execute(make(environment(tmp_path), asked), {}, visible, SYSTEM_PYTHON, threading.Event(), agents)
+    raw = run.execute(
+        make(environment(tmp_path), asked), {}, run.Inside(visible, SYSTEM_PYTHON, threading.Event(), agents)
+    )
     assert [r["own"]["status"] for r in raw.records if r.get("own", {}).get("ev") == "end"] == ["spinning"]
     assert {"node": {"ev": "woven"}} in raw.records
 

@@ -11,7 +11,7 @@ from preflight_analysis.frames.build import build_frames
 from preflight_analysis.frames.model import Edge, Frames, Mention, Use
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.robot.sources import place_of, text_place
+from preflight_analysis.robot.sources import Attribute, place_of, text_place
 
 
 def frames_of(context: Context) -> Frames:
@@ -35,7 +35,9 @@ def place_of_edge(context: Context, edge: Edge) -> Location:
     """Where a transform comes from: the joint in the URDF or xacro file, else the node or parameter that says it."""
     joint = edge.detail.removeprefix("joint ") if edge.how == "urdf" else ""
     if edge.robot is not None and joint and not edge.catalogued:
-        return place_of(edge.robot, context.disk, context.environment, "joint", "name", joint) or edge.location
+        return (
+            place_of(edge.robot, context.disk, context.environment, Attribute("joint", "name", joint)) or edge.location
+        )
     return edge.location
 
 

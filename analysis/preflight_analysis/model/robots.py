@@ -9,7 +9,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.findings.finding import Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of
-from preflight_analysis.robot.sources import argument_place, place_of
+from preflight_analysis.robot.sources import Attribute, argument_place, place_of
 
 LENIENT_ROS2_CONTROL = ("foxy", "galactic", "humble", "iron")
 """Distributions whose ros2_control does not compare `<ros2_control>` with the joints of the robot."""
@@ -31,7 +31,7 @@ def written(
     """Where an attribute of the description is written, else the argument of a macro that it comes from, and the
     parameter that holds the description; that parameter alone where the place is not known."""
     parameter = robot.param.place
-    place = place_of(robot, context.disk, context.environment, tag, attribute, value, within)
+    place = place_of(robot, context.disk, context.environment, Attribute(tag, attribute, value, within))
     if place is None:
         place = argument_place(robot, context.disk, context.environment, value)
     if place is None:

@@ -14,7 +14,7 @@ from preflight_analysis.model.frames import frames_of, place_of_edge, place_of_m
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.places import place
 from preflight_analysis.queries.query_context import QueryContext
-from preflight_analysis.robot.sources import place_of
+from preflight_analysis.robot.sources import Attribute, place_of
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN = 8
@@ -86,7 +86,7 @@ def _places(context: QueryContext, symbol: FrameSymbol, edge: Edge) -> Iterator[
     if edge.how == "urdf" and edge.robot is not None and not edge.catalogued:
         # What `frame_prefix` puts before it is no part of the link's name.
         link = next((each for each in edge.robot.description.links if symbol.frame.endswith(each)), "")
-        found = place_of(edge.robot, rules.disk, rules.environment, "link", "name", link) if link else None
+        found = place_of(edge.robot, rules.disk, rules.environment, Attribute("link", "name", link)) if link else None
         yield from (found,) if found is not None else ()
     yield place_of_edge(rules, edge)
 

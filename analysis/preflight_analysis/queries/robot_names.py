@@ -18,7 +18,7 @@ from preflight_analysis.model.moveit import known_to_moveit
 from preflight_analysis.queries.frames import FrameSymbol, named_at
 from preflight_analysis.robot.of_launch import Described, Robot, SemanticRobot, robots_of, semantics_of
 from preflight_analysis.robot.semantic import NAMING_GROUPS, NAMING_JOINTS, NAMING_LINKS
-from preflight_analysis.robot.sources import AROUND, SourceFile, Written, files_of, named_file, place_of
+from preflight_analysis.robot.sources import AROUND, Attribute, SourceFile, Written, files_of, named_file, place_of
 from preflight_analysis.workspace.workspace import Analysis
 
 Kind = Literal["link", "joint", "group"]
@@ -146,7 +146,8 @@ def declared_at(name: RobotName) -> tuple[Location, ...]:
     context = name.source.analysis.context
     if described is None:
         return ()
-    found = (place_of(described, context.disk, context.environment, name.kind, "name", each) for each in name.names)
+    sought = (Attribute(name.kind, "name", each) for each in name.names)
+    found = (place_of(described, context.disk, context.environment, each) for each in sought)
     return tuple(dict.fromkeys(place for place in found if place is not None))
 
 

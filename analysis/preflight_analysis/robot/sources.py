@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk, text_of
@@ -86,21 +87,23 @@ def files_of(robot: Described, disk: Disk, environment: Environment) -> tuple[So
     return _files(disk.db, environment, top) if top is not None else ()
 
 
-def place_of(
-    robot: Described,
-    disk: Disk,
-    environment: Environment,
-    tag: str,
-    attribute: str,
-    value: str,
-    within: str = "",
-) -> Location | None:
-    """Where an attribute is written whose value is `value` in the description: the first place that has it literally,
-    else the one that has most of it so. None where that is not known, or several places may have made it."""
+class Attribute(NamedTuple):
+    """One of an element of a description, which may be `within` another one, with its value."""
+
+    tag: str
+    name: str
+    value: str
+    within: str = ""
+
+
+def place_of(robot: Described, disk: Disk, environment: Environment, sought: Attribute) -> Location | None:
+    """Where an attribute is written: the first place that has its value literally, else the one that has most of it so.
+    None where that is not known, or several places may have made it."""
     found: list[tuple[int, Location]] = []
     for file in files_of(robot, disk, environment):
         for each in file.written:
-            if (each.within, each.tag, each.attribute) == (within, tag, attribute) and each.may_be(value):
+            named = (each.tag, each.attribute, each.within) == (sought.tag, sought.name, sought.within)
+            if named and each.may_be(sought.value):
                 if each.is_literal:
                     return file.document.location(each.span)
                 found.append((each.literal, file.document.location(each.span)))
@@ -121,15 +124,13 @@ def argument_place(robot: Described, disk: Disk, environment: Environment, value
     return found[0] if len(found) == 1 else None
 
 
-def places_of(
-    robot: Described, disk: Disk, environment: Environment, tag: str, attribute: str, value: str, within: str = ""
-) -> tuple[Location, ...]:
+def places_of(robot: Described, disk: Disk, environment: Environment, sought: Attribute) -> tuple[Location, ...]:
     """All places that have the value literally."""
     return tuple(
         file.document.location(each.span)
         for file in files_of(robot, disk, environment)
         for each in file.written
-        if (each.within, each.tag, each.attribute, each.value) == (within, tag, attribute, value)
+        if Attribute(each.tag, each.attribute, each.value, each.within) == sought
     )
 
 

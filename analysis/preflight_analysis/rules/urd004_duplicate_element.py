@@ -11,7 +11,7 @@ from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.robots import robots_in_part, written
 from preflight_analysis.robot.of_launch import Robot
-from preflight_analysis.robot.sources import places_of
+from preflight_analysis.robot.sources import Attribute, places_of
 from preflight_analysis.rules.further_reading import URDF
 from preflight_analysis.rules.rule import Rule
 
@@ -31,7 +31,7 @@ def _repeated(
     for name, count in Counter(names).items():
         if count == 1 or not name:
             continue
-        places = places_of(robot, context.disk, context.environment, tag, "name", name)
+        places = places_of(robot, context.disk, context.environment, Attribute(tag, "name", name))
         message = f"duplicate {tag} '{name}': the robot description has {count} of this name"
         place, related = written(context, robot, tag, "name", name)
         if len(places) > 1:

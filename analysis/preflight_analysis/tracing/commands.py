@@ -318,7 +318,7 @@ class CommandRunner:
         shown = Visible(tuple(job.visible), self._repositories, self._texts)
         agents = compiled.copies().of(self._interpreter, shown)
         before = list(map(identity, job.named))
-        raw = run.execute_command(job.recipe, shown, self._interpreter, cancel, agents)
+        raw = run.execute_command(job.recipe, run.Inside(shown, self._interpreter, cancel, agents))
         ended = _read(raw)
         return _Done(_result(raw, ended), ended, raw.started, before == list(map(identity, job.named)))
 

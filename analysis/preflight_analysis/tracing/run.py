@@ -16,7 +16,7 @@ import threading
 import time
 from collections.abc import Mapping
 from dataclasses import field
-from typing import IO, Any
+from typing import IO, Any, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing import backend, cgroup, interior, sandbox
@@ -94,17 +94,18 @@ class RawRun:
     """Which of the folders inside this run had elsewhere: see `backend.Isolated`."""
 
 
-def execute(
-    recipe: recipes.Recipe,
-    params: Mapping[str, Any],
-    visible: Visible,
-    interpreter: str,
-    cancel: threading.Event,
-    agents: Agents = AGENTS,
-    screen: str | None = None,
-) -> RawRun:
-    """Run a node. `interpreter` is the Python 3.8 or later that the supervisor runs in, `agents` our code for it,
-    `screen` an X server for the node's windows. Raises `OSError` if the sandbox cannot be started."""
+class Inside(NamedTuple):
+    """What a run has around it: what of the host is `visible`, the Python 3.8 or later that the supervisor runs in, and
+    our code for it. `cancel` ends it."""
+
+    visible: Visible
+    interpreter: str
+    cancel: threading.Event
+    agents: Agents = AGENTS
+
+
+def execute(recipe: recipes.Recipe, params: Mapping[str, Any], inside: Inside, screen: str | None = None) -> RawRun:
+    """Run a node; `screen` is an X server for its windows. Raises `OSError` if the sandbox cannot be started."""
     job = {
         "screen": screen,
         "params": encode_params(params),
@@ -117,32 +118,23 @@ def execute(
             "starving": STARVING_SECONDS,
         },
     }
-    return _execute(recipe, job, WALL_SECONDS + STRETCH_SECONDS, visible, interpreter, cancel, agents)
+    return _execute(recipe, job, WALL_SECONDS + STRETCH_SECONDS, inside)
 
 
-def execute_command(
-    recipe: recipes.Recipe, visible: Visible, interpreter: str, cancel: threading.Event, agents: Agents = AGENTS
-) -> RawRun:
+def execute_command(recipe: recipes.Recipe, inside: Inside) -> RawRun:
     """Run a command to its end; what it prints is among the records. Otherwise as `execute`."""
     job = {"output": {"wall": COMMAND_SECONDS, "stretch": COMMAND_STRETCH_SECONDS, "bytes": COMMAND_BYTES}}
     seconds = COMMAND_SECONDS + COMMAND_STRETCH_SECONDS
-    return _execute(recipe, job, seconds, visible, interpreter, cancel, agents)
+    return _execute(recipe, job, seconds, inside)
 
 
 def compile_agents(interpreter: str, visible: Visible, agents: Agents) -> RawRun:
     """Have our own code compiled: one record a module. Raises `OSError` as `execute`."""
-    return _execute(None, {}, COMMAND_SECONDS, visible, interpreter, threading.Event(), agents)
+    return _execute(None, {}, COMMAND_SECONDS, Inside(visible, interpreter, threading.Event(), agents))
 
 
-def _execute(
-    recipe: recipes.Recipe | None,
-    job: Mapping[str, Any],
-    seconds: float,
-    visible: Visible,
-    interpreter: str,
-    cancel: threading.Event,
-    agents: Agents,
-) -> RawRun:
+def _execute(recipe: recipes.Recipe | None, job: Mapping[str, Any], seconds: float, inside: Inside) -> RawRun:
+    visible, interpreter, cancel, agents = inside
     start = (
         f"import sys; sys.path.insert(0, {interior.LIBRARY!r}); from preflight_agents.supervisor import main; main()"
     )

@@ -112,17 +112,15 @@ class Tracer(KeptTraces):
             return _not_run(_OUT_OF_REACH.format(hidden))
         interpreter = self.environment.interpreter(request.generation) or recipes.any_python(self.environment)
         shown = Visible(tuple(visible), self._repositories)
-        agents = compiled.copies().of(interpreter, shown)
-        raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents)
+        inside = run.Inside(shown, interpreter, cancel, compiled.copies().of(interpreter, shown))
+        raw = run.execute(recipe, request.params, inside)
         screen = x_server.server() if (blind := x_server.lacking(raw)) else None
         if screen is not None:
-            raw = run.execute(recipe, request.params, shown, interpreter, cancel, agents, screen)
+            raw = run.execute(recipe, request.params, inside, screen)
         observed = observe(raw, recipe, request)
         if random_names.may_make_up(observed) and not cancel.is_set():
             changed = random_names.otherwise(recipe, observed)
-            again = observe(
-                run.execute(changed, request.params, shown, interpreter, cancel, agents, screen), changed, request
-            )
+            again = observe(run.execute(changed, request.params, inside, screen), changed, request)
             named = random_names.without_made_up(observed.interface, again.interface)
             observed = replace(observed, interface=named, lasting=observed.lasting and again.lasting)
         if blind and screen is None:

@@ -80,9 +80,9 @@ def evaluate(
 
     Never raises for what the files contain: what is wrong is in the tree's problems, and evaluation goes on. Relative
     paths in launch files are relative to `within.cwd`, as in roslaunch. Reads through `within.files` only and runs
-    nothing: what it does not know of commands stands in the tree's `commands`. `by_parts`: includes and tags are remembered for
-    these surroundings. The tags at `assumed` are taken whatever their conditions say: not by parts then. Nor an
-    `outline`: that lacks what YAML says, where executables are, and what is wrong in the language of the files.
+    nothing: what it does not know of commands stands in the tree's `commands`. `by_parts`: includes and tags are
+    remembered for these surroundings. The tags at `assumed` are taken whatever their conditions say: not by parts then.
+    Nor an `outline`: that lacks what YAML says, where executables are, and what is wrong in the language of the files.
     """
     state, environment = State(within, by_parts=by_parts, assumed=assumed, outline=outline), within.environment
     path = os.path.normpath(path)
