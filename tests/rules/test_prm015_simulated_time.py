@@ -105,3 +105,51 @@ def test_the_clock_of_what_has_no_times_does_not_matter() -> None:
         //- interfaces
         {"/clock": {"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}}
     """)
+
+
+_CLASSIC = """
+    //- /sim.launch.xml
+    <launch>
+      <executable cmd="gzserver --verbose -s libgazebo_ros_factory.so beach.world {more}" name="server"/>
+      {expected}
+      <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
+      <node pkg="gazebo_ros" exec="spawn_entity.py" name="spawn" args="-entity cart -topic robot_description"/>
+    </launch>
+    //- /gazebo_ros/package.xml
+    <package format="3"><name>gazebo_ros</name></package>
+    //- interfaces
+    {{"/a": {{}}}}
+"""
+
+
+def test_gazebo_classic_without_the_plugin_that_has_the_clock() -> None:
+    under = "^" * len('<executable cmd="gzserver --verbose -s libgazebo_ros_factory.so beach.world " name="server"/>')
+    said = "'use_sim_time' is true for /a, but Gazebo starts without 'libgazebo_ros_init.so'"
+    check(_CLASSIC.format(more="", expected=f"{under} warning[PRM015] {said}"))
+    check(_CLASSIC.format(more="-s libgazebo_ros_init.so", expected=""))
+
+
+_BRIDGED = """
+    //- /sim.launch.xml
+    <launch>
+      <executable cmd="gz sim -r empty.sdf" name="gazebo"/>
+      <node pkg="ros_gz_bridge" exec="parameter_bridge" name="bridge" args="{bridged}"/>
+      {expected}
+      <node pkg="p" exec="a" name="a"><param name="use_sim_time" value="true"/></node>
+      <node pkg="p" exec="b" name="b"><param name="use_sim_time" value="true"/></node>
+    </launch>
+    //- /ros_gz_bridge/package.xml
+    <package format="3"><name>ros_gz_bridge</name></package>
+    //- interfaces
+    {{"/a": {{}}, "/b": {{}}, "/bridge": {bridge}}}
+"""
+
+
+def test_no_bridge_has_the_clock_of_gazebo() -> None:
+    info = "/stats@ros_gz_interfaces/msg/WorldStatistics[gz.msgs.WorldStatistics"
+    clock = "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"
+    under = "^" * len(f'<node pkg="ros_gz_bridge" exec="parameter_bridge" name="bridge" args="{info}"/>')
+    said = "'use_sim_time' is true for /a and 1 more, but no bridge has Gazebo's '/clock'; time does not advance"
+    check(_BRIDGED.format(bridged=info, expected=f"{under} warning[PRM015] {said}", bridge="{}"))
+    published = '{"publishers": {"/clock": "rosgraph_msgs/msg/Clock"}}'
+    check(_BRIDGED.format(bridged=f"{info} {clock}", expected="", bridge=published))

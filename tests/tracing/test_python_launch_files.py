@@ -667,3 +667,16 @@ def test_a_parameter_that_is_set_again(harness: PythonHarness) -> None:
         ("value': 1", "warning", "'1'"),
         ("rate', 1.0), {'rate': 2.0", "warning", "'1.0'"),
     ]
+
+
+@pytest.mark.parametrize("folder", ["get_package_share_directory('ros_gz_sim')", "FindPackageShare('ros_gz_sim')"])
+def test_a_launch_file_of_a_package_that_is_not_here_is_that_of_the_catalogue(
+    harness: PythonHarness, folder: str
+) -> None:
+    file = f"PathJoinSubstitution([{folder}, 'launch', 'gz_sim.launch.py'])"
+    if folder.startswith("get"):
+        file = f"{folder} + '/launch/gz_sim.launch.py'"
+    passed = "launch_arguments={'gz_args': '-r'}.items()"
+    include = f"IncludeLaunchDescription(PythonLaunchDescriptionSource({file}), {passed})"
+    nodes = harness.launch(_described(harness, include)).tree.nodes
+    assert [node.args.split()[:2] for node in nodes] == [["sim", "-r"]]

@@ -135,6 +135,12 @@ def not_listed(context: Context) -> Iterator[tuple[LaunchNode, Location]]:
             yield node, context.location(path, span_of(first))
 
 
+def is_unread(context: Context, bridge: LaunchNode) -> bool:
+    """Whether a bridge is given a file that is not known."""
+    given = config_file_of(bridge)
+    return given is not None and located(context.disk, context.environment, given) not in context.documents
+
+
 def _files(context: Context) -> Iterator[tuple[str, LaunchNode, Document]]:
     files = {path: node for node in context.tree.nodes if is_bridge(node) and (path := config_file_of(node))}
     for given, node in files.items():

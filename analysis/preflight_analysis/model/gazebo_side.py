@@ -127,11 +127,11 @@ def to_gazebo(context: Context) -> Iterator[Bridge]:
 @derived
 def gazebo_of(context: Context) -> Gazebo | None:
     """The Gazebo that the launch starts; None where it starts none."""
-    worlds = list(_worlds(context))
+    worlds = list(worlds_of(context))
     return _Reader(context).gazebo(worlds) if worlds else None
 
 
-def _worlds(context: Context) -> Iterator[tuple[LaunchNode, str, str]]:
+def worlds_of(context: Context) -> Iterator[tuple[LaunchNode, str, str]]:
     """What starts a simulator, the file of its world and its text; both empty where that is not known."""
     for node in context.tree.nodes:
         if node.kind == "process":

@@ -1,6 +1,6 @@
 """PRM015: nodes on simulated time without a clock, or beside nodes that are not (ROS 2)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.ros2.bridges import is_bridge
@@ -10,7 +10,7 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.arguments import gives
-from preflight_analysis.model.clock import has_clock, publishes_clock
+from preflight_analysis.model.clock import has_clock, publishes_clock, stopped_clock
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import CLOCK_AND_TIME, PARAMETERS
@@ -19,6 +19,7 @@ from preflight_analysis.rules.rule import Rule
 _SHOWN = 3
 _APART = "'use_sim_time' is true for {node}, which has {variable} {other}; '/clock' is published with {one}"
 _DIFFER = "'use_sim_time' is not true for {node}{others}, but for {count} of this launch; their times differ"
+_STOPPED = "'use_sim_time' is true for {node}{others}, but {lacking}; time does not advance"
 _MOST_STEPS = 10
 _TIMELESS = ("static_transform_publisher",)
 """What it sends holds at any time."""
@@ -32,8 +33,24 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     on = [(node, param) for node in nodes if (param := _sim_time(node)) is not None and param.value is True]
     if not on:
         return
-    is_running = has_clock(graph)
-    if not is_running:
+    is_running, stopped = has_clock(graph), stopped_clock(context)
+    if stopped is not None:
+        yield rule.claim(
+            say(_STOPPED, node=on[0][0].name, others=_and_others(on), lacking=stopped.lacking),
+            stopped.at.location,
+            subject=Subject("topic", "/clock"),
+            kind="absent",
+            related=(
+                *(
+                    (Related("Gazebo starts here", stopped.simulator.location),)
+                    if stopped.at is not stopped.simulator
+                    else ()
+                ),
+                Related(f"true for {on[0][0].name}", on[0][1].place),
+                *include_chain(stopped.at.origin),
+            ),
+        )
+    elif not is_running:
         node, param = on[0]
         given = _given(context, param.place)
         related = include_chain(node.origin)
@@ -83,6 +100,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
+def _and_others(on: Sequence[tuple[LaunchNode, Param]]) -> str:
+    return f" and {len(on) - 1} more" if len(on) > 1 else ""
+
+
 def _given(context: Context, place: Location) -> Location:
     """Where the value is written of the parameter whose name is at a place: from one argument to the next, back to a
     default or to what an include passes."""
@@ -123,9 +144,9 @@ RULE = Rule(
     effect="misbehaves",
     kind="conflict",
     sometimes=(Reason.OUTSIDE, Reason.ASSUMED),
-    what="Checks for `use_sim_time` set to true in a launch where no node publishes `/clock`. If a node publishes "
-    "`/clock`, it checks for nodes without `use_sim_time` among a majority with it, and for nodes with it in another "
-    "domain.",
+    what="Checks for `use_sim_time` set to true in a launch where no node publishes `/clock`, or which starts Gazebo "
+    "without the plugin or the bridge for it. If a node publishes `/clock`, it checks for nodes without `use_sim_time` "
+    "among a majority with it, and for nodes with it in another domain.",
     why="Timers of a node on simulated time wait for the first message on `/clock`. Transforms and messages of "
     "nodes on different clocks look too old or too new to each other.",
     example='<set_parameter name="use_sim_time" value="true"/>',

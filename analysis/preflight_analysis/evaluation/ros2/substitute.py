@@ -44,7 +44,7 @@ from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2, par
 
 Parts = tuple[Literal | Substitution, ...]
 
-SHARE = re.compile(r"\$\((?:find-pkg-share|unknown the share folder of) ([\w-]+)\)")
+SHARE = re.compile(r"\$\((?:find-pkg-share|the share folder of) ([\w-]+)\)")
 """The share folder of a package that is not here, as XML and YAML have it and as a Python file that was run."""
 
 
