@@ -8,11 +8,11 @@ from typing import NamedTuple
 from preflight_analysis.evaluation.ros2.bridges import is_bridge
 from preflight_analysis.evaluation.ros2.spawners import SPAWN
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
-from preflight_analysis.evaluation.tree import Include, LaunchNode
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.gazebo_bridges import is_unread
-from preflight_analysis.model.gazebo_side import worlds_of
+from preflight_analysis.model.gazebo_side import is_cut, worlds_of
 
 _SIMULATORS = (
     "gazebo",
@@ -68,7 +68,7 @@ def stopped_clock(context: Context) -> Stopped | None:
     """The simulator that the launch starts, where all of its bridges are known and none has its time, or where it has
     no plugin that publishes that."""
     graph = context.graph
-    if graph is None or has_clock(graph) or not context.tree.complete or any(map(_is_cut, context.tree.includes)):
+    if graph is None or has_clock(graph) or is_cut(context.tree):
         return None
     classic = next(filter(_is_classic, context.tree.nodes), None)
     if classic is not None:
@@ -80,10 +80,6 @@ def stopped_clock(context: Context) -> Stopped | None:
     if any(node.unknowns or is_unknown(node.args) or is_unread(context, node) for node in bridging):
         return None
     return Stopped(simulator, "no bridge has Gazebo's '/clock'", bridging[0] if bridging else simulator)
-
-
-def _is_cut(include: Include) -> bool:
-    return include.path is None
 
 
 def _is_classic(node: LaunchNode) -> bool:

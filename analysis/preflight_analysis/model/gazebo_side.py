@@ -146,8 +146,8 @@ def worlds_of(context: Context) -> Iterator[tuple[LaunchNode, str, str]]:
             yield node, _text(given.get("world_sdf_file")), _text(given.get("world_sdf_string"))
 
 
-def _is_cut(tree: LaunchTree) -> bool:
-    """Whether there may be more that spawns robots than the tree has."""
+def is_cut(tree: LaunchTree) -> bool:
+    """Whether there may be more of the launch than the tree has."""
     if any(include.path is None for include in tree.includes) or any(each.decides for each in tree.unknowns):
         return True
     return any(isinstance(problem.kind, IncludeNotFound) for problem in tree.problems)
@@ -164,7 +164,7 @@ class _Reader:
         self.systems: set[str] = set()
         self.lacks: list[str] = []
         self._lacks_if(bool(unread_of(context.tree)), "a robot description")
-        self._lacks_if(_is_cut(context.tree), "an included launch file")
+        self._lacks_if(is_cut(context.tree), "an included launch file")
         environment = [each for node in context.tree.nodes for each in node.env]
         self._lacks_if(any(key in _CONFIGURED_BY for key, _ in environment), "the configuration of the server")
         self._folders = [path for key, value in environment if key in _RESOURCES for path in value.split(":") if path]
