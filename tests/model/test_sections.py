@@ -195,3 +195,34 @@ def generate_launch_description():
         "/server": ["/r1/server"],
         "/planr": ("misspelt", ["/r1/plan"], []),
     }
+
+
+def test_a_namespace_that_is_a_slip_of_one_in_several_files_is_one_for_all_who_ask(tmp_path: Path) -> None:
+    package = tmp_path / "p"
+    package.mkdir()
+    for at in range(2):
+        (package / f"{at}.yaml").write_text("second_robot:\n  nav:\n    ros__parameters: {a: 1}\n")
+    (package / "main.launch.xml").touch()
+    (package / "ihm.yaml").write_text("seond_robot:\n")
+    there = at_cursor(f"""//- {package}/main.launch.xml
+<launch>
+  <node pkg="p" exec="ihm" name="ihm" namespace="main_robot"><param from="{package}/ihm.yaml"/></node>
+</launch>
+//- {package}/package.xml
+<package><name>p</name></package>
+//- {package}/ihm.yaml
+main_robot:
+  ihm:
+    ros__parameters: {{a: 1}}
+seond_robot:
+  ih$0m:
+    ros__parameters: {{b: 1}}
+""")
+    asked = "id you mean '/second_robot/ihm'? 2 parameter files nearby have that namespace"
+    (claimed,) = [f for f in there.analysis.findings if f.rule == "PRM011"]
+    said = hover([there.analysis], f"{package}/ihm.yaml", there.offset)
+    (found,) = parameters(there.analysis, "b")
+    assert claimed.message == f"section '/seond_robot/ihm' applies to no node; d{asked}"
+    assert said is not None
+    assert f"D{asked}" in said.markdown
+    assert found.unapplied[0].use.reason == f"no node that gets the file is called so; d{asked}"

@@ -6,6 +6,7 @@ launch file wrote (`RewrittenYaml`, `ReplaceString`) stands for the one that it 
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
@@ -24,7 +25,8 @@ from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.nearest import likeness, nearest
+from preflight_analysis.model.written_elsewhere import around
 from preflight_analysis.tracing.interface import Interface
 
 Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
@@ -32,6 +34,10 @@ Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere
 `misspelt`: one has nearly its name; `only`: it is the only section of a node that the file is for; `wildcard`: what it
 fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
 the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
+_KEYS = (re.compile(r"^([A-Za-z]\w*):[ \t]*$", re.MULTILINE),)
+_YAML = (".yaml", ".yml")
+_ENOUGH = 2
+"""Parameter files that have to agree on a namespace."""
 
 
 class Getter(NamedTuple):
@@ -45,16 +51,24 @@ class Getter(NamedTuple):
     beside: bool = False
 
 
+class Slip(NamedTuple):
+    """The key that one is a slip of, whose namespace so many parameter files around have."""
+
+    key: str
+    files: int
+
+
 @dataclass(frozen=True, slots=True)
 class SectionUse:
     """A section, and the nodes to which it applies. Where those are none, `why_not` says why, and `candidates` are the
-    nodes that it was meant for, or with `elsewhere` and `wildcard` those that it names. The answer is open as far as
-    there are `doubts`."""
+    nodes that it was meant for, or with `elsewhere` and `wildcard` those that it names. `slip` is what its key was
+    meant to be where that is no node of this launch. The answer is open as far as there are `doubts`."""
 
     section: Section
     nodes: tuple[Getter, ...]
     why_not: Why | None = None
     candidates: tuple[Getter, ...] = ()
+    slip: Slip | None = None
     doubts: tuple[Doubt, ...] = ()
 
     @property
@@ -69,7 +83,10 @@ class SectionUse:
 
     @property
     def suggestion(self) -> str:
-        """The nodes that it is meant for, as a question; "" without any."""
+        """What it is meant for, as a question, with what speaks for that; "" where that is not known."""
+        if self.slip is not None:
+            key, files = self.slip
+            return f"did you mean '{key}'? {files} parameter files nearby have that namespace"
         return f"did you mean {_enumerated(self.candidates)}?" if self.meant else ""
 
     @property
@@ -84,7 +101,7 @@ class SectionUse:
             return f"{said} {'do' if several else 'does'} not get the file"
         if self.why_not == "wildcard":
             return f"{said} {'are components' if several else 'is a component'}; '/**' is the only wildcard for these"
-        return "no node that gets the file is called so" + (f"; {self.suggestion}" if self.meant else "")
+        return "no node that gets the file is called so" + (f"; {self.suggestion}" if self.suggestion else "")
 
 
 def _enumerated(getters: Iterable[Getter]) -> str:
@@ -224,12 +241,14 @@ def _param_file(context: Context, path: str) -> FileUse | None:
     for at, section in enumerate(file.sections):
         why: Why | None = None
         candidates: Iterable[Getter] = ()
+        slip: Slip | None = None
         if at in reaching:
             pass
         elif not getters:
             why = "not-given"
         elif at in lost or at in unclear:
             why, candidates = meant.get(at, ("nowhere", ()))
+            slip = _slip(context, section) if why == "nowhere" and at in lost else None
         else:
             fitting = [getter for getter, _ in getters if section.fits(getter.name)]
             why, candidates = ("wildcard", fitting) if fitting else ("elsewhere", _called(context, patterns[at]))
@@ -237,8 +256,10 @@ def _param_file(context: Context, path: str) -> FileUse | None:
             COMPUTED=at in unclear,
             ASSUMED=any(each.node.name_inferred for each in candidates),
             CATALOGUE=any(id(each.node) not in by_launch for each in candidates) and why != "elsewhere",
+            UNSEEN=slip is not None,
         )
-        uses.append(SectionUse(section, tuple(reaching[at]), why, tuple(candidates), (*of_file, *said) if why else ()))
+        against = (*of_file, *said) if why else ()
+        uses.append(SectionUse(section, tuple(reaching[at]), why, tuple(candidates), slip, against))
     of_files = tuple(
         each
         for each in lacking
@@ -429,6 +450,24 @@ class _Search:
         declared = {use.name.removeprefix("~") for use in interface.params}
         lists = any(use.access == "list" for use in interface.params)
         return lists or not declared.isdisjoint(param.name for param in section.params)
+
+
+def _slip(context: Context, section: Section) -> Slip | None:
+    """That of a node that the launch has in another namespace: the one of the key is in no other parameter file, and a
+    slip of one that several have."""
+    _, space, *rest = section.pattern.split("/")
+    below = f"/{'/'.join(rest)}"
+    if not section.exact or not rest or not any(node.name.endswith(below) for node in context.tree.nodes):
+        return None
+    keys = around(context, _KEYS, _YAML)
+    if keys.get(space, 0) > 1:
+        return None
+    found = [
+        Slip(f"/{each}{below}", files)
+        for each, files in keys.items()
+        if files >= _ENOUGH and likeness(f"/{space}", f"/{each}") == ("typo", 1)
+    ]
+    return found[0] if len(found) == 1 else None
 
 
 @derived

@@ -1,7 +1,6 @@
 """PRM011: a parameter file that is given to a node and has nothing for it (ROS 2)."""
 
-import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import Section
@@ -9,10 +8,8 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import likeness
 from preflight_analysis.model.problems import enumerated, include_chain, quoted, replacement
-from preflight_analysis.model.sections import FileUse, Getter, SectionUse, param_files
-from preflight_analysis.model.written_elsewhere import around
+from preflight_analysis.model.sections import FileUse, Getter, SectionUse, Slip, param_files
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Rule
 
@@ -20,13 +17,9 @@ _SHOWN = 3
 _OF_OTHERS = "section '{section}' applies to no node that gets this file (only {node}{others})"
 _OF_PROCESS = "section '{section}' applies to no node that gets this file; did you mean '{node}'?"
 _NOT_OF_NODE = "no section of this file applies to {node}; it has sections for {sections}{inferred}"
-_KEYS = (re.compile(r"^([A-Za-z]\w*):[ \t]*$", re.MULTILINE),)
-_ENOUGH = 2
-"""Parameter files that have to agree on a namespace."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    nodes = [node.name for node in context.tree.nodes]
     for used in param_files(context):
         if any("$(" in each.section.pattern for each in used.sections):
             continue  # launch may make any name of a substitution
@@ -34,8 +27,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         for each in used.sections:
             if each.meant:
                 yield _about_key(rule, context, used, each)
-            elif each.is_lost and (meant := _of_other_namespace(context, each.section, nodes)) is not None:
-                yield _about_namespace(rule, context, used.path, each, meant)
+            elif each.slip is not None:
+                yield _about_namespace(rule, context, used.path, each, each.slip)
         for getter, reached in used.lacking:
             # One file for several nodes, with nothing for this one: that is usual.
             key = used.meant_for(getter)
@@ -43,34 +36,15 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield _about_file(rule, context, used, getter, key)
 
 
-def _of_other_namespace(context: Context, section: Section, known: Iterable[str]) -> tuple[str, int] | None:
-    """The key that was meant, and how many files say so, of a node that the launch has in another namespace: the one of
-    the key is in no other parameter file, and a slip of one that several have."""
-    _, space, *rest = section.pattern.split("/") if section.pattern.startswith("/") else ("", "")
-    below = "/".join(rest)
-    if not section.exact or not below or not any(name.endswith(f"/{below}") for name in known):
-        return None
-    keys = around(context, _KEYS, (".yaml", ".yml"))
-    if keys.get(space, 0) > 1:
-        return None
-    found = [(each, count) for each, count in keys.items() if count >= _ENOUGH and _is_slip_of(space, each)]
-    return (f"/{found[0][0]}/{below}", found[0][1]) if len(found) == 1 else None
-
-
-def _is_slip_of(name: str, other: str) -> bool:
-    return likeness(f"/{name}", f"/{other}") == ("typo", 1)
-
-
-def _about_namespace(rule: Rule, context: Context, path: str, lost: SectionUse, meant: tuple[str, int]) -> Finding:
+def _about_namespace(rule: Rule, context: Context, path: str, lost: SectionUse, slip: Slip) -> Finding:
     section = lost.section
     return rule.claim(
-        f"section '{section.pattern}' applies to no node; did you mean '{meant[0]}'? {meant[1]} parameter files nearby "
-        "have that namespace",
+        f"section '{section.pattern}' applies to no node; {lost.suggestion}",
         context.location(path, section.spans[-1]),
         subject=Subject("section", section.pattern),
         kind="near",
-        doubts=(*lost.doubts, *doubts(UNSEEN=True)),
-        candidates=meant[:1],
+        doubts=lost.doubts,
+        candidates=(slip.key,),
         every_root=True,
     )
 
