@@ -8,7 +8,10 @@ from pathlib import Path
 import pytest
 from preflight_analysis.model.sections import param_file, param_files
 from preflight_analysis.queries.hover import hover
+from preflight_analysis.queries.node_names import mentions_of
 from preflight_analysis.queries.parameters import parameters
+from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.workspace import Analysis
 from support.python_launch_harness import PythonHarness
 from support.query_harness import at_cursor
@@ -226,3 +229,44 @@ seond_robot:
     assert said is not None
     assert f"D{asked}" in said.markdown
     assert found.unapplied[0].use.reason == f"no node that gets the file is called so; d{asked}"
+
+
+MANAGED_AND_REWRITTEN = """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from nav2_common.launch import RewrittenYaml
+
+def generate_launch_description():
+    file = os.path.join(get_package_share_directory("p"), "params.yaml")
+    made = RewrittenYaml(source_file=file, param_rewrites={})
+    return LaunchDescription([
+        Node(package="p", executable="robot", parameters=[made]),
+        Node(package="p", executable="pilot", name="pilot", parameters=[made]),
+        Node(package="controller_manager", executable="spawner", arguments=["whels"]),
+    ])
+"""
+
+
+@pytest.mark.ros
+def test_who_asks_of_a_rewritten_file_asks_of_the_one_that_people_edit(tmp_path: Path) -> None:
+    harness = PythonHarness(tmp_path)
+    path = harness.write(
+        "params.yaml",
+        """
+        controller_manager:
+          ros__parameters:
+            wheels: {type: diff_drive_controller/DiffDriveController}
+        pilot: {ros__parameters: {rate: 20.0}}
+        """,
+    )
+    analysis = harness.launch(harness.write("launch/a.launch.py", MANAGED_AND_REWRITTEN))
+    # Some node of the robot's own program is the manager, whose file was written by the launch file.
+    (found,) = [f for f in analysis.findings if f.rule == "PRM019"]
+    assert "did you mean 'wheels'?" in found.message
+    assert harness.workspace is not None
+    context = QueryContext(str(path), (analysis,), WorkspaceIndex(), harness.workspace)
+    pilot = next(node for node in analysis.tree.nodes if node.name == "/pilot")
+    (mention,) = mentions_of(context, (analysis.tree,), frozenset({pilot.name}))
+    assert (mention.value.file, context.text(mention.value)) == (str(path), "pilot")

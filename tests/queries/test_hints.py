@@ -43,6 +43,29 @@ def test_values_with_substitutions_and_no_others() -> None:
     ]
 
 
+def test_the_nodes_to_which_the_sections_of_a_parameter_file_apply() -> None:
+    text = """//- /main.launch.xml
+<launch>
+  <node pkg="p" exec="pump" name="pump" namespace="left"><param from="/p.yaml"/></node>
+  <node pkg="p" exec="pump" name="pump" namespace="right"><param from="/p.yaml"/></node>
+</launch>
+//- /p.yaml
+/**: {ros__parameters: {a: 1}}
+/left/*:
+  ros__parameters: {a: 1}
+left:
+  pump:
+    ros__parameters: {a: 1}
+right:
+  pumo:$0
+    ros__parameters: {a: 1}
+"""
+    assert hinted(text) == ["/**: = /left/pump (+1)", "/left/*: = /left/pump", "pumo: = no node"]
+    there = at_cursor(text)
+    (found,) = hints([there.analysis], there.file, Span(there.offset - 3, there.offset))
+    assert found.note == "no node that gets the file is called so; did you mean '/right/pump'?"
+
+
 def test_several_contexts_show_the_first_value_and_say_so() -> None:
     found = only("""
         <launch>

@@ -30,7 +30,7 @@ def test_interfaces() -> None:
 def test_a_section_of_another_name() -> None:
     assert _said(f"{_MANAGER}arm_controller:\n{_FULL}") == [
         f"warning controller 'arm' has no parameter 'command_interfaces' and 'state_interfaces', which {_TYPE} "
-        "requires; section 'arm_controller' sets it for another node"
+        "requires; section 'arm_controller' sets it, and applies to no node"
     ]
 
 

@@ -61,15 +61,17 @@ def test_parameters_that_are_written_once_for_several_nodes() -> None:
     """)
 
 
-def test_what_is_written_for_whoever_wants_it() -> None:
+@pytest.mark.parametrize("wildcard", ["/**", "/*"])
+def test_what_is_written_for_whoever_wants_it(wildcard: str) -> None:
     """A file of the robot has what some node may want; a slip in it is one all the same."""
-    check("""
+    check(
+        """
         //- /robot.launch.xml
         <launch>
           <node pkg="p" exec="left" name="left"><param from="/robot.yaml"/></node>
         </launch>
         //- /robot.yaml
-        /**:
+        WILDCARD:
           ros__parameters:
             mass_kg: 4.0
             ^^^^^^^ info[PRM013] parameter 'mass_kg' is not declared by /left; its value is ignored
@@ -81,7 +83,8 @@ def test_what_is_written_for_whoever_wants_it() -> None:
             ^^^^ warning[PRM013] parameter 'mass' is not declared by /left; its value is ignored
         //- interfaces
         {"/left": {"params": {"~speed": 6.0}}}
-    """)
+        """.replace("WILDCARD", wildcard)
+    )
 
 
 def test_a_group_that_another_parameter_chooses() -> None:

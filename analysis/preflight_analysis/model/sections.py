@@ -13,7 +13,7 @@ from itertools import chain
 from typing import Literal, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import known_of_nodes
 from preflight_analysis.evaluation.ros2.containers import container_of, containers_of
@@ -128,14 +128,25 @@ class FileUse:
         composable = ((each, each.node.kind == "composable" and not each.beside) for each in self.getters)
         return tuple(each for each, alone in composable if section.reaches(each.name, composable=alone))
 
+    def for_name(self, node: LaunchNode, name: str) -> Iterator[SectionUse]:
+        """The sections for that name as a node of the launch file gets them, in whose process it is."""
+        for path, _, source in _files_of(node):
+            if path == self.path:
+                reached = _Reader(path, self.file).reached(source, node, name)
+                yield from (self.sections[at] for at in sorted(reached))
+
     def meant_for(self, getter: Getter) -> SectionUse | None:
         """The section that is meant for a node, and does not apply to it."""
         return next((each for each in self.sections if any(getter is one for one in each.meant)), None)
 
 
+@derived
 def given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, ParamSource]]]:
     """The parameter files that nodes of a launch get, by the path of what people edit."""
-    return _given_files(context)
+    given: dict[str, list[tuple[LaunchNode, ParamSource]]] = {}
+    for path, node, source in chain.from_iterable(context.each(_files_of, context.tree.nodes_and_simulated)):
+        given.setdefault(path, []).append((node, source))
+    return given
 
 
 def param_files(context: Context) -> tuple[FileUse, ...]:
@@ -150,12 +161,38 @@ def param_file(context: Context, path: str) -> FileUse | None:
     return _param_file(context, path)
 
 
+def files_of(context: Context, node: LaunchNode) -> Iterator[FileUse]:
+    """What is so of the parameter files that a node gets, of each once."""
+    paths = dict.fromkeys(path for path, _, _ in _files_of(node))
+    yield from filter(None, (param_file(context, path) for path in paths))
+
+
+def section_at(context: Context, place: Location) -> SectionUse | None:
+    """The section in which the name of a parameter stands; None where that is in no parameter file."""
+    return _by_place(context, place.file).get(place.span) if is_yaml(place.file) else None
+
+
 @derived
-def _given_files(context: Context) -> Mapping[str, Sequence[tuple[LaunchNode, ParamSource]]]:
-    given: dict[str, list[tuple[LaunchNode, ParamSource]]] = {}
-    for path, node, source in chain.from_iterable(context.each(_files_of, context.tree.nodes_and_simulated)):
-        given.setdefault(path, []).append((node, source))
-    return given
+def _by_place(context: Context, path: str) -> Mapping[Span, SectionUse]:
+    used = param_file(context, path)
+    return {param.name_span: each for each in used.sections for param in each.section.params} if used else {}
+
+
+def taken_by(node: LaunchNode, source: ParamSource, file: ParamFile) -> list[Section]:
+    """The sections that a node takes of a file as people edit it, of which the source is or was made."""
+    reader = _Reader(source.made_from or source.path or "", file)
+    return [file.sections[at] for at in sorted(reader.reached(source, node))]
+
+
+def may_be_called(context: Context, name: str) -> list[LaunchNode]:
+    """The nodes whose name, or that of another one of their process, their own code may make of this: the launch file
+    gives them none, and a parameter file with a section for it."""
+    return [
+        node
+        for node in context.tree.nodes
+        if not (node.named or node.name_from_code or is_spawner(node))
+        and any(each.section.exact for used in files_of(context, node) for each in used.for_name(node, name))
+    ]
 
 
 def _files_of(node: LaunchNode) -> tuple[tuple[str, LaunchNode, ParamSource], ...]:

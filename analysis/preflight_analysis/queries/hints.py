@@ -1,4 +1,5 @@
-"""What values with substitutions come to, to be shown behind them."""
+"""What values with substitutions come to, and to which nodes the sections of parameter files apply, to be shown behind
+them."""
 
 from __future__ import annotations
 
@@ -9,6 +10,8 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation import values
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.substitutions_ros2 import nested
+from preflight_analysis.model.sections import param_file
+from preflight_analysis.queries.param_files import is_param_file
 from preflight_analysis.workspace.workspace import Analysis
 
 MAX_LENGTH = 40
@@ -18,17 +21,21 @@ _SHOWN_VALUES = 10
 
 @dataclass(frozen=True, slots=True)
 class Hint:
-    """A text for a place behind a value. `values` are all that it comes to, in full, the first one shown."""
+    """A text for a place behind a value or a key. `values` are all that it comes to, in full, the first one shown;
+    `note` says why it comes to nothing."""
 
     offset: int
     label: str
     values: tuple[str, ...]
+    note: str = ""
 
 
 def hints(analyses: Sequence[Analysis], file: str, within: Span) -> tuple[Hint, ...]:
     """The hints of a file for the values that touch `within`: in the context that it is shown in (the first of
     `analyses`), and marked where other contexts give other values."""
     launch_file = analyses[0].launch_files.get(file) if analyses else None
+    if launch_file is None and analyses and is_param_file(analyses[0], file):
+        return tuple(_of_sections(analyses, file, within))
     if launch_file is None or launch_file.root is None:
         return ()
     current = launch_file.document.version
@@ -40,6 +47,21 @@ def hints(analyses: Sequence[Analysis], file: str, within: Span) -> tuple[Hint, 
         if given and (hint := _hint(launch_file, attribute, tuple(given))) is not None:
             found.append(hint)
     return tuple(found)
+
+
+def _of_sections(analyses: Sequence[Analysis], file: str, within: Span) -> Iterator[Hint]:
+    """Behind each key to which nodes its section applies, where it does not say so itself."""
+    used = [found for each in analyses if (found := param_file(each.context, file)) is not None]
+    document = analyses[0].context.document(file)
+    for use in used[0].sections if used and document is not None else ():
+        key = use.section.spans[-1]
+        if not used[0].getters or key.end < within.start or key.start > within.end:
+            continue
+        nodes = tuple(dict.fromkeys(node.name for of in used for node in of.nodes_for(use.section.pattern)))
+        if nodes != (use.section.pattern,):
+            others = f" (+{len(nodes) - 1})" if len(nodes) > 1 else ""
+            label = f"= {_short(nodes[0])}{others}" if nodes else "= no node"
+            yield Hint(document.text.find(":", key.end) + 1, label, nodes[:_SHOWN_VALUES], "" if nodes else use.reason)
 
 
 def _known(analyses: Sequence[Analysis], file: str, within: Span) -> dict[Span, dict[str, None]]:

@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.graph.annotations import annotated_names
 from preflight_analysis.launch.model import Action
+from preflight_analysis.model.sections import taken_by
 from preflight_analysis.queries.places import action_at
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import settings_of
@@ -154,16 +155,16 @@ def _in_annotation(context: QueryContext, owner: LaunchNode, wanted: frozenset[s
 def _in_parameter_files(context: QueryContext, owner: LaunchNode) -> Iterator[NodeMention]:
     """The keys in ROS 2's parameter files that end in the node's name."""
     name = names.leaf(owner.name)
-    for path in dict.fromkeys(source.path for source in owner.param_sources if source.path is not None):
-        document = context.document(path)
-        for section in read_param_file(document).sections if document is not None else ():
-            if not section.fits(owner.name) or names.leaf(section.pattern) != name:
+    for path, source in {source.made_from or source.path: source for source in owner.param_sources}.items():
+        document = context.document(path) if path is not None else None
+        for section in taken_by(owner, source, read_param_file(document)) if document is not None else ():
+            if names.leaf(section.pattern) != name:
                 continue
             key = section.spans[-1]
             written = document.text[key.start : key.end] if document is not None else ""
             exact = written == name or written.endswith(f"/{name}")
             last = Span(key.end - len(name), key.end) if exact else None
-            yield NodeMention(owner.name, context.location(path, key), last)
+            yield NodeMention(owner.name, document.location(key), last)
 
 
 def _in_arguments(context: QueryContext, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:

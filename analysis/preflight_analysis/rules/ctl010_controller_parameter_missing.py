@@ -8,16 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.spawners import asked_of
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.controllers import Controller, controllers_of
+from preflight_analysis.model.controllers import controllers_of
 from preflight_analysis.model.problems import include_chain, quoted
+from preflight_analysis.model.sections import files_of
 from preflight_analysis.rules.further_reading import ROS2_CONTROLLERS
 from preflight_analysis.rules.rule import Rule
 
@@ -47,8 +46,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         missing = [name for name in needed if name not in own]
         if not missing:
             continue
-        apart = None if own.intersection(needed) else _apart(context, manager, each, missing[0])
-        reason = f"; section '{apart[0]}' sets it for another node" if apart is not None else ""
+        apart = None if own.intersection(needed) else _apart(context, manager, missing[0])
+        reason = f"; section '{apart[0]}' sets it, and applies to no node" if apart is not None else ""
         yield rule.claim(
             f"controller '{each.name}' has no parameter {quoted(missing)}, which {each.type} requires{reason}",
             each.spawner.location,
@@ -67,15 +66,13 @@ def _is_known(context: Context, manager: LaunchNode, spawner: LaunchNode) -> boo
     return all(path in context.documents for path in (*given, *asked.files))
 
 
-def _apart(context: Context, manager: LaunchNode, controller: Controller, name: str) -> tuple[str, Related] | None:
-    """The only section of the manager's files that has the parameter and is for no controller of the launch."""
-    others = {names.join(manager.namespace, each.name) for each in controllers_of(context)}
+def _apart(context: Context, manager: LaunchNode, name: str) -> tuple[str, Related] | None:
+    """The only section of the manager's files that has the parameter and applies to no node."""
     found = [
-        (section.key, Related("the section", context.location(document.path, section.spans[-1])))
-        for source in manager.param_sources
-        if source.path is not None and (document := context.documents.get(source.path)) is not None
-        for section in read_param_file(document).sections
-        if section.exact and section.pattern not in others and any(param.name == name for param in section.params)
+        (each.section.key, Related("the section", context.location(used.path, each.section.spans[-1])))
+        for used in files_of(context, manager)
+        for each in used.sections
+        if each.section.exact and not each.nodes and any(param.name == name for param in each.section.params)
     ]
     return found[0] if len(found) == 1 else None
 

@@ -5,7 +5,6 @@ from collections.abc import Collection, Iterable, Iterator
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
-from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject, say
@@ -18,6 +17,7 @@ from preflight_analysis.model.parameters import OF_ALL_NODES
 from preflight_analysis.model.params_in_sources import may_be_made
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, replacement
+from preflight_analysis.model.sections import is_for_all, section_at
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
@@ -133,19 +133,12 @@ def _declared(node: LaunchNode, interface: Interface) -> dict[str, ParamUse] | N
 
 
 def _is_for_all(context: Context, node: LaunchNode, param: Param) -> bool:
-    """Whether it is written for whoever wants it: below `/**` in a file that is not the node's own."""
-    path = next(
-        (
-            source.path
-            for source in node.param_sources
-            for key, each in zip(source.keys, source.params, strict=False)
-            if key == EVERY and each.name_location == param.name_location
-        ),
-        None,
-    )
-    if path is None:
+    """Whether it is written for whoever wants it: in a section for any node, of a file that is not the node's own."""
+    place = param.name_location
+    section = section_at(context, place) if place is not None else None
+    if place is None or section is None or not is_for_all(section.section):
         return False
-    owner = package_around(context.environment, path)
+    owner = package_around(context.environment, place.file)
     return owner is None or owner.name != node.package
 
 

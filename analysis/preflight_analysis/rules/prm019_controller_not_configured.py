@@ -9,14 +9,12 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterable, Iterator
 
-from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.conditions import named_arguments
 from preflight_analysis.evaluation.ros1.spawners import Asked as AskedScript
 from preflight_analysis.evaluation.ros1.spawners import asked_of as asked_of_script
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
-from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.ros2.spawners import Asked, asked_of, is_spawner, type_in
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -27,6 +25,7 @@ from preflight_analysis.launch.model import action_at
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import is_slip, nearest
 from preflight_analysis.model.problems import include_chain, quoted, rename
+from preflight_analysis.model.sections import FileUse, files_of, may_be_called, param_file
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER
 from preflight_analysis.rules.rule import Rule
 
@@ -118,12 +117,13 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
         typed = (param.name.removesuffix(".type") for param in manager.params if param.name.endswith(".type"))
         known = [name for name in typed if "." not in name]
         files = [source for source in manager.param_sources if source.path is not None]
-        given = [context.documents[path] for path in map(os.path.normpath, each.files)]
+        paths = [*map(os.path.normpath, each.files)]
+        given, of_spawner = [context.documents[path] for path in paths], [*_files(context, paths)]
         for controller in each.controllers:
             if controller in known or type_in(given, controller, each.namespace) is not None:
                 continue
-            apart = _apart(context, controller, [*given, *_documents(context, manager)])
-            apart = apart or _for_the_manager(context, controller, given)
+            apart = _apart(context, controller, [*of_spawner, *files_of(context, manager)])
+            apart = apart or _for_the_manager(context, controller, of_spawner)
             # A manager without any types may get them of what is not known.
             if known or apart is not None or (files and context.tree.complete):
                 related = [Related(f"parameters of {manager.name}", source.origin[-1]) for source in files[:1]]
@@ -141,37 +141,34 @@ def _known(context: Context, spawner: LaunchNode) -> Asked | None:
     return asked if asked.files and not asked.type and _are_known(context, asked.files) else None
 
 
+def _files(context: Context, paths: Iterable[str]) -> Iterator[FileUse]:
+    return filter(None, (param_file(context, path) for path in paths))
+
+
 def _are_known(context: Context, files: Iterable[str]) -> bool:
     return all(os.path.normpath(path) in context.documents for path in files)
 
 
-def _documents(context: Context, manager: LaunchNode) -> Iterator[Document]:
-    for source in manager.param_sources:
-        document = context.documents.get(source.path) if source.path is not None else None
-        if document is not None:
-            yield document
-
-
-def _apart(context: Context, controller: str, documents: Iterable[Document]) -> tuple[str, Location] | None:
+def _apart(context: Context, controller: str, files: Iterable[FileUse]) -> tuple[str, Location] | None:
     """Where the type is set for the controller itself, which neither the manager nor the spawner reads: the key of that
     section, and the place."""
-    for document in documents:
-        for section in read_param_file(document).sections:
+    for used in files:
+        for section in (each.section for each in used.sections):
             if not section.exact or names.leaf(section.pattern) != controller:
                 continue
             for param in section.params:
                 if param.name == "type":
-                    return section.key, context.location(document.path, param.name_span)
+                    return section.key, context.location(used.path, param.name_span)
     return None
 
 
-def _for_the_manager(context: Context, controller: str, documents: Iterable[Document]) -> tuple[str, Location] | None:
+def _for_the_manager(context: Context, controller: str, files: Iterable[FileUse]) -> tuple[str, Location] | None:
     """The same where a file of the spawner has the type as a parameter of the manager, which does not get the file."""
-    for document in documents:
-        for section in read_param_file(document).sections:
+    for used in files:
+        for section in (each.section for each in used.sections):
             for param in section.params:
                 if param.name == f"{controller}.type":
-                    return section.key, context.location(document.path, param.name_span)
+                    return section.key, context.location(used.path, param.name_span)
     return None
 
 
@@ -223,20 +220,12 @@ def _controllers(node: LaunchNode) -> tuple[str, ...]:
 
 
 def _manager(context: Context, name: str) -> LaunchNode | None:
-    """The node that is the manager of this name, or makes it: whatever program has one in it, its own code names it,
-    and a parameter file that it gets has something for that name. None where that is not one, or not all known."""
+    """The node that is the manager of this name, or makes it, whatever program has one in it. None where that is not
+    one, or not all known."""
     found = [node for node in context.tree.nodes_and_simulated if node.name == name]
-    for node in context.tree.nodes if not found else ():
-        if not (node.named or node.name_from_code or is_spawner(node)) and _has_section(context, node, name):
-            found.append(of_name(node, name, context.documents, inferred=True))
+    if not found:
+        found = [of_name(node, name, context.documents, inferred=True) for node in may_be_called(context, name)]
     return found[0] if len(found) == 1 and not found[0].unknowns else None
-
-
-def _has_section(context: Context, node: LaunchNode, name: str) -> bool:
-    documents = (context.documents.get(each.path) for each in node.param_sources if each.path is not None)
-    return any(
-        section.exact for each in documents if each is not None for section in read_param_file(each).reaching(name)
-    )
 
 
 RULE = Rule(

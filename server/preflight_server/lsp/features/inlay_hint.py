@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lsprotocol import types
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.markdown import code
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.queries.hints import Hint
 from preflight_analysis.queries.hints import hints as query
 
@@ -41,6 +41,8 @@ async def _hints(ls: PreflightServer, uri: str, within: Span | types.Range) -> t
 
 def _converted(hints: Iterable[Hint], positions: Positions) -> list[types.InlayHint]:
     def tooltip(hint: Hint) -> types.MarkupContent | None:
+        if hint.note:
+            return types.MarkupContent(types.MarkupKind.Markdown, escaped(hint.note))
         if hint.label == f"= {hint.values[0]}":
             return None
         lines = [f"- {code(value)}" for value in hint.values] if len(hint.values) > 1 else [code(hint.values[0])]
