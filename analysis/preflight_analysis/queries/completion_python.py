@@ -81,7 +81,7 @@ def _paths(analysis: Analysis, file: str, found: PythonPlace, folder: str) -> It
     where = resolved(analysis, file, found.before + folder)
     if where is not None and where.startswith("/"):
         written = (found.before + folder).rstrip("/")
-        yield from listed(analysis.environment, written, where, _SUFFIXES.get(found.kind, ()))
+        yield from listed(analysis.context, written, where, _SUFFIXES.get(found.kind, ()))
 
 
 def _arguments(analysis: Analysis, file: str, found: PythonPlace) -> Iterator[Item]:

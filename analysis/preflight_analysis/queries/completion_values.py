@@ -311,7 +311,7 @@ def _path(asked: Asked, written: str, kind: Kind) -> Completion | None:
     where = resolved(asked.analysis, asked.file, f"{folder}/")
     if where is None or not where.startswith("/"):
         return None
-    items = listed(asked.analysis.environment, folder, where, asked.language.suffixes.get(kind, ()))
+    items = listed(asked.analysis.context, folder, where, asked.language.suffixes.get(kind, ()))
     return Completion(asked.word(typed, _PATH_END), tuple(items))
 
 

@@ -53,9 +53,11 @@ def _of_sections(analyses: Sequence[Analysis], file: str, within: Span) -> Itera
     """Behind each key to which nodes its section applies, where it does not say so itself."""
     used = [found for each in analyses if (found := param_file(each.context, file)) is not None]
     document = analyses[0].context.document(file)
-    for use in used[0].sections if used and document is not None else ():
+    if not used or document is None or not used[0].getters:
+        return
+    for use in used[0].sections:
         key = use.section.spans[-1]
-        if not used[0].getters or key.end < within.start or key.start > within.end:
+        if key.end < within.start or key.start > within.end:
             continue
         nodes = tuple(dict.fromkeys(node.name for of in used for node in of.nodes_for(use.section.pattern)))
         if nodes != (use.section.pattern,):

@@ -21,6 +21,7 @@ from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
+from preflight_analysis.model.installation import named_installation
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.bridges import bridge_hover
 from preflight_analysis.queries.frames import frame_hover
@@ -122,6 +123,8 @@ def hover(
     contexts = _contexts(analyses, file, offset, unseen) if found else ""
     if found is not None and contexts:
         found = Hover(f"{found.markdown}\n\n{contexts}", found.span)
+    if found is not None and (problem := _not_installed(analyses, file, offset)):
+        found = Hover(f"{found.markdown}\n\n{escaped(problem)}", found.span)
     launch_file = next((a.launch_files[file] for a in analyses if file in a.launch_files), None)
     language = described(launch_file, offset) if launch_file is not None else None
     if language is None:
@@ -129,6 +132,14 @@ def hover(
     if found is None:
         return Hover(*language)
     return Hover(f"{found.markdown}\n\n---\n\n{language[0]}", found.span)
+
+
+def _not_installed(analyses: Sequence[Analysis], file: str, offset: int) -> str:
+    """Why a file that is named here will not be in the share folder; "" where it will, or may."""
+    uses = ((analysis, use) for analysis in analyses for use in uses_at(analysis.tree, file, offset))
+    found = (named_installation(analysis.context, use) for analysis, use in uses)
+    problem = next((each.problem for each in found if each is not None and each.problem), "")
+    return f"{problem[:1].upper()}{problem[1:]}" if problem else ""
 
 
 def _left_out(context: QueryContext, tag: NotTaken) -> str:

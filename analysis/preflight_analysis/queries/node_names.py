@@ -157,11 +157,13 @@ def _in_parameter_files(context: QueryContext, owner: LaunchNode) -> Iterator[No
     name = names.leaf(owner.name)
     for path, source in {source.made_from or source.path: source for source in owner.param_sources}.items():
         document = context.document(path) if path is not None else None
-        for section in taken_by(owner, source, read_param_file(document)) if document is not None else ():
+        if document is None:
+            continue
+        for section in taken_by(owner, source, read_param_file(document)):
             if names.leaf(section.pattern) != name:
                 continue
             key = section.spans[-1]
-            written = document.text[key.start : key.end] if document is not None else ""
+            written = document.text[key.start : key.end]
             exact = written == name or written.endswith(f"/{name}")
             last = Span(key.end - len(name), key.end) if exact else None
             yield NodeMention(owner.name, document.location(key), last)

@@ -11,7 +11,7 @@ from itertools import chain, compress
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
-from preflight_analysis.environment.installed_paths import located, made_by_build
+from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
@@ -24,6 +24,7 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.elsewhere import depends_on_working_folder
 from preflight_analysis.model.files import nearest_file, package_folder
 from preflight_analysis.model.given_in_vain import others_in_vain
+from preflight_analysis.model.installation import will_be_there
 from preflight_analysis.model.installed import is_made_of_template, may_be_made
 from preflight_analysis.model.meant import meant_values
 from preflight_analysis.model.places import argument_location
@@ -239,7 +240,7 @@ def _missing(text: str, context: Context) -> Iterator[str]:
             continue
         below = normal[len(inside) :]
         made = _made_when_run(below) or _is_built(below, inside, context) or is_made_of_template(context, normal)
-        if not made and made_by_build(context.disk, context.environment, normal) is None:
+        if not made and not will_be_there(context, normal):
             yield normal
 
 
