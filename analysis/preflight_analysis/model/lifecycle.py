@@ -9,8 +9,11 @@ from typing import NamedTuple
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.named_nodes import managed_by, missing_nodes
+from preflight_analysis.model.problems import quoted
 from preflight_analysis.tracing.interface import CHANGE_STATE, Interface
 
 _KNOWN = frozenset(
@@ -34,17 +37,35 @@ _KNOWN = frozenset(
 _LOAD = "composition_interfaces/srv/LoadNode"
 _SET = re.compile(r"\blifecycle\s+set\s+(\S+)\s+(\w+)")
 """`ros2 lifecycle set /node configure`, in a shell as well."""
+_SHOWN = 3
 _TO_ACTIVE = ("configure", "activate")
 
 
 class Inactive(NamedTuple):
     """A lifecycle node that nothing brings to the state `active`. `lacking` is the first transition of those that it
-    needs that nothing asks it for."""
+    needs that nothing asks it for, `managed` are the nodes that lifecycle managers manage, `doubts` what speaks against
+    it."""
 
     node: LaunchNode
     lacking: str
+    managed: tuple[str, ...]
+    doubts: tuple[Doubt, ...]
+
+    @property
+    def reason(self) -> str:
+        """What keeps it from being active, in words that go on from its name."""
+        what = "never activated" if self.lacking == "configure" else "configured, but never activated"
+        managers = f"the lifecycle managers manage {quoted(self.managed[:_SHOWN])}"
+        who = managers if self.managed else "no lifecycle manager"
+        return f"is {what} by this launch ({who}); it does nothing until it is active"
 
 
+def inactive(context: Context, node: LaunchNode) -> Inactive | None:
+    """What keeps a node of the launch from being active; None where nothing does, or that is not known."""
+    return next((each for each in inactive_nodes(context) if each.node.name == node.name), None)
+
+
+@derived
 def inactive_nodes(context: Context) -> tuple[Inactive, ...]:
     """Those of a launch; none where something that is not known may activate nodes."""
     waiting = [*_waiting(context)]
@@ -62,8 +83,18 @@ def inactive_nodes(context: Context) -> tuple[Inactive, ...]:
         asked = {*own, *by_command.get(node.name, ()), *(c.transition for c in changes if c.may_be_for(node))}
         lacking = next((each for each in _TO_ACTIVE if each not in asked), None)
         if node.name not in settled and None not in asked and lacking is not None:
-            found.append(Inactive(node, lacking))
-    return tuple(found)
+            found.append((node, lacking))
+    # A launch of such a node alone is for somebody who activates it by hand.
+    alone = len({id(node) for node, _ in found}) >= len(context.tree.nodes)
+    graph = context.graph
+    known = graph is not None and context.tree.complete and all(map(_is_known, graph.interfaces))
+    against = doubts(OUTSIDE=not known, INTENDED=alone)
+    return tuple(Inactive(node, lacking, tuple(managed), against) for node, lacking in found)
+
+
+def _is_known(interface: Interface) -> bool:
+    """Whether a client of the service by which states are changed would be known."""
+    return interface.likely_complete or interface.source == "catalogue"
 
 
 def may_be_active_by_itself(node: LaunchNode) -> bool:

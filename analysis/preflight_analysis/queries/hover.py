@@ -22,6 +22,7 @@ from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.model.installation import named_installation
+from preflight_analysis.model.lifecycle import inactive
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.bridges import bridge_hover
 from preflight_analysis.queries.frames import frame_hover
@@ -429,6 +430,8 @@ def _node_body(analysis: Analysis, index: int, node: LaunchNode) -> str:
     graph = analysis.graph
     interface = graph.processes[index] if graph is not None else None
     lines = ["", "", _outcome(analysis, interface)]
+    if (lost := inactive(analysis.context, node)) is not None:
+        lines += ["", f"The lifecycle node {escaped(lost.reason)}"]
     if interface is not None and graph is not None and interface.known:
         for title, channels, side in _SIDES:
             connections = [

@@ -18,6 +18,7 @@ from preflight_analysis.frames.forest import Branch, forest
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.frames import frames_of, place_of_edge
+from preflight_analysis.model.lifecycle import inactive
 from preflight_analysis.queries.places import shown_path
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.workspace.workspace import Analysis
@@ -76,7 +77,9 @@ def node_tree(analysis: Analysis, findings: Mapping[str, Sequence[Finding]]) -> 
         for part in node.name.split("/")[1:-1]:
             space = space.spaces.setdefault(part, _Namespace())
         params = node.params if tree.ros.own_parameters else by_owner.get(node.name, ())
-        space.items.append(_node(node, interface, params, marks, analysis.why_not_run))
+        lost = inactive(analysis.context, node)
+        note = _known(node, interface, analysis.why_not_run) if lost is None else f"the lifecycle node {lost.reason}"
+        space.items.append(_node(node, params, marks, note))
     items = [*_namespace(top, "/"), *_includes(analysis)]
     if shared := by_owner.get("", ()):
         items.append(Item("section", "Shared parameters", str(len(shared)), children=_listed(shared, "")))
@@ -124,9 +127,7 @@ def _start(finding: Finding) -> int:
     return finding.location.span.start
 
 
-def _node(
-    node: LaunchNode, interface: Interface | None, params: Sequence[Param], marks: _Marks, why_not_run: str | None
-) -> Item:
+def _node(node: LaunchNode, params: Sequence[Param], marks: _Marks, note: str) -> Item:
     detail = f"{node.package}/{node.executable}" if node.package else node.executable
     if node.plugin:
         detail = node.plugin
@@ -146,7 +147,7 @@ def _node(
         node.name,
         node.location,
         node.location.file,
-        _known(node, interface, why_not_run),
+        note,
         worst,
         count,
         (*_listed(params, node.name), *remaps),

@@ -19,6 +19,7 @@ from preflight_analysis.graph.domains import differences, domain_of, processes_o
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.qos import policies
 from preflight_analysis.model.clock import publishes_clock
+from preflight_analysis.model.lifecycle import inactive
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.places import attribute_location, connection_location
 from preflight_analysis.model.variables import setting_of
@@ -30,7 +31,7 @@ State = Literal["ok", "broken", "unknown"]
 
 KINDS: tuple[ChannelKind, ...] = ("topics", "services", "actions")
 _NOUN: Mapping[ChannelKind, str] = {"topics": "topic", "services": "service", "actions": "action"}
-_LIFECYCLE, _DOMAINS, _QOS = "LCH035", "GRF001", "QOS001"
+_DOMAINS, _QOS = "GRF001", "QOS001"
 _LISTED = 8
 """Names in one text."""
 
@@ -249,10 +250,10 @@ def _of_node(analysis: Analysis, graph: Graph, node: LaunchNode) -> Iterator[Lin
     elif interface.source == "none":
         reason = f": {outcome.reason}" if outcome.reason else ""
         yield Link("interface", "unknown", f"the interface of {node.name} is not known{reason}", node.location)
-    place = attribute_location(analysis.context, node, "exec")
-    for finding in analysis.offered:
-        if finding.rule == _LIFECYCLE and finding.location == place:
-            yield Link("lifecycle", "broken", finding.message, finding.location, finding.fixes)
+    lost = inactive(analysis.context, node)
+    if lost is not None:
+        place = attribute_location(analysis.context, node, "exec")
+        yield Link("lifecycle", "broken", f"lifecycle node {node.name} {lost.reason}", place)
 
 
 def _endpoint(analysis: Analysis, connection: Connection) -> Iterator[Link]:

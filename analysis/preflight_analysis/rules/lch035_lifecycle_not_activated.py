@@ -3,43 +3,25 @@
 from collections.abc import Iterator
 
 from preflight_analysis.findings.claim import Subject, say
-from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.lifecycle import inactive_nodes
-from preflight_analysis.model.named_nodes import managed_by
 from preflight_analysis.model.places import attribute_location
-from preflight_analysis.model.problems import include_chain, quoted
+from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import LIFECYCLE, LIFECYCLE_MANAGER
 from preflight_analysis.rules.rule import Rule
-from preflight_analysis.tracing.interface import Interface
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    waiting, managed, graph = inactive_nodes(context), managed_by(context), context.graph
-    # A launch of such a node alone is for somebody who activates it by hand.
-    beside = len({id(each.node) for each in waiting}) < len(context.tree.nodes)
-    known = graph is not None and context.tree.complete and all(map(_is_known, graph.interfaces))
-    for node, lacking in waiting:
-        who = f"the lifecycle managers manage {quoted(list(managed)[:3])}" if managed else "no lifecycle manager"
-        what = "never activated" if lacking == "configure" else "configured, but never activated"
+    for each in inactive_nodes(context):
         yield rule.claim(
-            say(
-                "lifecycle node {node} is {what} by this launch ({who}); it does nothing until it is active",
-                node=node.name,
-                what=what,
-                who=who,
-            ),
-            attribute_location(context, node, "exec"),
-            subject=Subject("node", node.name),
-            doubts=doubts(OUTSIDE=not known, INTENDED=not beside),
-            related=include_chain(node.origin),
+            say("lifecycle node {node} {reason}", node=each.node.name, reason=each.reason),
+            attribute_location(context, each.node, "exec"),
+            subject=Subject("node", each.node.name),
+            doubts=each.doubts,
+            related=include_chain(each.node.origin),
         )
-
-
-def _is_known(interface: Interface) -> bool:
-    """Whether a client of the service by which states are changed would be known."""
-    return interface.likely_complete or interface.source == "catalogue"
 
 
 RULE = Rule(
