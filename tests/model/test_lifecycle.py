@@ -17,7 +17,8 @@ LAUNCH = """//- /map.launch.xml
 //- /nav2_map_server/package.xml
 <package><name>nav2_map_server</name></package>
 //- interfaces
-{{"/map_server": {{"publishers": {{"/map": "x/Y"}}, "services": {{"~/change_state": "lifecycle_msgs/srv/ChangeState"}}}},
+{{"/map_server": {{"publishers": {{"/map": "x/Y"}},
+   "services": {{"~/change_state": "lifecycle_msgs/srv/ChangeState"}}}},
  "/pilot": {{"subscribers": {{"/map": "x/Y"}}}}}}
 """
 REASON = "is never activated by this launch (no lifecycle manager); it does nothing until it is active"

@@ -132,6 +132,22 @@ class Graph:
             return found
         return tuple(each for each in found if self.domains.apart(node, each.node) is None)
 
+    @cached_property
+    def _ends(self) -> Mapping[tuple[int, ChannelKind], tuple[list[Connection], list[Connection]]]:
+        found: dict[tuple[int, ChannelKind], tuple[list[Connection], list[Connection]]] = {}
+        for kind in ENDS:
+            for channel in self.channels(kind).values():
+                for side, ends in enumerate((channel.providers, channel.consumers)):
+                    for end in ends:
+                        if not end.endpoint.builtin and end.action is None:
+                            found.setdefault((id(end.node), kind), ([], []))[side].append(end)
+        return found
+
+    def ends_of(self, node: LaunchNode, kind: ChannelKind) -> tuple[Sequence[Connection], Sequence[Connection]]:
+        """What a node of the tree provides and what it consumes of a kind, without what each node has by its client
+        library, and without the parts of actions."""
+        return self._ends.get((id(node), kind), ((), ()))
+
     def is_external(self, topic: str) -> bool:
         """Whether the settings say so of a topic."""
         return any(fnmatch.fnmatchcase(topic, pattern) for pattern in self.external_topics)

@@ -27,7 +27,8 @@ def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Conne
     return {kind: _not_of_unknown(context, kind, chain.from_iterable(lone[kind])) for kind in lone}
 
 
-def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
+@derived
+def dangling_providers(context: Context, kind: ChannelKind) -> tuple[Connection, ...]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
     channels = context.graph.channels(kind) if context.graph is not None else {}
     lone = _all_lone_providers(context)[kind]
@@ -35,7 +36,7 @@ def dangling_providers(context: Context, kind: ChannelKind) -> list[Connection]:
     if transported:
         found = zip(channels, lone, strict=True)
         lone = tuple(() if name in transported and _read_otherwise(name, channels) else each for name, each in found)
-    return [*_not_of_unknown(context, kind, chain.from_iterable(lone))]
+    return _not_of_unknown(context, kind, chain.from_iterable(lone))
 
 
 def _not_of_unknown(context: Context, kind: ChannelKind, lone: Iterable[Connection]) -> tuple[Connection, ...]:
@@ -44,12 +45,6 @@ def _not_of_unknown(context: Context, kind: ChannelKind, lone: Iterable[Connecti
     if graph is None:
         return tuple(lone)
     return tuple(each for each in lone if not graph.is_of_unknown(kind, each.name))
-
-
-@derived
-def dangling_topic_providers(context: Context) -> list[Connection]:
-    """Those of topics, for which several rules ask: do so through `context.once`."""
-    return dangling_providers(context, "topics")
 
 
 _Lone = Mapping[ChannelKind, Sequence[tuple[Connection, ...]]]

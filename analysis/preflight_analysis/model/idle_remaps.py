@@ -80,14 +80,6 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
     )
 
 
-@derived
-def meant_endpoints(context: Context) -> frozenset[int]:
-    """The ids of the connections that an idle remap was most likely meant to bring together: that they dangle is told
-    with it, once."""
-    found = [i for i in idle_remaps(context) if i.meant is not None and i.partner is not None]
-    return frozenset(id(connection) for idle in found for connection in (idle.meant, idle.partner))
-
-
 def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
     if not node.remaps:
         return ()

@@ -7,7 +7,7 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
-from preflight_analysis.graph.model import Connection, Graph
+from preflight_analysis.graph.model import Connection
 from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.model.nearest import has_all_words, is_word_more
 
@@ -111,12 +111,6 @@ def _of_another_node(near: NearMiss) -> bool:
     if near.likeness != "words" or not private or near.consumer.name.startswith(f"{near.provider.node.name}/"):
         return False
     return not has_all_words(near.consumer.name, near.provider.name)
-
-
-def not_analysed(graph: Graph) -> str:
-    """`; 2 of 3 nodes not fully analysed`, empty where all are."""
-    count, unknown = len(graph.tree.nodes), graph.incomplete
-    return f"; {unknown} of {count} nodes not fully analysed" if unknown else ""
 
 
 def extra_level(short: str, long: str) -> str | None:

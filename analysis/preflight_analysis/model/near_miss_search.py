@@ -25,6 +25,7 @@ from preflight_analysis.model.nearest import numbers_in, share_words
 from preflight_analysis.model.nearest_memory import NOTHING, Best, Hit, Pools, Search, search
 
 
+@derived
 def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
     """For each consumer that dangles the provider that it was most likely meant for, if there is one.
 
@@ -38,12 +39,6 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
     if not graph.domains.by_node:
         return near
     return tuple(each for each in near if graph.domains.apart(each.consumer.node, each.provider.node) is None)
-
-
-@derived
-def topic_near_misses(context: Context) -> tuple[NearMiss, ...]:
-    """Those of topics, for which several rules ask: do so through `context.once`."""
-    return near_misses(context, "topics")
 
 
 _Node = tuple[str, int]

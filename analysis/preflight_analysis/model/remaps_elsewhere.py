@@ -15,7 +15,7 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.dangling import dangling_consumers, dangling_topic_providers
+from preflight_analysis.model.dangling import dangling_consumers, dangling_providers
 from preflight_analysis.model.names_in_sources import meant_in_sources
 from preflight_analysis.model.nearest import folded, is_slip_of_words, likeness
 from preflight_analysis.model.siblings import slips_beside, without_slash
@@ -87,7 +87,7 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
         for each in slips
         if (meant := meant_in_sources(context, each)) is not None
     }
-    publishers = dangling_topic_providers(context)
+    publishers = dangling_providers(context, "topics")
     lone = [each for each in (*consumers, *publishers) if each.remap is not None]
     found = zip(lone, context.each(_used, lone, _Targets(around(context, _TARGETS))), strict=True) if lone else ()
     by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}

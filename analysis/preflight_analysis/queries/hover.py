@@ -23,6 +23,7 @@ from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.model.installation import named_installation
 from preflight_analysis.model.lifecycle import inactive
+from preflight_analysis.model.reach import absence
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.bridges import bridge_hover
 from preflight_analysis.queries.frames import frame_hover
@@ -83,13 +84,10 @@ _OUTCOMES = {
     "timed-out": "did not reach its event loop in time",
     "not-run": "was not run",
 }
-_SIDES = (
-    ("Publishers", "topics", "providers"),
-    ("Subscribers", "topics", "consumers"),
-    ("Service servers", "services", "providers"),
-    ("Service clients", "services", "consumers"),
-    ("Action servers", "actions", "providers"),
-    ("Action clients", "actions", "consumers"),
+_SIDES: tuple[tuple[ChannelKind, tuple[str, str]], ...] = (
+    ("topics", ("Publishers", "Subscribers")),
+    ("services", ("Service servers", "Service clients")),
+    ("actions", ("Action servers", "Action clients")),
 )
 
 
@@ -354,7 +352,7 @@ def _remap(analysis: Analysis, reached: Iterable[tuple[LaunchNode, Remap]]) -> s
         shown = f"{code(source)} → {code(target)} for {', '.join(code(n) for n in nodes)}"
         lines.append(f"- {shown}" if number else shown)
         if not number and analysis.graph is not None:
-            lines += _connections(analysis.graph, target)
+            lines += _connections(analysis, analysis.graph, target)
     if len(groups) > 1 + _SHOWN_CONTEXTS:
         lines.append(f"- … and {len(groups) - 1 - _SHOWN_CONTEXTS} more")
     return "\n".join(lines)
@@ -367,15 +365,17 @@ def _grouped(pairs: Iterable[tuple[tuple[str, str], str]]) -> Iterator[tuple[tup
     yield from groups.items()
 
 
-def _connections(graph: Graph, name: str) -> Iterator[str]:
+def _connections(analysis: Analysis, graph: Graph, name: str) -> Iterator[str]:
     """Both sides of a topic, service or action: who is there, with type, QoS and the line of the source."""
     kinds: tuple[tuple[str, ChannelKind], ...] = (("topic", "topics"), ("service", "services"), ("action", "actions"))
-    for kind, channel in ((kind, channel) for kind, of in kinds for channel in graph.named(of, name)):
+    found = ((kind, of_kind, channel) for kind, of_kind in kinds for channel in graph.named(of_kind, name))
+    for kind, of_kind, channel in found:
         ends = ("publisher", "subscriber") if kind == "topic" else ("server", "client")
         shown = f"{kind} {code(name)}" + (f" ({code(channel.domain)})" if channel.domain else "")
         for end, connections in zip(ends, (channel.providers, channel.consumers), strict=True):
             if not connections:
-                yield f"- {shown}: no {end}"
+                lost = absence(analysis.context, of_kind, channel)
+                yield f"- {shown}: no {end}" + (f"; {escaped(lost.reason)}" if lost is not None and lost.reason else "")
             for connection in sorted(connections, key=lambda each: each.node.name)[:_SHOWN_ENDPOINTS]:
                 endpoint = connection.endpoint
                 kind_of = f" {code(endpoint.type)}" if endpoint.type else ""
@@ -433,15 +433,12 @@ def _node_body(analysis: Analysis, index: int, node: LaunchNode) -> str:
     if (lost := inactive(analysis.context, node)) is not None:
         lines += ["", f"The lifecycle node {escaped(lost.reason)}"]
     if interface is not None and graph is not None and interface.known:
-        for title, channels, side in _SIDES:
-            connections = [
-                c
-                for channel in getattr(graph, channels).values()
-                for c in getattr(channel, side)
-                if c.node.origin is node.origin and not c.endpoint.builtin and c.action is None
-            ]
-            if connections:
-                lines += ["", title, *(_connection(c, interface) for c in sorted(connections, key=lambda c: c.name))]
+        of_process = [each for each in graph.tree.nodes if each.origin is node.origin]
+        for kind, titles in _SIDES:
+            for side, title in enumerate(titles):
+                ends = [end for each in of_process for end in graph.ends_of(each, kind)[side]]
+                if ends:
+                    lines += ["", title, *(_connection(c, interface) for c in sorted(ends, key=lambda c: c.name))]
         reads = [p for p in interface.params if not p.builtin]
         if reads and not analysis.tree.ros.own_parameters:
             lines += ["", "Parameters", *(_read(analysis, graph, node, p) for p in reads[:_SHOWN_PARAMS])]

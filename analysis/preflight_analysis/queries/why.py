@@ -22,6 +22,7 @@ from preflight_analysis.model.clock import publishes_clock
 from preflight_analysis.model.lifecycle import inactive
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.places import attribute_location, connection_location
+from preflight_analysis.model.reach import meant_pairs
 from preflight_analysis.model.variables import setting_of
 from preflight_analysis.queries.enclosing import conditions_of, namespaces_of
 from preflight_analysis.tracing.interface import DOES, Endpoint, Interface
@@ -129,7 +130,7 @@ def chains(analysis: Analysis, graph: Graph, first: str, second: str, channel: s
         found = [
             chain
             for kind in KINDS
-            for pair in _pairs(graph, kind, provider, consumer, channel)
+            for pair in _pairs(analysis, graph, kind, (provider, consumer), channel)
             for chain in [_chain(analysis, graph, kind, *pair)]
         ]
         if found:
@@ -137,24 +138,12 @@ def chains(analysis: Analysis, graph: Graph, first: str, second: str, channel: s
     return (_no_pair(analysis, graph, a, b, channel),)
 
 
-def _ends(graph: Graph, kind: ChannelKind, node: LaunchNode) -> tuple[list[Connection], list[Connection]]:
-    """What a node provides and what it consumes."""
-    channels = graph.channels(kind).values()
-    return (
-        [each for channel in channels for each in channel.providers if each.node is node and _counts(each)],
-        [each for channel in channels for each in channel.consumers if each.node is node and _counts(each)],
-    )
-
-
-def _counts(connection: Connection) -> bool:
-    return not connection.endpoint.builtin and connection.action is None
-
-
 def _pairs(
-    graph: Graph, kind: ChannelKind, provider: LaunchNode, consumer: LaunchNode, channel: str | None
+    analysis: Analysis, graph: Graph, kind: ChannelKind, nodes: tuple[LaunchNode, LaunchNode], channel: str | None
 ) -> list[tuple[Connection, Connection]]:
-    provided, _ = _ends(graph, kind, provider)
-    _, consumed = _ends(graph, kind, consumer)
+    """The ends by which the first of two nodes reaches the second one, or else those that were meant to meet."""
+    provider, consumer = nodes
+    provided, consumed = graph.ends_of(provider, kind)[0], graph.ends_of(consumer, kind)[1]
     if channel is not None:
         provided = [each for each in provided if _is_called(each, channel)] or provided
         consumed = [each for each in consumed if _is_called(each, channel)] or consumed
@@ -162,7 +151,13 @@ def _pairs(
             return []
     by_name = {each.name: each for each in consumed}
     same = [(each, by_name[each.name]) for each in provided if each.name in by_name]
-    return same or _likely_pairs(provided, consumed)
+    if same:
+        return same
+    asked = {*map(id, provided)}, {*map(id, consumed)}
+    found = meant_pairs(analysis.context, kind)
+    meant = [(one, other) for one, other in found if id(one) in asked[0] and id(other) in asked[1]]
+    known = {id(other) for _, other in meant}
+    return meant + _likely_pairs(provided, [each for each in consumed if id(each) not in known])
 
 
 def _is_called(connection: Connection, name: str) -> bool:
@@ -174,8 +169,8 @@ def _is_called(connection: Connection, name: str) -> bool:
 def _likely_pairs(
     provided: Sequence[Connection], consumed: Sequence[Connection]
 ) -> list[tuple[Connection, Connection]]:
-    """For each that is consumed what may be meant for it: of the same last name, of a near one, of the same type if it
-    is the only one."""
+    """For each that is consumed what may be meant for it by the one who asks about these two nodes: of the same last
+    name, of a near one, of the same type if it is the only one."""
     found = []
     for consumer in consumed:
         leaf = names.leaf(consumer.name)
@@ -203,7 +198,7 @@ def _no_pair(analysis: Analysis, graph: Graph, a: LaunchNode, b: LaunchNode, cha
 
 
 def _ends_known(graph: Graph, kind: ChannelKind, node: LaunchNode, over: str) -> Link:
-    provided, consumed = (sorted({each.name for each in side}) for side in _ends(graph, kind, node))
+    provided, consumed = (sorted({each.name for each in side}) for side in graph.ends_of(node, kind))
     does = [f"{verb} {listed(ends)}" for verb, ends in (("publishes", provided), ("subscribes to", consumed)) if ends]
     text = f"no endpoint of {node.name} fits {over}; it {' and '.join(does) or 'has no topic'}"
     interface = _interface(graph, node)

@@ -6,13 +6,10 @@ from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
-from preflight_analysis.model.channels import not_all_known
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.dangling import dangling_consumers
-from preflight_analysis.model.moveit import known_to_moveit, unserved
-from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of, not_analysed
-from preflight_analysis.model.near_miss_search import near_misses
+from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of
 from preflight_analysis.model.places import Verbs, subject_of
+from preflight_analysis.model.reach import seen, unmet
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.near_miss_fixes import fixes_in
 from preflight_analysis.rules.rule import Rule
@@ -29,25 +26,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    # MVT001 reports them, by more than the name; others have a controller that the launch loads.
-    wrong = [each.known for each in unserved(context)]
-    served = [each for each in known_to_moveit(context) if each.loaded is not None]
-    of_moveit = {(id(each.node), each.action) for each in (*wrong, *served)}
-    pairs, unknown, lacks = near_misses(context, "actions"), not_analysed(graph), not_all_known(graph)
-    near = [each for each in pairs if (id(each.consumer.node), each.consumer.name) not in of_moveit]
-    for pair in near:
+    found, known = unmet(context, "actions"), seen(graph)
+    for pair in found.near:
         client, server = pair.consumer, pair.provider
         nodes = {"node": client.node.name, "other": server.node.name}
-        said = say(_NEAR, name=client.name, near=server.name, **nodes, why=pair.why, aside=unknown)
-        why = doubts_of(pair, lacks, graph.likely_complete)
+        said = say(_NEAR, name=client.name, near=server.name, **nodes, why=pair.why, aside=known.aside)
+        why = doubts_of(pair, known.lacks, known.likely_complete)
         yield near_miss_finding(rule, pair, said, subject_of(client), _VERBS, _fixes(context, pair), why)
-    explained = {id(pair.consumer) for pair in near}
-    for connection in dangling_consumers(context, "actions"):
-        if (id(connection.node), connection.name) in of_moveit:
-            continue
-        if id(connection) not in explained and not graph.blind:
-            said = say(_LONE, name=with_type(connection), node=connection.node.name, aside=unknown)
-            yield lone_finding(rule, connection, said, lacks=lacks)
+    for each in found.consumers if not known.blind else ():
+        said = say(_LONE, name=with_type(each), node=each.node.name, aside=known.aside)
+        yield lone_finding(rule, each, said, lacks=known.lacks)
 
 
 def _fixes(context: Context, pair: NearMiss) -> tuple[Fix, ...]:

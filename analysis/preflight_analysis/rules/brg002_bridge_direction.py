@@ -12,13 +12,12 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection, Graph
-from preflight_analysis.model.channels import not_all_known
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.gazebo_bridges import Bridge, bridges
 from preflight_analysis.model.gazebo_side import Gazebo, gazebo_of, plain
-from preflight_analysis.model.near_miss import not_analysed
 from preflight_analysis.model.places import related_endpoint
 from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.reach import seen
 from preflight_analysis.rules.further_reading import ROS_GZ_BRIDGE
 from preflight_analysis.rules.rule import Rule
 
@@ -113,11 +112,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 role=ends[0].endpoint.role,
                 node=ends[0].node.name,
                 more=more,
-                aside=not_analysed(graph),
+                aside=seen(graph).aside,
             ),
             bridge.place,
             subject=Subject("topic", channel.name),
-            doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known and not_all_known(graph)),
+            doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known and seen(graph).lacks),
             related=(
                 *(related_endpoint(each, "publishes" if providers else "subscribes to") for each in ends[:3]),
                 *include_chain(bridge.node.origin),

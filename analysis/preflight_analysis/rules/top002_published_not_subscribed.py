@@ -9,12 +9,10 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends, not_all_known
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.dangling import dangling_topic_providers
-from preflight_analysis.model.idle_remaps import meant_endpoints
-from preflight_analysis.model.near_miss_search import topic_near_misses
 from preflight_analysis.model.places import connection_location, endpoints_of
 from preflight_analysis.model.problems import include_chain, quoted
-from preflight_analysis.model.remaps_elsewhere import BY_FILES, used_elsewhere
+from preflight_analysis.model.reach import unmet
+from preflight_analysis.model.remaps_elsewhere import BY_FILES
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding
 from preflight_analysis.rules.rule import Rule
@@ -26,14 +24,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None or graph.blind:
         return
-    reported = {id(pair.provider) for pair in topic_near_misses(context)} | meant_endpoints(context)
-    dangling = [each for each in dangling_topic_providers(context) if id(each) not in reported]
-    elsewhere = used_elsewhere(context)
-    for each in dangling:
-        if id(each) in elsewhere:
+    found = unmet(context, "topics")
+    for each in found.providers:
+        if id(each) in found.elsewhere:
             said = say(_LONE, topics=f"'{each.name}'", have="has", node=each.node.name)
-            yield elsewhere_finding(rule, context, each, said, elsewhere[id(each)])
-    dangling = [each for each in dangling if id(each) not in elsewhere]
+            yield elsewhere_finding(rule, context, each, said, found.elsewhere[id(each)])
+    dangling = [each for each in found.providers if id(each) not in found.elsewhere]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     grouped = context.grouped(_place, rule.id, dangling)
     yield from context.each(_finding, grouped.values(), rule, not_all_known(graph))
