@@ -56,6 +56,7 @@ from preflight_analysis.live.watcher import State
 from preflight_analysis.nodl.read import read_nodl
 from preflight_analysis.queries.calls import incoming, items_at, outgoing
 from preflight_analysis.queries.completion import complete
+from preflight_analysis.queries.completion_values import Lookup
 from preflight_analysis.queries.definition import definition
 from preflight_analysis.queries.folding import folds
 from preflight_analysis.queries.hints import hints
@@ -356,7 +357,7 @@ def look(generation: int, texts: Mapping[str, str], root: str, answers: str | No
     check_spans(hints([analysis], path, Span(0, len(text))), text)
     check_spans(signature(analysis, launch_file, offset, sources), text)
     executables = ExecutableIndex(there.environment)
-    completion = complete(analysis, launch_file, offset, sources, executables, workspace.ahead_of_runs, trigger)
+    completion = complete(analysis, launch_file, offset, Lookup(sources, executables, workspace.ahead_of_runs), trigger)
     check_spans(completion, text)
     index = build_index(workspace, str(there.folder), ())
     if index is None:

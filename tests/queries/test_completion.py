@@ -10,6 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from preflight_analysis.queries.completion import TRIGGERS, complete
 from preflight_analysis.queries.completion_items import Completion
+from preflight_analysis.queries.completion_values import Lookup
 from support.query_harness import Executables, at_cursor
 
 
@@ -17,7 +18,11 @@ def completed(text: str, trigger: str | None = None, **options: object) -> Compl
     there = at_cursor(text, options.get("variables"))  # type: ignore[arg-type]
     executables = Executables(options.get("executables", {}))  # type: ignore[arg-type]
     return complete(
-        there.analysis, there.launch_file, there.offset, there.sources, executables, there.ahead_of_runs, trigger
+        there.analysis,
+        there.launch_file,
+        there.offset,
+        Lookup(there.sources, executables, there.ahead_of_runs),
+        trigger,
     )
 
 
@@ -374,7 +379,11 @@ def test_whatever_is_typed_or_deleted_the_edit_is_within_a_line(
     text = WHOLE[:at] + typed + "$0" + WHOLE[at + deleted :]
     there = at_cursor(text + INNER)
     found = complete(
-        there.analysis, there.launch_file, there.offset, there.sources, Executables(), there.ahead_of_runs, trigger
+        there.analysis,
+        there.launch_file,
+        there.offset,
+        Lookup(there.sources, Executables(), there.ahead_of_runs),
+        trigger,
     )
     if found is not None:
         assert found.span.start <= there.offset <= found.span.end

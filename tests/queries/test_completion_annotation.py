@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from preflight_analysis.queries.completion import complete
 from preflight_analysis.queries.completion_items import Completion
+from preflight_analysis.queries.completion_values import Lookup
 from support.query_harness import Executables, at_cursor
 
 NODE = """
@@ -23,7 +24,11 @@ NODE = """
 def completed(text: str, trigger: str | None = None) -> Completion | None:
     there = at_cursor(text)
     return complete(
-        there.analysis, there.launch_file, there.offset, there.sources, Executables(), there.ahead_of_runs, trigger
+        there.analysis,
+        there.launch_file,
+        there.offset,
+        Lookup(there.sources, Executables(), there.ahead_of_runs),
+        trigger,
     )
 
 

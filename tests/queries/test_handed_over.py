@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.queries.completion import complete
+from preflight_analysis.queries.completion_values import Lookup
 from preflight_analysis.queries.definition import definition
 from preflight_analysis.queries.handed_over import links_in
 from preflight_analysis.queries.hover import hover
@@ -238,7 +239,7 @@ def proposed(workspace: TestWorkspace, trigger: str | None = None) -> list[str]:
     launch_file = sources.launch_file(workspace.context.path)
     assert isinstance(launch_file, LaunchFile)
     executables = workspace.context.workspace.executables
-    found = complete(analysis, launch_file, workspace.offset, sources, executables, lambda each: each, trigger)
+    found = complete(analysis, launch_file, workspace.offset, Lookup(sources, executables, lambda each: each), trigger)
     return [item.label for item in found.items] if found is not None else []
 
 

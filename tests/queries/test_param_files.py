@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.queries.completion import complete
 from preflight_analysis.queries.completion_items import Completion
+from preflight_analysis.queries.completion_values import Lookup
 from preflight_analysis.queries.definition import definition
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.queries.rename import RenameRefusedError, rename
@@ -41,7 +42,7 @@ def completed(params: str, trigger: str | None = None) -> Completion | None:
     launch_file = there.sources.launch_file("/p.yaml")
     assert not isinstance(launch_file, Unreadable)
     return complete(
-        there.analysis, launch_file, there.offset, there.sources, Executables(), there.ahead_of_runs, trigger
+        there.analysis, launch_file, there.offset, Lookup(there.sources, Executables(), there.ahead_of_runs), trigger
     )
 
 

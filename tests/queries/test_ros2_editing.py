@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from preflight_analysis.queries.completion import TRIGGERS, complete
 from preflight_analysis.queries.completion_items import Completion, Item
+from preflight_analysis.queries.completion_values import Lookup
 from support.query_harness import Executables, at_cursor
 
 XML, YAML = "//- /main.launch.xml\n", "//- /main.launch.yaml\n"
@@ -26,7 +27,11 @@ def completed(text: str, trigger: str | None = None) -> Completion | None:
     there = at_cursor(textwrap.dedent(text))
     executables = Executables({"p": ["talker", "listener"]})
     return complete(
-        there.analysis, there.launch_file, there.offset, there.sources, executables, there.ahead_of_runs, trigger
+        there.analysis,
+        there.launch_file,
+        there.offset,
+        Lookup(there.sources, executables, there.ahead_of_runs),
+        trigger,
     )
 
 

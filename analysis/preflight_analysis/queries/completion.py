@@ -6,20 +6,18 @@ packages there are, what a node subscribes to) from an analysis that may be olde
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.launch.schema import Attribute
-from preflight_analysis.model.context import ExecutableNames
 from preflight_analysis.queries.completion_annotation import annotation_place, complete_annotation
 from preflight_analysis.queries.completion_handed_over import complete_handed_over
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_python import complete_python
-from preflight_analysis.queries.completion_values import Asked, complete_value
+from preflight_analysis.queries.completion_values import Asked, Lookup, complete_value
 from preflight_analysis.queries.completion_writing import Writing, XmlWriting, YamlWriting
 from preflight_analysis.queries.cursor import Place, is_closed
 from preflight_analysis.queries.handed_over import is_handed_over
@@ -36,18 +34,15 @@ def complete(
     analysis: Analysis,
     launch_file: LaunchFile,
     offset: int,
-    files: Files,
-    executables: ExecutableNames,
-    ahead_of_runs: Callable[[Analysis], Analysis],
+    lookup: Lookup,
     trigger: str | None = None,
 ) -> Completion | None:
     """What can be written at `offset` of a file, best first; None where nothing can.
 
-    `launch_file` is the text as it is now, `analysis` may be one of an earlier text; `ahead_of_runs` (as of
-    `Workspace`) is asked where nodes matter that have not run yet. `trigger` is the character of
+    `launch_file` is the text as it is now, `analysis` may be one of an earlier text. `trigger` is the character of
     `TRIGGERS` that was just typed, None where the user asked.
     """
-    found = _completed(analysis, launch_file, offset, files, executables, ahead_of_runs, trigger)
+    found = _completed(analysis, launch_file, offset, lookup, trigger)
     if found is None or not launch_file.document.text.startswith("/", found.span.end):
         return found
     # A folder brings its slash along, unless that is there already.
@@ -59,22 +54,20 @@ def _completed(
     analysis: Analysis,
     launch_file: LaunchFile,
     offset: int,
-    files: Files,
-    executables: ExecutableNames,
-    ahead_of_runs: Callable[[Analysis], Analysis],
+    lookup: Lookup,
     trigger: str | None,
 ) -> Completion | None:
     if is_handed_over([analysis], launch_file.path):
         return complete_handed_over(analysis, launch_file.document, offset, trigger)
     annotation = annotation_place(launch_file, offset)
     if annotation is not None:
-        return complete_annotation(ahead_of_runs(analysis), launch_file, annotation, trigger)
+        return complete_annotation(lookup.ahead_of_runs(analysis), launch_file, annotation, trigger)
     if trigger == ">":
         return _closing(launch_file, offset) if _is_xml(launch_file) else None
     if is_param_file(analysis, launch_file.path):
-        return complete_param_file(ahead_of_runs(analysis), launch_file.document, offset, trigger)
+        return complete_param_file(lookup.ahead_of_runs(analysis), launch_file.document, offset, trigger)
     if launch_file.is_python:
-        return complete_python(analysis, launch_file, offset, files, executables, ahead_of_runs, trigger)
+        return complete_python(analysis, launch_file, offset, lookup, trigger)
     place = place_in(launch_file, offset)
     if place is None:
         return None
@@ -85,7 +78,7 @@ def _completed(
     if not _wanted(place, trigger):
         return None
     if place.kind == "value":
-        return complete_value(Asked(analysis, launch_file, offset, place, files, executables, ahead_of_runs), trigger)
+        return complete_value(Asked(analysis, launch_file, offset, place, lookup), trigger)
     return Completion(place.word, tuple(_items(launch_file, place)))
 
 

@@ -5,19 +5,17 @@ The names come from the same sources as in the other formats; the Python languag
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.files import Files
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_tree import arguments
 from preflight_analysis.launch.schema import Kind
-from preflight_analysis.model.context import ExecutableNames
 from preflight_analysis.queries.arguments import accepted, argument_values, resolved
 from preflight_analysis.queries.completion_items import Completion, Item
 from preflight_analysis.queries.completion_paths import listed
-from preflight_analysis.queries.completion_values import Asked, argument_detail, argument_doc, whole_values
+from preflight_analysis.queries.completion_values import Asked, Lookup, argument_detail, argument_doc, whole_values
 from preflight_analysis.queries.cursor_python import PythonKind, PythonPlace, place_at_python
 from preflight_analysis.workspace.facts import ArgDeclaration
 from preflight_analysis.workspace.workspace import Analysis
@@ -42,9 +40,7 @@ def complete_python(
     analysis: Analysis,
     launch_file: LaunchFile,
     offset: int,
-    files: Files,
-    executables: ExecutableNames,
-    ahead_of_runs: Callable[[Analysis], Analysis],
+    lookup: Lookup,
     trigger: str | None = None,
 ) -> Completion | None:
     """What can be written at `offset`, best first; None where it is not ours to say. As in `completion.complete`,
@@ -65,7 +61,7 @@ def complete_python(
         return None
     if kind == "used":
         return Completion(word, tuple(_arguments(analysis, document.path, found)))
-    asked = Asked(analysis, launch_file, offset, found.place, files, executables, ahead_of_runs)
+    asked = Asked(analysis, launch_file, offset, found.place, lookup)
     return Completion(word, tuple(_below(whole_values(asked, _KINDS[kind]), found.before)))
 
 

@@ -69,6 +69,16 @@ _TAKES_ARGUMENTS: frozenset[Kind] = frozenset(
 
 
 @dataclass(frozen=True, slots=True)
+class Lookup:
+    """What is asked beside an analysis: the texts of files, the executables of packages, and (as of `Workspace`) an
+    analysis where nodes matter that have not run yet."""
+
+    files: Files
+    executables: ExecutableNames
+    ahead_of_runs: Callable[[Analysis], Analysis]
+
+
+@dataclass(frozen=True, slots=True)
 class Asked:
     """One question: the place of the cursor in the newest text, and the facts to answer from."""
 
@@ -76,10 +86,7 @@ class Asked:
     launch_file: LaunchFile
     offset: int
     place: Place
-    files: Files
-    executables: ExecutableNames
-    ahead_of_runs: Callable[[Analysis], Analysis]
-    """As of `Workspace`."""
+    lookup: Lookup
 
     @property
     def language(self) -> Language:
@@ -358,14 +365,14 @@ def _roots(asked: Asked) -> Iterator[Item]:
 def _executables(asked: Asked, element: Element) -> Iterator[Item]:
     package = element.get("pkg")
     name = resolved(asked.analysis, asked.file, package.value.text) if package is not None else None
-    for each in asked.executables.names(name or ""):
+    for each in asked.lookup.executables.names(name or ""):
         yield Item("executable", each, each, detail=name or "", about=("executable", name or "", each))
 
 
 def _components(asked: Asked, element: Element) -> Iterator[Item]:
     package = element.get("pkg")
     name = resolved(asked.analysis, asked.file, package.value.text) if package is not None else None
-    for each in asked.executables.components(name or ""):
+    for each in asked.lookup.executables.components(name or ""):
         yield Item("executable", each, each, detail=name or "", about=("component", name or "", each))
 
 
@@ -374,7 +381,7 @@ def _passed_arguments(asked: Asked, element: Element) -> Iterator[Item]:
     include = asked.place.parent
     if include is None or include.tag.lower() != "include":
         return
-    target = included_file(asked.analysis, asked.files, asked.file, include)
+    target = included_file(asked.analysis, asked.lookup.files, asked.file, include)
     if target is None:
         return
     siblings = (child for child in include.elements if child.span != element.span)
@@ -393,7 +400,7 @@ def _graph(
     source: Callable[[Analysis, str, Place, Element, str], Iterator[Item]],
 ) -> Callable[[Asked, Element], Iterator[Item]]:
     def items(asked: Asked, element: Element) -> Iterator[Item]:
-        return source(asked.ahead_of_runs(asked.analysis), asked.file, asked.place, element, asked.before)
+        return source(asked.lookup.ahead_of_runs(asked.analysis), asked.file, asked.place, element, asked.before)
 
     return items
 

@@ -13,6 +13,7 @@ from preflight_analysis.queries.completion import TRIGGERS
 from preflight_analysis.queries.completion import complete as query
 from preflight_analysis.queries.completion_docs import documentation
 from preflight_analysis.queries.completion_items import Item, ItemKind
+from preflight_analysis.queries.completion_values import Lookup
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.lsp.markup import markup
@@ -95,7 +96,7 @@ def register(server: PreflightServer) -> None:
 
         found = await session.in_pool(
             lambda: query(
-                analysis, launch_file, offset, workspace.sources, workspace.executables, ahead_of_runs, trigger
+                analysis, launch_file, offset, Lookup(workspace.sources, workspace.executables, ahead_of_runs), trigger
             )
         )
         if found is None:
