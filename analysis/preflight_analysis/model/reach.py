@@ -35,11 +35,11 @@ class Seen(NamedTuple):
     blind: bool
 
 
-def seen(graph: Graph) -> Seen:
-    """That of a launch."""
+def seen(context: Context, graph: Graph) -> Seen:
+    """That of a launch: the same object as before an edit that leaves it alone, as findings are kept by it."""
     count, unknown = len(graph.tree.nodes), graph.incomplete
     aside = f"; {unknown} of {count} nodes not fully analysed" if unknown else ""
-    return Seen(not_all_known(graph), aside, graph.likely_complete, graph.blind > 0)
+    return context.one(Seen, "", not_all_known(graph), aside, graph.likely_complete, graph.blind > 0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.graph.actions import moves_actions
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of
-from preflight_analysis.model.places import Verbs, subject_of
+from preflight_analysis.model.places import Verbs
 from preflight_analysis.model.reach import seen, unmet
 from preflight_analysis.rules.further_reading import ACTIONLIB, ACTIONS
 from preflight_analysis.rules.near_miss_fixes import fixes_in
@@ -26,13 +26,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    found, known = unmet(context, "actions"), seen(graph)
+    found, known = unmet(context, "actions"), seen(context, graph)
     for pair in found.near:
         client, server = pair.consumer, pair.provider
         nodes = {"node": client.node.name, "other": server.node.name}
         said = say(_NEAR, name=client.name, near=server.name, **nodes, why=pair.why, aside=known.aside)
         why = doubts_of(pair, known.lacks, known.likely_complete)
-        yield near_miss_finding(rule, pair, said, subject_of(client), _VERBS, _fixes(context, pair), why)
+        yield near_miss_finding(rule, pair, said, _VERBS, _fixes(context, pair), why)
     for each in found.consumers if not known.blind else ():
         said = say(_LONE, name=with_type(each), node=each.node.name, aside=known.aside)
         yield lone_finding(rule, each, said, lacks=known.lacks)

@@ -112,11 +112,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 role=ends[0].endpoint.role,
                 node=ends[0].node.name,
                 more=more,
-                aside=seen(graph).aside,
+                aside=seen(context, graph).aside,
             ),
             bridge.place,
             subject=Subject("topic", channel.name),
-            doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known and seen(graph).lacks),
+            doubts=doubts(OUTSIDE=not known, NOT_ANALYSED=not known and seen(context, graph).lacks),
             related=(
                 *(related_endpoint(each, "publishes" if providers else "subscribes to") for each in ends[:3]),
                 *include_chain(bridge.node.origin),

@@ -45,23 +45,21 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
     is_simulated = simulated_of_ros1(context) is not None
     for node in context.tree.nodes:
         for controller in loaded_by(node):
-            type_ = context.tree.params.get(f"{controller}/type")
-            if type_ is not None and isinstance(type_.value, str):
-                yield from _of_controller_of_ros1(
-                    rule, context, controller, type_.value, joints, node, is_simulated=is_simulated
-                )
+            yield from _of_controller_of_ros1(rule, context, controller, joints, node, is_simulated=is_simulated)
 
 
 def _of_controller_of_ros1(
     rule: Rule,
     context: Context,
     controller: str,
-    type_: str,
     joints: frozenset[str],
     spawner: LaunchNode,
     *,
     is_simulated: bool,
 ) -> Iterator[Finding]:
+    type_ = context.tree.params.get(f"{controller}/type")
+    if type_ is None or not isinstance(type_.value, str):
+        return
     named = list(joints_of_ros1(context.tree, controller))
     beside = frozenset(each.joint for each in named)
     for each in named:
@@ -71,7 +69,7 @@ def _of_controller_of_ros1(
         is_typo = near is not None and is_slip(each.joint, near)
         of_robot = is_typo or not joints.isdisjoint(beside) or (is_simulated and not each.is_extra)
         yield rule.claim(
-            f"joint '{each.joint}' does not exist: '{controller}' ({type_}) uses it{did_you_mean(near)}",
+            f"joint '{each.joint}' does not exist: '{controller}' ({type_.value}) uses it{did_you_mean(near)}",
             place,
             subject=Subject("joint", each.joint),
             kind="absent" if near is None else "near",

@@ -7,7 +7,8 @@ compared with those of the robot since Jazzy.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from typing import NamedTuple
 
 from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.findings.claim import Effect, Subject
@@ -25,34 +26,37 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     # A launch that shows or simulates the robot may leave out the plugin of its hardware: Gazebo goes on without.
     is_run = any((node.package, node.executable) == MANAGER for node in context.tree.nodes)
     for robot in robots(context):
-        for system in robot.description.misplaced:
-            message = f"{_tag(system)} is inside <{system.around}>: ros2_control reads only elements below <robot>"
-            yield _at_system(rule, context, robot, system, message, effect="breaks")
+        for system, message, why, effect in _of_robot(robot.description, is_run=is_run):
+            place, related = written(context, robot, "ros2_control", "name", system.name)
+            about = Subject("component", system.name)
+            yield rule.claim(message, place, subject=about, effect=effect, doubts=why, related=related)
         for system in robot.description.systems:
-            if not system.plugin:
-                message = f"{_tag(system)} has no <hardware> with a <plugin>"
-                yield _at_system(rule, context, robot, system, message, doubts(INTENDED=not is_run))
-            for message in _of_system(system):
-                yield _at_system(rule, context, robot, system, message)
             yield from _of_joints(rule, context, robot, system)
+
+
+class _Wrong(NamedTuple):
+    """What is wrong with a system, and what speaks against it."""
+
+    system: ControlSystem
+    message: str
+    why: tuple[Doubt, ...] = ()
+    effect: Effect | None = None
+
+
+def _of_robot(description: Description, *, is_run: bool) -> Iterator[_Wrong]:
+    for system in description.misplaced:
+        message = f"{_tag(system)} is inside <{system.around}>: ros2_control reads only elements below <robot>"
+        yield _Wrong(system, message, effect="breaks")
+    for system in description.systems:
+        if not system.plugin:
+            message = f"{_tag(system)} has no <hardware> with a <plugin>"
+            yield _Wrong(system, message, doubts(INTENDED=not is_run))
+        for message in _of_system(system):
+            yield _Wrong(system, message)
 
 
 def _tag(system: ControlSystem) -> str:
     return f'<ros2_control name="{system.name}">'
-
-
-def _at_system(
-    rule: Rule,
-    context: Context,
-    robot: Robot,
-    system: ControlSystem,
-    message: str,
-    why: Iterable[Doubt] = (),
-    effect: Effect | None = None,
-) -> Finding:
-    place, related = written(context, robot, "ros2_control", "name", system.name)
-    about = Subject("component", system.name)
-    return rule.claim(message, place, subject=about, effect=effect, doubts=why, related=related)
 
 
 def _of_system(system: ControlSystem) -> Iterator[str]:

@@ -47,10 +47,10 @@ _ROLES = frozenset(
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for problem in problems_of(context, PackageNotFound):
         name, chain = problem.kind.name, include_chain(problem.origin)
-        yield _finding(rule, context, name, _meant(context, name), problem.location, chain, stops=problem.fatal)
+        yield _finding(rule, context, name, problem.location, chain, stops=problem.fatal)
     for node in _nodes_without_package(context):
         location, chain = attribute_location(context, node, "pkg"), include_chain(node.origin)
-        yield _finding(rule, context, node.package, _meant(context, node.package), location, chain, stops=False)
+        yield _finding(rule, context, node.package, location, chain, stops=False)
 
 
 def _nodes_without_package(context: Context) -> Iterator[LaunchNode]:
@@ -73,13 +73,12 @@ def _finding(
     rule: Rule,
     context: Context,
     name: str,
-    meant: tuple[Package | None, str | None],
     location: Location,
     related: Iterable[Related],
     *,
     stops: bool,
 ) -> Finding:
-    renamed, near = meant
+    renamed, near = _meant(context, name)
     if near is None:
         return _not_here(rule, context, name, location, related, stops=stops)
     fixes = rename(context, location, name, near)

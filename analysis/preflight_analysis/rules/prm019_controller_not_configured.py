@@ -7,7 +7,8 @@ http://wiki.ros.org/controller_manager#Helper_scripts
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
@@ -66,7 +67,7 @@ def _of_ros1(rule: Rule, context: Context) -> Iterator[Finding]:
             if sure or _is_beside(node, types):
                 missing = as_text(f"parameter '{full}/type' is not set, and the controller manager reads it")
                 against = doubts(PARTLY_READ=not sure, DEPENDS=_is_of_one_variant(context, types))
-                yield _finding(rule, context, node, missing, controller, known, against=against)
+                yield _finding(rule, context, _Lost(node, controller, missing, known, doubts=against))
 
 
 def _is_beside(spawner: LaunchNode, types: Iterable[Param]) -> bool:
@@ -130,7 +131,7 @@ def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
                 related += [Related("the type is set here", apart[1])] if apart is not None else []
                 missing = say("parameter '{name}.type' of {node} is not set", name=controller, node=manager.name)
                 where = apart[0] if apart is not None else None
-                yield _finding(rule, context, nodes[at], missing, controller, known, related, where)
+                yield _finding(rule, context, _Lost(nodes[at], controller, missing, known, where, related))
 
 
 def _known(context: Context, spawner: LaunchNode) -> Asked | None:
@@ -172,34 +173,38 @@ def _for_the_manager(context: Context, controller: str, files: Iterable[FileUse]
     return None
 
 
-def _finding(
-    rule: Rule,
-    context: Context,
-    spawner: LaunchNode,
-    missing: Text,
-    controller: str,
-    known: list[str],
-    related: Iterable[Related] = (),
-    apart: str | None = None,
-    against: Iterable[Doubt] = (),
-) -> Finding:
+class _Lost(NamedTuple):
+    """A controller that `spawner` asks for and that is not loaded. `missing` says what is not set, `known` are those of
+    which the type is set, `section` is the one that sets it in vain."""
+
+    spawner: LaunchNode
+    controller: str
+    missing: Text
+    known: list[str]
+    section: str | None = None
+    related: Sequence[Related] = ()
+    doubts: Sequence[Doubt] = ()
+
+
+def _finding(rule: Rule, context: Context, lost: _Lost) -> Finding:
+    spawner, controller, known = lost.spawner, lost.controller, lost.known
     near = nearest(controller, known)
     some = quoted(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
-    if apart is not None:
-        what = f"section '{apart}' sets it, which has no effect there"
+    if lost.section is not None:
+        what = f"section '{lost.section}' sets it, which has no effect there"
     elif near is not None:
         what = f"did you mean '{near}'?"
     else:
         what = f"it has types for {some}" if known else "it has no types of controllers"
-    meant = near if apart is None else None
+    meant = near if lost.section is None else None
     return rule.claim(
-        missing.followed_by(": the controller is not loaded; {what}", what=what),
+        lost.missing.followed_by(": the controller is not loaded; {what}", what=what),
         spawner.location,
         subject=Subject("controller", controller),
         kind="absent" if meant is None else "near",
-        doubts=against,
+        doubts=lost.doubts,
         candidates=(meant,),
-        related=(*related, *include_chain(spawner.origin)),
+        related=(*lost.related, *include_chain(spawner.origin)),
         fixes=_corrected(context, spawner, controller, meant) if meant is not None else (),
     )
 

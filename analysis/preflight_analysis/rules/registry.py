@@ -16,7 +16,6 @@ from types import ModuleType
 
 import preflight_analysis.rules as package
 from preflight_analysis.catalogue.launches import catalogued_file
-from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.set_aside import is_set_aside
@@ -27,7 +26,7 @@ from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.instances import together, with_others
 from preflight_analysis.findings.policy import doubted
-from preflight_analysis.findings.suppression import Suppression, apply_suppressions, read_suppressions
+from preflight_analysis.findings.suppression import Filtered, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.model.catalogued import robots_by_catalogue
 from preflight_analysis.model.context import Context
@@ -79,20 +78,12 @@ def run_rules(
     sorted_findings: list[Finding] = []
     for path in sorted({*by_file, *suppressions}):
         silenced = suppressions.get(path, ())
-        sorted_findings += context.one(
-            _of_file,
-            path,
-            path,
-            context.whole(_alike, path, by_file.get(path, ())),
-            silenced,
-            context.documents[path] if silenced else None,
-            chains.get(path, ()),
-            context.root,
-            chosen,
-            tuple(ran) if silenced else (),
-            path in guessed,
-            _why_set_aside(context, path, by_file[path]) if path in by_file else None,
-        )
+        said = context.whole(_alike, path, by_file.get(path, ()))
+        said = context.one(_with_doubts, path, said, path in guessed, _why_set_aside(context, path, said))
+        document = context.documents[path] if silenced else None
+        left = context.one(apply_suppressions, path, context.one(unique, path, said), silenced, document)
+        judged = tuple(ran) if silenced else ()
+        sorted_findings += context.one(_of_file, path, path, left, chains.get(path, ()), context.root, chosen, judged)
     context.kept.end()
     return sorted_findings
 
@@ -186,26 +177,25 @@ def _is_alike(one: Finding, other: Finding) -> bool:
     return (one.launch_order, one.endpoints, one.crash_of) == (other.launch_order, other.endpoints, other.crash_of)
 
 
-def _of_file(
-    path: str,
-    findings: tuple[Finding, ...],
-    suppressions: tuple[Suppression, ...],
-    document: Document | None,
-    chain: tuple[Related, ...],
-    root: str,
-    rules: tuple[Rule, ...],
-    ran: tuple[str, ...],
-    is_guessed: bool,
-    set_aside: str | None,
-) -> tuple[Finding, ...]:
-    """What is said of one file, of what the rules found there. `document` is that of a file with `suppressions`;
-    `is_guessed`: it is a program, and which branches it takes is not all known; `set_aside`: why nobody starts it as
-    it is."""
+def _with_doubts(findings: tuple[Finding, ...], is_guessed: bool, set_aside: str | None) -> tuple[Finding, ...]:
+    """What the rules found in one file. `is_guessed`: it is a program, and which branches it takes is not all known;
+    `set_aside`: why nobody starts it as it is."""
     if set_aside is not None:
         findings = tuple(_information(f, set_aside) if f.severity in _GRAVE else f for f in findings)
     if is_guessed:
         findings = tuple(doubted(f, Doubt(Reason.BRANCHES)) if f.confidence == "certain" else f for f in findings)
-    filtered = apply_suppressions(unique(findings), suppressions, document)
+    return findings
+
+
+def _of_file(
+    path: str,
+    filtered: Filtered,
+    chain: tuple[Related, ...],
+    root: str,
+    rules: tuple[Rule, ...],
+    ran: tuple[str, ...],
+) -> tuple[Finding, ...]:
+    """What is said of one file, of what the rules `ran` found there and no comment silences."""
     left = [_in_context(finding, chain, root) for finding in filtered.kept]
     judge = next((rule for rule in rules if rule.unused_suppression is not None), None)
     if judge is not None and judge.unused_suppression is not None:

@@ -8,7 +8,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.near_miss import OF_NEAR_MISSES, doubts_of
-from preflight_analysis.model.places import Verbs, related_endpoint, subject_of
+from preflight_analysis.model.places import Verbs, related_endpoint
 from preflight_analysis.model.reach import Seen, awaited, seen, unmet
 from preflight_analysis.model.remaps_elsewhere import BY_FILES
 from preflight_analysis.rules.further_reading import SERVICES, SERVICES_2
@@ -27,13 +27,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    found, known = unmet(context, "services"), seen(graph)
+    found, known = unmet(context, "services"), seen(context, graph)
     for pair in found.near:
         client, server = pair.consumer, pair.provider
         nodes = {"node": client.node.name, "other": server.node.name}
         said = say(_NEAR, name=client.name, near=server.name, **nodes, why=pair.why, aside=known.aside)
         why = doubts_of(pair, known.lacks, known.likely_complete)
-        yield near_miss_finding(rule, pair, said, subject_of(client), _VERBS, fixes_in(context, pair), why)
+        yield near_miss_finding(rule, pair, said, _VERBS, fixes_in(context, pair), why)
     offers = awaited(context)
     hints: list[tuple[Connection, Connection | None]] = []
     for client in found.consumers:

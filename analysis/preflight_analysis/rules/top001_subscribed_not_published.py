@@ -11,7 +11,7 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import by_type, dangling_providers, lone_of_type
 from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of
 from preflight_analysis.model.nearest import numbers_in
-from preflight_analysis.model.places import Verbs, related_endpoint, subject_of
+from preflight_analysis.model.places import Verbs, related_endpoint
 from preflight_analysis.model.reach import Seen, seen, unmet
 from preflight_analysis.model.remaps_elsewhere import BY_FILES, in_use_around
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
@@ -36,7 +36,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    found, known = unmet(context, "topics"), seen(graph)
+    found, known = unmet(context, "topics"), seen(context, graph)
     in_use = in_use_around(context, [pair.consumer for pair in found.near])
     columns = (found.near, in_use, *documents_of(context, found.near))
     yield from context.each_row(_near, columns, rule, known)
@@ -59,7 +59,7 @@ def _near(
 ) -> Finding:
     why = (*doubts(IN_USE=in_use, OUTSIDE=_shows_another(pair)), *doubts_of(pair, known.lacks, known.likely_complete))
     said = _near_message(known, pair)
-    return near_miss_finding(rule, pair, said, subject_of(pair.site), _VERBS, fixes(pair, consumers, providers), why)
+    return near_miss_finding(rule, pair, said, _VERBS, fixes(pair, consumers, providers), why)
 
 
 def _shows_another(pair: NearMiss) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Literal
 
-from preflight_analysis.findings.claim import Subject, Text
+from preflight_analysis.findings.claim import Text
 from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.graph.model import Connection
@@ -17,9 +17,11 @@ from preflight_analysis.rules.rule import Rule
 
 
 def near_miss_finding(
-    rule: Rule, near: NearMiss, said: Text, subject: Subject, verbs: Verbs, fixes: Iterable[Fix], why: Iterable[Doubt]
+    rule: Rule, near: NearMiss, said: Text, verbs: Verbs, fixes: Iterable[Fix], why: Iterable[Doubt]
 ) -> Finding:
-    """The finding for two endpoints that were probably meant to meet. `why` they may not be."""
+    """The finding for two endpoints that were probably meant to meet, at that of them whose name the launch sets. `why`
+    they may not be."""
+    subject = subject_of(near.site)
     ends = (near.consumer, near.provider)
     return rule.claim(
         said,
