@@ -78,10 +78,10 @@ def run_rules(
     sorted_findings: list[Finding] = []
     for path in sorted({*by_file, *suppressions}):
         silenced = suppressions.get(path, ())
-        said = context.whole(_alike, path, by_file.get(path, ()))
-        said = context.one(_with_doubts, path, said, path in guessed, _why_set_aside(context, path, said))
+        here = context.whole(_alike, path, by_file.get(path, ()))
+        here = context.one(_with_doubts, path, here, path in guessed, _why_set_aside(context, path, here))
         document = context.documents[path] if silenced else None
-        left = context.one(apply_suppressions, path, context.one(unique, path, said), silenced, document)
+        left = context.one(apply_suppressions, path, context.one(unique, path, here), silenced, document)
         judged = tuple(ran) if silenced else ()
         sorted_findings += context.one(_of_file, path, path, left, chains.get(path, ()), context.root, chosen, judged)
     context.kept.end()
