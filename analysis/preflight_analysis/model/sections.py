@@ -20,12 +20,13 @@ from preflight_analysis.evaluation.ros2.containers import container_of, containe
 from preflight_analysis.evaluation.ros2.param_files import ParamFile, Section, read_param_file
 from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
-from preflight_analysis.evaluation.tree import FileSection, LaunchNode, ParamSource
+from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness, nearest
+from preflight_analysis.model.section_reader import SectionReader
 from preflight_analysis.model.written_elsewhere import around
 from preflight_analysis.tracing.interface import Interface
 
@@ -132,7 +133,7 @@ class FileUse:
         """The sections for that name as a node of the launch file gets them, in whose process it is."""
         for path, _, source in _files_of(node):
             if path == self.path:
-                reached = _Reader(path, self.file).reached(source, node, name)
+                reached = SectionReader(path, self.file).reached(source, node, name)
                 yield from (self.sections[at] for at in sorted(reached))
 
     def meant_for(self, getter: Getter) -> SectionUse | None:
@@ -156,11 +157,6 @@ def param_files(context: Context) -> tuple[FileUse, ...]:
     return tuple(each for each in found if each is not None and each.getters)
 
 
-def param_file(context: Context, path: str) -> FileUse | None:
-    """What is so of a parameter file, whether a node gets it or not; None where it is not there."""
-    return _param_file(context, path)
-
-
 def files_of(context: Context, node: LaunchNode) -> Iterator[FileUse]:
     """What is so of the parameter files that a node gets, of each once."""
     paths = dict.fromkeys(path for path, _, _ in _files_of(node))
@@ -176,12 +172,6 @@ def section_at(context: Context, place: Location) -> SectionUse | None:
 def _by_place(context: Context, path: str) -> Mapping[Span, SectionUse]:
     used = param_file(context, path)
     return {param.name_span: each for each in used.sections for param in each.section.params} if used else {}
-
-
-def taken_by(node: LaunchNode, source: ParamSource, file: ParamFile) -> list[Section]:
-    """The sections that a node takes of a file as people edit it, of which the source is or was made."""
-    reader = _Reader(source.made_from or source.path or "", file)
-    return [file.sections[at] for at in sorted(reader.reached(source, node))]
 
 
 def may_be_called(context: Context, name: str) -> list[LaunchNode]:
@@ -243,14 +233,15 @@ def _beside(context: Context) -> dict[str, list[str]]:
 
 
 @derived
-def _param_file(context: Context, path: str) -> FileUse | None:
+def param_file(context: Context, path: str) -> FileUse | None:
+    """What is so of a parameter file, whether a node gets it or not; None where it is not there."""
     document = context.document(path)
     if document is None:
         return None
     file = read_param_file(document)
     given = given_files(context).get(path, ())
     there = _names(context)
-    reader = _Reader(path, file)
+    reader = SectionReader(path, file)
     getters = _getters(context, path, given, reader, there)
     reaching: dict[int, list[Getter]] = defaultdict(list)
     named: set[str] = set()
@@ -306,7 +297,7 @@ def _param_file(context: Context, path: str) -> FileUse | None:
 
 
 def _getters(
-    context: Context, path: str, given: Sequence[tuple[LaunchNode, ParamSource]], reader: _Reader, there: _Names
+    context: Context, path: str, given: Sequence[tuple[LaunchNode, ParamSource]], reader: SectionReader, there: _Names
 ) -> list[tuple[Getter, set[int]]]:
     """Who gets the file, each with the numbers of the sections that apply to it."""
     found: dict[tuple[str, int], tuple[Getter, set[int]]] = {}
@@ -325,65 +316,6 @@ def _getters(
         other = found.setdefault((name, id(node)), (Getter(name, node, node.location, True), set()))
         other[1].update(reader.as_it_stands(name))
     return list(found.values())
-
-
-class _Reader:
-    """Which sections of a file its sources have for nodes, by their numbers."""
-
-    def __init__(self, path: str, file: ParamFile) -> None:
-        self._path, self._file = path, file
-        self._at = {id(section): at for at, section in enumerate(file.sections)}
-        self._made: dict[str, list[tuple[Section, set[int]]]] = {}
-        self._is_read = False
-
-    def patterns(self, at: int) -> frozenset[str]:
-        """What a section is for, as nodes get it; nothing where a launch file made what is not found again."""
-        made = (each.pattern for of_source in self._made.values() for each, of in of_source if at in of)
-        own = (self._file.sections[at].pattern,) if self._is_read or not self._made else ()
-        return frozenset((*made, *own))
-
-    def reached(self, source: ParamSource, node: LaunchNode, name: str | None = None) -> set[int]:
-        """Those for a node, or for another one of its process."""
-        if source.sections and source.path is not None:
-            made = self._made_of(source.path, source.sections)
-            return {at for each, of in made if each.fits(name or node.name) for at in of}
-        if source.made_from is not None:
-            patterns = {f"/{key.strip('/')}" for key in source.keys}
-            return {at for pattern in patterns for at in self._of_pattern(pattern)}
-        return self.as_it_stands(name or node.name, composable=node.kind == "composable" and name is None)
-
-    def as_it_stands(self, name: str, *, composable: bool = False) -> set[int]:
-        """Those for a node that gets the text as it is written."""
-        self._is_read = True
-        return {self._at[id(section)] for section in self._file.reaching(name, composable=composable)}
-
-    def in_namespace(self, name: str, namespace: str) -> set[int]:
-        """Those for a node of Nav2's launch files, which put the sections below its namespace."""
-        self._is_read = True
-        below = {name, name.removeprefix(namespace.rstrip("/"))}
-        return {at for each in below for at in self.as_it_stands(each)}
-
-    def _made_of(self, path: str, sections: tuple[FileSection, ...]) -> list[tuple[Section, set[int]]]:
-        if path not in self._made:
-            self._made[path] = [(Section(each.pattern, (), (), each.key), self._origin(each)) for each in sections]
-        return self._made[path]
-
-    def _origin(self, made: FileSection) -> set[int]:
-        """The sections that one was made of: that of its key, which may have got a namespace, else that in which its
-        parameters stand."""
-        if found := self._of_pattern(made.pattern):
-            return found
-        places = {p.name_location.span for p in made.params if p.name_location and p.name_location.file == self._path}
-        return {
-            at
-            for at, section in enumerate(self._file.sections)
-            if any(param.name_span in places for param in section.params)
-        }
-
-    def _of_pattern(self, pattern: str) -> set[int]:
-        ends = [each.pattern for each in self._file.sections if pattern.endswith(each.pattern)]
-        longest = max(ends, key=len, default="")
-        return {at for at, each in enumerate(self._file.sections) if each.pattern == longest}
 
 
 _WRITERS = frozenset({"RewrittenYaml", "ReplaceString"})

@@ -13,7 +13,7 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.graph.annotations import annotated_names
 from preflight_analysis.launch.model import Action
-from preflight_analysis.model.sections import taken_by
+from preflight_analysis.model.section_reader import taken_by
 from preflight_analysis.queries.places import action_at
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import settings_of
