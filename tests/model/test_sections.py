@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.model.sections import param_file, param_files
 from preflight_analysis.queries.hover import hover
 from preflight_analysis.queries.node_names import mentions_of
 from preflight_analysis.queries.parameters import parameters
 from preflight_analysis.queries.query_context import QueryContext
+from preflight_analysis.rules.registry import found_in_loose_files
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.workspace import Analysis
 from support.python_launch_harness import PythonHarness
@@ -270,3 +272,43 @@ def test_who_asks_of_a_rewritten_file_asks_of_the_one_that_people_edit(tmp_path:
     pilot = next(node for node in analysis.tree.nodes if node.name == "/pilot")
     (mention,) = mentions_of(context, (analysis.tree,), frozenset({pilot.name}))
     assert (mention.value.file, context.text(mention.value)) == (str(path), "pilot")
+
+
+@pytest.mark.ros
+def test_a_rewritten_file_is_given_to_its_nodes_for_all_rules(tmp_path: Path) -> None:
+    """The rules about files that no node gets leave it alone, those about files that nodes get look into it."""
+    harness = PythonHarness(tmp_path)
+    harness.write(
+        "params.yaml",
+        """
+        pilot:
+          ros__parameters:
+            plugins: ["voxel_layer", "inflation_layer"]
+            obstacle_layer:
+              plugin: "nav2_costmap_2d::ObstacleLayer"
+            inflation_layer:
+              plugin: "nav2_costmap_2d::InflationLayer"
+        """,
+    )
+    analysis = harness.launch(harness.write("launch/a.launch.py", MANAGED_AND_REWRITTEN))
+    (found,) = [f for f in analysis.findings if f.rule == "PRM018"]
+    assert Reason.NOT_GIVEN not in [doubt.reason for doubt in found.doubts]
+    assert [each.rule for each in found_in_loose_files(analysis.context)] == []
+
+
+def test_a_file_that_an_include_from_the_catalogue_is_handed_is_given() -> None:
+    there = at_cursor("""//- /main.launch.xml
+<launch>
+  <include file="$(find-pkg-share nav2_bringup)/launch/navigation_launch.py">
+    <arg name="params_file" value="/p.yaml"/>
+  </include>
+</launch>
+//- /p.yaml
+bt_navigator:
+  ros__parameters:
+    plugins: ["voxel_layer", "inflation_layer"]
+    obstacle_layer: {plugin: "nav2_costmap_2d::ObstacleLayer"}
+    inflation_layer: {plugin: "nav2_costmap_2d::InflationLayer"}
+""")
+    (found,) = [f for f in there.analysis.findings if f.rule == "PRM018"]
+    assert [doubt.reason for doubt in found.doubts if doubt.reason is Reason.CATALOGUE] == [Reason.CATALOGUE]

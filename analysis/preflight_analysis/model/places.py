@@ -108,12 +108,3 @@ def _how_known(what: Endpoint | ParamUse) -> str:
     if what.catalogued:
         return f" (from {what.catalogued})"
     return " (from its source)" if what.inferred else ""
-
-
-def getters_of(node: LaunchNode) -> tuple[tuple[str, Related], ...]:
-    """The parameter files that a node gets, and where it does (ROS 2)."""
-    return tuple(
-        (each.path, Related(f"{node.name} gets the file here", each.origin[-1]))
-        for each in node.param_sources
-        if each.path is not None
-    )

@@ -22,6 +22,7 @@ from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.findings.finding import Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
@@ -44,12 +45,18 @@ _ENOUGH = 2
 class Getter(NamedTuple):
     """A node that gets a parameter file: that of the full name `name`. `node` is the launch file's, in whose process
     it is, `location` where that one gets the file. `beside`: it is one that the process makes beside its own, or a
-    controller."""
+    controller. `by_include`: a launch file from the catalogue is handed the file, and gives it to the node."""
 
     name: str
     node: LaunchNode
     location: Location
     beside: bool = False
+    by_include: bool = False
+
+    @property
+    def related(self) -> Related:
+        """Where it gets the file."""
+        return Related(f"{self.node.name} gets the file here", self.location)
 
 
 class Slip(NamedTuple):
@@ -155,6 +162,12 @@ def param_files(context: Context) -> tuple[FileUse, ...]:
     handed = (value for each in context.tree.includes for value in each.args.values() if value and is_yaml(value))
     found = (param_file(context, path) for path in dict.fromkeys((*given_files(context), *handed)))
     return tuple(each for each in found if each is not None and each.getters)
+
+
+@derived
+def first_getters(context: Context) -> Mapping[str, Getter]:
+    """The parameter files that nodes of the launch get, as people edit them, each with the first of the nodes."""
+    return {used.path: used.getters[0] for used in param_files(context)}
 
 
 def files_of(context: Context, node: LaunchNode) -> Iterator[FileUse]:
@@ -310,7 +323,7 @@ def _getters(
             other[1].update(reader.reached(source, node, name))
     for node, place in _handed_on(context, path):
         for name in (node.name, *there.beside.get(node.name, ())):
-            other = found.setdefault((name, id(node)), (Getter(name, node, place, name != node.name), set()))
+            other = found.setdefault((name, id(node)), (Getter(name, node, place, name != node.name, True), set()))
             other[1].update(reader.in_namespace(name, node.namespace))
     for node, name in _controllers_given(context, path):
         other = found.setdefault((name, id(node)), (Getter(name, node, node.location, True), set()))

@@ -26,6 +26,7 @@ from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.joint_names import meant_around
 from preflight_analysis.model.params_in_sources import meant_in_one_file
+from preflight_analysis.model.sections import first_getters
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules import ctl001_unknown_joint as ctl001
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
@@ -65,7 +66,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         for share in sorted(own):
             yield from _of_ros1(context, share)
         return
-    given = {source.path for node in context.tree.nodes_and_simulated for source in node.param_sources}
+    given = first_getters(context).keys()
     folders = _folders(context, package.share)
     files = {path for folder, base in folders for path in _param_files(context.disk.db, folder, base)}
     for path in sorted(files):

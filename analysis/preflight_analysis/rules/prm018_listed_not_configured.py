@@ -8,19 +8,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
 from typing import NamedTuple
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import Section, read_param_file
 from preflight_analysis.findings.claim import Effect, Subject
-from preflight_analysis.findings.doubt import Reason
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.places import getters_of
 from preflight_analysis.model.problems import include_chain, quoted
+from preflight_analysis.model.sections import first_getters
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.rule import Rule
 
@@ -103,13 +102,11 @@ class Missing(NamedTuple):
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _of_moveit(rule, context)
-    getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.each(getters_of, context.tree.nodes_and_simulated)):
-        getters.setdefault(path, getter)
+    getters = first_getters(context)
     found: list[tuple[str, Missing]] = []
     for path in getters:
-        document = context.documents.get(path)
-        found += ((path, each) for each in missing_in(document)) if isinstance(document, Document) else ()
+        document = context.document(path)
+        found += ((path, each) for each in missing_in(document)) if document is not None else ()
     if not found:
         return
     given: dict[str, set[str]] = {}
@@ -128,21 +125,21 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             context.location(path, missing.span),
             subject=missing.subject,
             effect=missing.effect,
+            doubts=doubts(CATALOGUE=getters[path].by_include),
             candidates=missing.meant,
             related=(
                 *(Related(f"'{name}' is configured here", context.location(path, at)) for name, at in missing.ready),
-                getters[path],
+                getters[path].related,
             ),
         )
 
 
 def _is_listed(context: Context, paths: Iterable[str], missing: Missing) -> bool:
     """Whether another file has the list for the same node."""
-    documents = (context.documents.get(path) for path in paths)
     return any(
         section.pattern == missing.pattern and any(param.name == missing.listed_in for param in section.params)
-        for document in documents
-        if isinstance(document, Document)
+        for document in map(context.document, paths)
+        if document is not None
         for section in read_param_file(document).sections
     )
 
@@ -251,7 +248,7 @@ RULE = Rule(
     effect="stops-node",
     kind="absent",
     always=(Reason.LIBRARY,),
-    sometimes=("breaks", "no-effect", Reason.NOT_GIVEN),
+    sometimes=("breaks", "no-effect", Reason.NOT_GIVEN, Reason.CATALOGUE),
     what="Checks for a name in a list of a parameter file (`plugins`, `controller_plugins`, ...) without a "
     "`NAME.plugin` or `NAME.type`, and for a plugin of Nav2 that is in no list. It also checks "
     "`controller_names` of MoveIt.",

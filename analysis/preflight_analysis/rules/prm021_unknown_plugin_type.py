@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from itertools import chain
 from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
@@ -18,12 +17,12 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, is_slip
-from preflight_analysis.model.places import getters_of
 from preflight_analysis.model.problems import rename
+from preflight_analysis.model.sections import first_getters
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
 from preflight_analysis.rules.rule import Rule
 
@@ -50,11 +49,8 @@ class _Named(NamedTuple):
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     environment = context.environment
     distro = distribution_of(context.tree.generation, environment.distro)
-    getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.each(getters_of, context.tree.nodes_and_simulated)):
-        getters.setdefault(path, getter)
-    for path, getter in getters.items():
-        document = context.documents.get(path)
+    for path, getter in first_getters(context).items():
+        document = context.document(path)
         for named in _types_in(document) if document is not None else ():
             of_nav = _of_nav(context, named)
             if of_nav is not None:
@@ -67,7 +63,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                     kind="absent" if near is None else "near",
                     doubts=doubts(CATALOGUE=True),
                     candidates=(near,),
-                    related=(getter,),
+                    related=(getter.related,),
                     fixes=rename(context, place, named.type, near) if near is not None else (),
                 )
                 continue
@@ -87,7 +83,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 # Another version of the package may have had the shorter name.
                 doubts=doubts(CATALOGUE=not own, OTHER_VERSION=abridged is not None and environment.distro != distro),
                 candidates=(meant,),
-                related=(getter,),
+                related=(getter.related,),
                 fixes=rename(context, place, named.type, meant),
             )
 

@@ -7,7 +7,6 @@ declares.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import chain
 from typing import NamedTuple
 
 from rapidfuzz.distance import OSA
@@ -17,13 +16,13 @@ from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
-from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context, Plugin, Plugins
 from preflight_analysis.model.nearest import is_slip
-from preflight_analysis.model.places import getters_of
 from preflight_analysis.model.plugin_params import KIND, LISTED, declared_below
 from preflight_analysis.model.problems import rename
+from preflight_analysis.model.sections import first_getters
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.rule import Rule
 
@@ -51,11 +50,8 @@ class Wrong(NamedTuple):
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    getters: dict[str, Related] = {}
-    for path, getter in chain.from_iterable(context.each(getters_of, context.tree.nodes)):
-        getters.setdefault(path, getter)
-    for path, getter in getters.items():
-        document = context.documents.get(path)
+    for path, getter in first_getters(context).items():
+        document = context.document(path)
         for wrong in wrong_in(document, context.plugins) if document is not None else ():
             place = context.location(path, wrong.span)
             old, new = (name.rpartition(".")[2] for name in (wrong.name, wrong.meant))
@@ -66,7 +62,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 subject=Subject("parameter", wrong.name),
                 doubts=wrong.doubts,
                 candidates=(wrong.meant,),
-                related=(getter,),
+                related=(getter.related,),
                 fixes=rename(context, place, old, new) if same_place else (),
             )
 
