@@ -39,7 +39,11 @@ def test_what_is_used_or_chosen() -> None:
             else:
                 node = Node(package="p", executable="d")
             unused = Node(package="p", executable="e")
-            return LaunchDescription([*made, node])
+            return LaunchDescription([
+                *made,
+                node,
+                # unused,
+            ])
     """)
 
 
@@ -56,4 +60,33 @@ def test_the_same_action_again() -> None:
                 package="p", executable="drive"
             )
             return LaunchDescription([drive])
+    """)
+
+
+def test_what_no_list_has() -> None:
+    check("""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            drive = Node(package="p", executable="drive")
+            camera = Node(package="p", executable="camera")
+            ^^^^^^ info[LCH042] 'camera' is not used: this Node is never launched
+            Node(package="p", executable="monitor")
+            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[LCH042] 'Node' is not part of the launch description
+            return LaunchDescription([drive])
+    """)
+
+
+@pytest.mark.silent
+def test_what_is_asked_for_by_its_name() -> None:
+    check("""
+        //- /robot.launch.py
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+
+        def generate_launch_description():
+            camera = Node(package="p", executable="camera")
+            return LaunchDescription([locals()["camera"]])
     """)

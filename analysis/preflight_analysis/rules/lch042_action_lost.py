@@ -1,14 +1,16 @@
-"""LCH042: an action of a Python launch file whose variable gets another one before it is used (ROS 2)."""
+"""LCH042: an action that a Python launch file makes and never launches (ROS 2)."""
 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from preflight_analysis.documents.span import Span
-from preflight_analysis.findings.claim import Subject
-from preflight_analysis.findings.doubt import Reason
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
@@ -26,27 +28,42 @@ _ACTIONS = frozenset(
 )  # fmt: skip
 
 
+_ASKS_FOR_NAMES = frozenset({"locals", "globals", "vars", "eval", "exec"})
+
+
 class _Lost(NamedTuple):
     name: str
+    """That of its variable, "" where it has none."""
     kind: str
     span: Span
-    again: Span
-    same: bool
+    again: Span | None = None
+    """Where the variable gets another action."""
+    same: bool = False
     """Whether it is the very same action: the second one takes its place."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for lost in _lost(launch_file) if launch_file.is_python else ():
-            message = f"'{lost.name}' is assigned again before its first use: this {lost.kind} is never launched"
+            again = (Related("assigned again here", context.location(path, lost.again)),) if lost.again else ()
             yield rule.claim(
-                f"{message}, the next one is the same" if lost.same else message,
+                say(_why(lost), name=lost.name, kind=lost.kind),
                 context.location(path, lost.span),
-                subject=Subject("variable", lost.name),
+                subject=Subject("variable", lost.name) if lost.name else Subject("action", lost.kind),
                 kind="duplicate" if lost.same else None,
                 effect="style" if lost.same else None,
-                related=(Related("assigned again here", context.location(path, lost.again)),),
+                doubts=doubts(INTENDED=bool(lost.name) and lost.again is None),
+                related=again,
             )
+
+
+def _why(lost: _Lost) -> str:
+    if not lost.name:
+        return "'{kind}' is not part of the launch description: it is never launched"
+    if lost.again is None:
+        return "'{name}' is not used: this {kind} is never launched"
+    said = "'{name}' is assigned again before its first use: this {kind} is never launched"
+    return f"{said}, the next one is the same" if lost.same else said
 
 
 @derived
@@ -55,12 +72,38 @@ def _lost(launch_file: LaunchFile) -> tuple[_Lost, ...]:
     if source.module is None:
         return ()
     names = BoundNames(source)
-    return tuple(
-        lost
+    blocks = [
+        node.body
         for node in ast.walk(source.module)
         if isinstance(node, (ast.Module, ast.FunctionDef, ast.If, ast.With))
-        for lost in _in_block(source, names, node.body)
-    )
+    ]
+    again = [lost for block in blocks for lost in _in_block(source, names, block)]
+    loaded = {node.id for node in ast.walk(source.module) if isinstance(node, ast.Name) and _is_used(node)}
+    bare = [lost for block in blocks for lost in _bare(source, names, block, loaded)]
+    return (*again, *bare)
+
+
+def _is_used(node: ast.Name) -> bool:
+    return not isinstance(node.ctx, ast.Store)
+
+
+def _bare(source: PythonSource, names: BoundNames, block: list[ast.stmt], used: AbstractSet[str]) -> Iterator[_Lost]:
+    """Actions that no statement can come back to: a call by itself, and what is in a variable that the file never uses.
+    One that a comment names was taken out on purpose."""
+    for statement in block:
+        value = statement.value if isinstance(statement, (ast.Expr, ast.Assign)) else None
+        made = names.made_by(value) if isinstance(value, ast.Call) else None
+        if made not in _ACTIONS:
+            continue
+        if isinstance(statement, ast.Expr):
+            yield _Lost("", made, source.whole_span(statement.value))
+        elif isinstance(statement, ast.Assign) and not _ASKS_FOR_NAMES.isdisjoint(used):
+            continue
+        elif isinstance(statement, ast.Assign) and all(isinstance(each, ast.Name) for each in statement.targets):
+            own = [each for each in statement.targets if isinstance(each, ast.Name)]
+            commented = any(re.search(rf"#.*\b{re.escape(each.id)}\b", source.text) for each in own)
+            if not commented and used.isdisjoint(each.id for each in own):
+                yield _Lost(own[0].id, made, source.whole_span(own[0]))
 
 
 def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) -> Iterator[_Lost]:
@@ -90,11 +133,10 @@ RULE = Rule(
     effect="no-effect",
     kind="unreachable",
     always=(Reason.FROM_SOURCE,),
-    sometimes=("style",),
-    what="Checks for an action in a Python launch file that is assigned to a variable which gets another action "
-    "before its first use.",
-    why="The name was copied with the line. The first node, process or include is never launched, and no tool "
-    "reports it.",
+    sometimes=("style", Reason.INTENDED),
+    what="Checks for an action that a Python launch file makes and never launches. No list has it, or its variable "
+    "gets another action before its first use.",
+    why="The node, process or include is never launched, and no tool reports it. Often a name was copied with a line.",
     example='front = Node(package="camera", executable="front")\nfront = Node(package="camera", executable="rear")',
     instead='front = Node(package="camera", executable="front")\nrear = Node(package="camera", executable="rear")',
     references=(FORMATS,),
