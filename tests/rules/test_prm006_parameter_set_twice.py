@@ -222,3 +222,23 @@ def test_an_argument_before_a_file_that_sets_its_default() -> None:
           ros__parameters:
             use_sim_time: $(var sim)
     """)
+
+
+def test_a_key_of_a_file_of_ros2_stands_there_twice() -> None:
+    check("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="pump" name="pump"><param from="/pump.yaml"/></node>
+        </launch>
+        //- /pump.yaml
+        pump:
+          ros__parameters:
+            message: all is well
+            ^^^^^^^ warning[PRM006] duplicate key 'message' in this section: the later one overrides it with 'pump is off'
+            limits.high: 2
+            ^^^^^^^^^^^ hint[PRM006] duplicate key 'limits.high' in this section
+            message: pump is off
+            limits: {high: 2, low: 1}
+        other:
+          ros__parameters: {message: ''}
+    """)

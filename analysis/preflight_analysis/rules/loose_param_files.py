@@ -29,6 +29,7 @@ from preflight_analysis.model.params_in_sources import meant_in_one_file
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules import ctl001_unknown_joint as ctl001
+from preflight_analysis.rules import prm006_parameter_set_twice as prm006
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
 from preflight_analysis.rules import prm016_parameter_file_refused as prm016
 from preflight_analysis.rules import prm018_listed_not_configured as prm018
@@ -87,6 +88,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
             of_file = Subject("file", path)
             yield prm016.RULE.claim(message, document.location(span), subject=of_file, doubts=_LOOSE)
+        yield from prm006.repeated_in(document, *_LOOSE)
         for missing in prm018.missing_in(document):
             if _is_in_base(context, files | given, missing):
                 continue

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from itertools import compress, takewhile
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import YamlKeyTwice
+from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, Param, ParamSource
 from preflight_analysis.findings.claim import Effect, Subject, say
-from preflight_analysis.findings.doubt import Reason, doubts
+from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.arguments import gives
 from preflight_analysis.model.context import Context
@@ -22,6 +24,7 @@ from preflight_analysis.rules.problems import problem_claim
 from preflight_analysis.rules.rule import Rule
 
 _OVERRIDDEN = "overridden: parameter '{name}' of {node} {why} to {value}, not {old}"
+_TWICE = "duplicate key '{name}' in this section: the later one overrides it with {value}"
 _DEAD_ARGUMENT = (
     "overridden: parameter '{name}' of {node} is set again by a later parameter file; argument '{argument}' does not "
     "change it"
@@ -101,6 +104,10 @@ def _with_lost(param: Param) -> tuple[Param, tuple[Param, ...]] | None:
 def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
     """What files say is there to be overridden by later sources, and what is for every node by what is for one. Told is
     a value in the node's own tag or call that does not count, and what loses against this usual order."""
+    paths = {source.path for node in context.tree.nodes_and_simulated for source in node.param_sources}
+    for path in sorted(filter(None, paths)):
+        document = context.documents.get(path)
+        yield from repeated_in(document) if document is not None else ()
     reported: set[tuple[Location, Location]] = set()
     nodes = context.tree.nodes
     each_lost = context.each(_lost_values, nodes)
@@ -122,6 +129,19 @@ def _of_ros2_nodes(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=(Related("the value that applies", counts.place), *include_chain(old.origin)),
             )
     yield from _dead_arguments(rule, context, reported)
+
+
+def repeated_in(document: Document, *more: Doubt) -> Iterator[Finding]:
+    """Of the parameters that a file of ROS 2 sets twice for one node."""
+    for first, second in read_param_file(document).repeated:
+        yield RULE.claim(
+            say(_TWICE, name=first.name, value=_shown(second.value)),
+            document.location(first.name_span),
+            subject=Subject("parameter", first.name),
+            effect="style" if first.value == second.value else None,
+            doubts=more,
+            related=(Related("the value that applies", document.location(second.name_span)),),
+        )
 
 
 def _dead_arguments(rule: Rule, context: Context, reported: set[tuple[Location, Location]]) -> Iterator[Finding]:
@@ -308,7 +328,7 @@ RULE = Rule(
     name="parameter-set-twice",
     effect="no-effect",
     kind="duplicate",
-    sometimes=("style", Reason.SHARED),
+    sometimes=("style", Reason.SHARED, Reason.NOT_GIVEN),
     what="Checks for a parameter value that another one overrides in a way that is easily missed. Files that are "
     "overridden on purpose, included files and tags under a condition are ignored.",
     why="A change of the overridden value has no effect. The last of several settings applies, and no launcher "

@@ -85,6 +85,17 @@ class ParamFile:
     refused: tuple[tuple[str, Span], ...] = ()
     flat: tuple[FileParam, ...] = ()
 
+    @property
+    def repeated(self) -> Iterator[tuple[FileParam, FileParam]]:
+        """The parameters that stand in a section twice, each with the one that rcl takes in its place, the later
+        (`rcl_yaml_param_parser`, `add_val_to_...`)."""
+        for section in self.sections:
+            last: dict[str, FileParam] = {}
+            for param in section.params:
+                if (before := last.get(param.name)) is not None:
+                    yield before, param
+                last[param.name] = param
+
     def reaching(self, node: str, *, composable: bool = False) -> list[Section]:
         """The sections that reach the node of this full name, in order. A file may be shared by hundreds of nodes with
         a section for each: names are looked up, only wildcards are tried."""
