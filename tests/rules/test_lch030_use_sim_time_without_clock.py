@@ -90,5 +90,6 @@ def test_the_project_has_a_launch_file_that_starts_a_simulator(tmp_path: Path) -
     """
     (tmp_path / "main.launch").touch()
     assert [f.severity for f in findings_of(text + _INTERFACES) if f.rule == "LCH030"] == ["warning"]
-    (tmp_path / "world.launch").write_text('<include file="$(find gazebo_ros)/launch/empty_world.launch"/>')
+    include = '<include file="$(find gazebo_ros)/launch/empty_world.launch"/>'
+    (tmp_path / "world.launch").write_text(f"<launch>{include}</launch>")
     assert [f.severity for f in findings_of(text + _INTERFACES) if f.rule == "LCH030"] == ["info"]

@@ -13,8 +13,8 @@ from preflight_analysis.findings.finding import Fix
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, action_at
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.name_index import in_workspace
 from preflight_analysis.model.problems import fix, rename
-from preflight_analysis.model.written_elsewhere import in_workspace
 
 _FAR = 40
 """Characters between the name of a parameter and its value."""
@@ -79,8 +79,8 @@ def declare(context: Context, origin: Origin, name: str) -> tuple[Fix, ...]:
 
 
 def _is_included(context: Context, path: str) -> bool:
-    name = re.escape(os.path.basename(path))
-    return in_workspace(context, (re.compile(rf"""[/\s"']({name})["')\s]"""),))
+    name = os.path.basename(path)
+    return any(each.text == name for each in in_workspace(context, "file"))
 
 
 def _is_given(context: Context, origin: Origin, name: str) -> bool:

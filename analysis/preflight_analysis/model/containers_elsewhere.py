@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.name_index import in_package
 from preflight_analysis.model.nearest import is_slip
-from preflight_analysis.model.written_elsewhere import in_package
 
-_NAMES = (
-    re.compile(r"""\bargs\s*=\s*["']\s*load\s+\S+\s+([\w/]+)\s*["'\s]"""),
-    re.compile(r"""\btarget(?:_container)?\s*=\s*["']([\w/]+)["']"""),
-)
-"""In XML and in Python; only names that are written out."""
 _ENOUGH = 2
 """Files that have to agree on a name."""
 
@@ -23,8 +17,8 @@ def called_elsewhere(context: Context, name: str) -> str | None:
     """The name by which other launch files of the package call what this one calls `name`, as a slip of it; None where
     another file calls it so, too."""
     known: Counter[str] = Counter()
-    for written, count in in_package(context, _NAMES).items():
-        known[names.leaf(written)] += count
+    for each, count in in_package(context, "container").items():
+        known[names.leaf(each.text)] += count
     leaf = names.leaf(name)
     if known[leaf] > 1:
         return None

@@ -4,19 +4,12 @@ writes them, as a planner does its plans."""
 from __future__ import annotations
 
 import os
-import re
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.written_elsewhere import around
+from preflight_analysis.model.name_index import around
 
-_GIVEN = (
-    re.compile(
-        r"(\bname\s*=\s*\"\w+\"\s+(?:value|default)\s*=\s*\"\$\(find(?:-pkg-share)? [\w-]+\)/[\w./-]+\.[A-Za-z]\w*\")"
-    ),
-)
-_PARTS = re.compile(r"name\s*=\s*\"(\w+)\".*\(find(?:-pkg-share)? ([\w-]+)\)/([^\"]+)\"")
 _ENOUGH = 2
 """Other files that are not there: one may be the same mistake."""
 
@@ -30,12 +23,11 @@ def others_in_vain(context: Context, location: Location, path: str) -> int:
     if named is None or not context.disk.exists(os.path.dirname(path)):
         return 0
     missing, there = set[str](), set[str]()
-    for written in around(context, _GIVEN):
-        found = _PARTS.search(written)
-        package = context.environment.packages.get(found[2]) if found is not None else None
-        if found is None or found[1] != named.text or package is None:
+    for each in around(context, "given"):
+        package = context.environment.packages.get(each.type)
+        if each.of != named.text or package is None:
             continue
-        other = os.path.normpath(os.path.join(package.share, found[3]))
+        other = os.path.normpath(os.path.join(package.share, each.text))
         if other == path or os.path.dirname(other) == os.path.dirname(path):
             continue
         if context.disk.exists(other):

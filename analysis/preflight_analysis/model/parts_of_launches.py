@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import os
-import re
 
 from preflight_analysis.evaluation.problems import ArgumentNeeded
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.entry import Entry
+from preflight_analysis.model.name_index import in_package
 from preflight_analysis.model.problems import problems_of
-from preflight_analysis.model.written_elsewhere import in_package
-
-_FILES = (re.compile(r"""([^\s/"'$()]+(?:\.xml|\.py|\.ya?ml))["')\s]"""),)
-_ARGUMENTS = (
-    re.compile(r"""\bname\s*[=:]\s*["']?([\w./-]+)"""),
-    re.compile(r"""\bDeclareLaunchArgument\s*\(\s*["']([\w./-]+)["']"""),
-    re.compile(r"""[{,]\s*["']([\w./-]+)["']\s*:"""),
-    re.compile(r"""\(\s*["']([\w./-]+)["']\s*,"""),
-)
-"""Of `<arg>` and `<let>`, and in Python of declarations and what an include is given."""
 
 
 @derived
@@ -33,5 +24,5 @@ def is_configured_elsewhere(context: Context, argument: str) -> bool:
     that name."""
     if not context.tree.ros.shared_configurations:
         return False
-    included = in_package(context, _FILES).get(os.path.basename(context.root), 0) > 0
-    return included and in_package(context, _ARGUMENTS).get(argument, 0) > 0
+    included = Entry("file", os.path.basename(context.root)) in in_package(context, "file")
+    return included and Entry("argument", argument) in in_package(context, "argument")

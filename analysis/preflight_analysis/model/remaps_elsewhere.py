@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
@@ -16,31 +15,12 @@ from preflight_analysis.graph.model import Connection
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import dangling_consumers, dangling_providers
+from preflight_analysis.model.entry import Entry
+from preflight_analysis.model.name_index import around
 from preflight_analysis.model.names_in_sources import meant_in_sources
 from preflight_analysis.model.nearest import folded, is_slip_of_words, likeness
 from preflight_analysis.model.siblings import slips_beside, without_slash
-from preflight_analysis.model.written_elsewhere import around
 
-_TARGETS = (
-    re.compile(r"""<remap\b[^<>]*?\bto\s*=\s*["']([\w/~]+)["']"""),
-    re.compile(r"""\(\s*["'][\w/~]+["']\s*,\s*["']([\w/~]+)["']\s*,?\s*\)"""),
-    re.compile(r"""^[ \t]*(?:-[ \t]*)?to[ \t]*:[ \t]*["']?([\w/~]+)["']?[ \t]*$""", re.MULTILINE),
-)
-"""In XML, Python and YAML; only names that are written out."""
-_IN_USE = (
-    re.compile(r"""<remap\b[^<>]*?\bfrom\s*=\s*["'](/[\w/]+)["']"""),
-    re.compile(r"""<remap\b[^<>]*?\bto\s*=\s*["'](/[\w/]+)["']"""),
-    re.compile(r"""<(?:param|arg)\b[^<>]*?\b(?:value|default)\s*=\s*["'](/[\w/]+)["']"""),
-)
-"""Absolute names that tags of ROS 1 and 2 give or take, or that parameters hand to nodes."""
-_BRIDGED = (re.compile(r"""["'\s](/?\w[\w/]*)@\w+/[\w/]+[@\[\]]"""),)
-"""Topics in the arguments of a bridge to a simulator."""
-_SIMULATED = (
-    re.compile(r""">\s*(/?\w[\w/]*)\s*</\w*[tT]opic(?:_?[nN]ame)?>"""),
-    re.compile(r""":=\s*(/?\w[\w/]*)\s*</(?:remapping|argument)>"""),
-)
-"""Topics that plugins of simulators are given."""
-_ROBOTS_AND_WORLDS = (".xacro", ".urdf", ".sdf", ".world", ".gazebo")
 _ENOUGH = 2
 """Files that have to agree on a name."""
 
@@ -62,12 +42,11 @@ def in_use_around(context: Context, connections: Sequence[Connection]) -> list[b
     slip, whoever is to be at its other end."""
     if not connections:
         return []
-    known, bridged = around(context, _IN_USE), around(context, _BRIDGED)
-    simulated = {
-        name.strip("/") for found in (bridged, around(context, _SIMULATED, _ROBOTS_AND_WORLDS)) for name in found
-    }
+    known = around(context, "value")
+    made = (*around(context, "bridged"), *around(context, "simulated", "robots"))
+    simulated = {each.text.strip("/") for each in made}
     return [
-        known.get(connection.name, 0) >= _ENOUGH or connection.name.strip("/") in simulated
+        known.get(Entry("value", connection.name), 0) >= _ENOUGH or connection.name.strip("/") in simulated
         for connection in connections
     ]
 
@@ -89,7 +68,7 @@ def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     }
     publishers = dangling_providers(context, "topics")
     lone = [each for each in (*consumers, *publishers) if each.remap is not None]
-    found = zip(lone, context.each(_used, lone, _Targets(around(context, _TARGETS))), strict=True) if lone else ()
+    found = zip(lone, context.each(_used, lone, _Targets(around(context, "remap"))), strict=True) if lone else ()
     by_launches = {id(connection): elsewhere for connection, elsewhere in found if elsewhere is not None}
     return {**by_launches, **by_source, **_beside(context, lone, publishers)}
 
@@ -107,14 +86,14 @@ def _beside(context: Context, lone: Sequence[Connection], publishers: Sequence[C
 class _Targets:
     """The targets of remaps as written, with how many files have each."""
 
-    counts: Mapping[str, int]
+    counts: Mapping[Entry, int]
 
     @cached_property
     def _by_beginning(self) -> Mapping[str, Mapping[str, int]]:
         """How often each is written, by what a node puts before it: nothing for a global name, `~` for a private one,
         and the namespace for one that is `relative`."""
         found: dict[str, dict[str, int]] = {"global": {}, "private": {}, "relative": {}}
-        for written, count in self.counts.items():
+        for (_, written, *_), count in self.counts.items():
             kind = "global" if names.is_global(written) else "private" if names.is_private(written) else "relative"
             name = names.canonicalize(f"/{written.removeprefix('~')}")
             found[kind][name] = max(count, found[kind].get(name, 0))
@@ -122,7 +101,7 @@ class _Targets:
 
     @cached_property
     def _several(self) -> tuple[str, ...]:
-        return tuple(written for written, count in self.counts.items() if count >= _ENOUGH)
+        return tuple(each.text for each, count in self.counts.items() if count >= _ENOUGH)
 
     def has(self, name: str, node: str) -> bool:
         """Whether several files have a target by which a node would come to this full name."""
@@ -145,7 +124,7 @@ class _Targets:
             alike = likeness(name, fulls[index])
             if alike is not None and alike[0] == "typo" and is_slip_of_words(name, fulls[index]):
                 written = self._several[index]
-                yield self.counts[written], written
+                yield self.counts[Entry("remap", written)], written
 
 
 def _used(connection: Connection, known: _Targets) -> Elsewhere | None:

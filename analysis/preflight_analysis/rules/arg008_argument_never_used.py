@@ -18,9 +18,9 @@ from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
 from preflight_analysis.model.arguments import declarations, pass_on
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.name_index import in_package
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.problems import all_of, fix, problems_of, shown
-from preflight_analysis.model.written_elsewhere import in_package
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG
 from preflight_analysis.rules.rule import Rule
 
@@ -37,7 +37,6 @@ _WITHOUT_NAMES = sys.stdlib_module_names | {
     "xacro", "yaml",
 }  # fmt: skip
 """Modules that take arguments by no name of their own."""
-_GIVEN = re.compile(r"""<arg\s[^<>]*?\bname\s*=\s*["'](\w+)["'][^<>]*?\bvalue\s*=""")
 _LEFT_OUT = re.compile(r"<!(?:--.*?-->|\[CDATA\[.*?\]\]>)", re.DOTALL)
 _FALSE = ("false", "0", "")
 _FIXED = ("find", "find-pkg-share", "dirname", "path-join")
@@ -149,13 +148,8 @@ def _files_given(launch_file: LaunchFile) -> Mapping[str, set[str]]:
 
 def _passed_around(context: Context, path: str) -> Counter[str]:
     """How many launch files of the package that include the file by its place in a package pass it each argument."""
-    name = re.escape(os.path.basename(path))
-    pattern = re.compile(rf"""\$\(find \w+\)[\w./-]*/{name}["'][^<>]*>((?:\s*<arg\b[^<>]*>)+)""")
-    found: Counter[str] = Counter()
-    for text, count in in_package(context, (pattern,)).items():
-        for given in set(_GIVEN.findall(text)):
-            found[given] += count
-    return found
+    passed = in_package(context, "passed").items()
+    return Counter({each.text: count for each, count in passed if each.of == os.path.basename(path)})
 
 
 def _who_passes(files: int) -> str:

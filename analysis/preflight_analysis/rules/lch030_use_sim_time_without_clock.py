@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.findings.claim import Subject
@@ -10,16 +9,17 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.clock import has_clock
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.entry import Kind
+from preflight_analysis.model.name_index import in_workspace
 from preflight_analysis.model.problems import include_chain
-from preflight_analysis.model.written_elsewhere import in_workspace
 from preflight_analysis.rules.further_reading import CLOCK
 from preflight_analysis.rules.rule import Rule
 
-_OF_TIME = (
-    re.compile(r"""["'(/ ](gazebo_ros|gzserver|stage_ros|stageros|morse|webots_ros|vrep_\w+|carla_\w+)\b"""),
-    re.compile(r"(--clock)\b"),
-)
-"""What a launch file names that starts a simulator or plays a recording with its time."""
+_SIMULATORS = ("gazebo_ros", "gzserver", "stage_ros", "stageros", "morse", "webots_ros")
+_SIMULATOR_FAMILIES = ("vrep_", "carla_")
+_NAMED: tuple[Kind, ...] = ("package", "program")
+_FLAG = "--clock"
+"""Of `rosbag play`."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -32,7 +32,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if has_clock(graph):
         return
     # Beside it another launch of the project runs the simulator, or plays a recording.
-    beside = in_workspace(context, _OF_TIME)
+    beside = _tells_time(context)
     yield rule.claim(
         "'/use_sim_time' is true, but '/clock' has no publisher in this launch; time does not advance without a "
         "simulator or `rosbag play --clock`",
@@ -40,6 +40,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         subject=Subject("topic", "/clock"),
         doubts=doubts(OUTSIDE=beside, NOT_ANALYSED=not graph.complete),
         related=include_chain(param.origin),
+    )
+
+
+def _tells_time(context: Context) -> bool:
+    """Whether a launch file of the workspace names a simulator, or plays a recording with its time."""
+    named = (each.text for kind in _NAMED for each in in_workspace(context, kind))
+    return any(name in _SIMULATORS or name.startswith(_SIMULATOR_FAMILIES) for name in named) or any(
+        each.text == _FLAG for each in in_workspace(context, "flag")
     )
 
 

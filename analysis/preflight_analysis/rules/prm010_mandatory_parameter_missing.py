@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
@@ -21,19 +20,19 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.entry import Entry
 from preflight_analysis.model.missing_params import missing_params
+from preflight_analysis.model.name_index import around
 from preflight_analysis.model.nearest import likeness, nearest
 from preflight_analysis.model.parameters import grouped, namespace_of, renamed
 from preflight_analysis.model.places import related_param_read
 from preflight_analysis.model.problems import include_chain, problems_of, quoted
 from preflight_analysis.model.unread_params import unread_params
-from preflight_analysis.model.written_elsewhere import around
 from preflight_analysis.rules.further_reading import PARAMETER_SERVER, PARAMETERS
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface, ParamUse
 
 _UNREAD = (ParameterFileNotFound, UnreadableParameterFile, WithheldFile, BadYaml)
-_SET = (re.compile(r"""<param\b[^<>]*?\bname\s*=\s*["'](?:[^"'<>]*/)?(\w+)["']"""),)
 _NOT_SET = "parameter {names} is not set; {node} reads it without a default"
 _NONE_SET = "parameters {names} are not set; {node} reads them without a default"
 _BY_TYPE = "required parameter {names} is not set; {node} declares it by type only, and rclcpp throws an exception"
@@ -177,7 +176,11 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
     node: LaunchNode = read.node
     reads = "reads it without a default" if read.use.mandatory else "reads it"
     if meant is None:
-        setters = 0 if read.use.name.startswith("~") else around(context, _SET).get(names.leaf(read.name), 0)
+        setters = (
+            0
+            if read.use.name.startswith("~")
+            else around(context, "parameter").get(Entry("parameter", names.leaf(read.name), "set"), 0)
+        )
         files = f"{setters} launch files nearby set" if setters > 1 else "a launch file nearby sets"
         nearby = f"; {files} a parameter of that name" if setters else ""
         return rule.claim(
