@@ -183,11 +183,13 @@ def test_a_package_that_has_the_files_and_not_the_programs(tmp_path: Path, progr
         ("get_package_share_directory(\"old\") + '/config/a.yaml'", ["config/a.yaml"]),
         ("share = get_package_share_directory('other')\nx = join(share, 'config', 'a.yaml')", []),
         ("join(get_package_share_directory('old'), 'config')", []),
-        ('[P([FindPackageShare("old"), "launch"]), "/a.launch.py"]', ["launch/a.launch.py"]),
+        ('[PathJoinSubstitution([FindPackageShare("old"), "launch"]), "/a.launch.py"]', ["launch/a.launch.py"]),
     ],
 )
-def test_what_a_launch_file_asks_for_below_a_package(text: str, paths: list[str]) -> None:
-    assert list(asked_below(text, "old", {"pad": "xbox", "other": None})) == paths
+def test_what_a_launch_file_asks_for_below_a_package(tmp_path: Path, text: str, paths: list[str]) -> None:
+    file = tmp_path / ("a.launch" if text.startswith("file=") else "a.launch.py")
+    file.write_text(f"<launch><include {text}/></launch>" if text.startswith("file=") else text)
+    assert [*dict.fromkeys(asked_below(Sources().db, str(file), "old", {"pad": "xbox", "other": None}))] == paths
 
 
 def test_who_uses_several_packages_that_nobody_knows_has_them_elsewhere() -> None:

@@ -72,11 +72,16 @@ class PythonTree:
             if given is not None and given.type == "argument_list" and called(call) == name:
                 yield call
 
+    def launch_texts(self) -> Iterator[str]:
+        """What all expressions come to that are put together."""
+        for kind in ("call", "binary_operator", "list"):
+            yield from (text for node in self._nodes[kind] if (text := self.launch_text(node)) is not None)
+
     @cached_property
     def _nodes(self) -> dict[str, list[Node]]:
         """The nodes of the types that are asked for, in the order of the text. A query of tree-sitter takes a time that
         grows with the square of the children of a node."""
-        found: dict[str, list[Node]] = {"string": [], "call": [], "assignment": []}
+        found: dict[str, list[Node]] = {"string": [], "call": [], "assignment": [], "binary_operator": [], "list": []}
         cursor = self.root.walk()
         while True:
             node = cursor.node

@@ -19,7 +19,7 @@ _FIXED = ("find", "find-pkg-share", "dirname")
 """Substitutions that give the same in every launch."""
 _REMAPS = ("remap", "set_remap")
 _OF_ATTRIBUTE: dict[str, Kind] = {
-    "pkg": "package", "type": "program", "exec": "program", "target": "container", "target_container": "container",
+    "pkg": "package", "target": "container", "target_container": "container",
 }  # fmt: skip
 _OF_KEYWORD: dict[str, Kind] = {"package": "package", "executable": "program", "target_container": "container"}
 _OF_CALL: dict[str, Kind] = {
@@ -54,7 +54,10 @@ def _of_action(action: Action) -> Iterator[Entry]:
 
 def _of_attribute(action: Action, attribute: ActionAttribute) -> Iterator[Entry]:
     name, text = attribute.name, attribute.value.text
-    if name in _OF_ATTRIBUTE:
+    if name in ("type", "exec"):
+        package = action.value("pkg")
+        yield Entry("program", text, of=package.text if package is not None else "")
+    elif name in _OF_ATTRIBUTE:
         yield Entry(_OF_ATTRIBUTE[name], text)
     elif name in ("from", "to") and action.kind in _REMAPS and GRAPH_NAME.fullmatch(text):
         yield from (Entry("remap", text),) if name == "to" else ()
