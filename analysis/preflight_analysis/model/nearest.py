@@ -16,8 +16,11 @@ Likeness = Literal["typo", "words"]
 
 _WORD = re.compile(r"[A-Za-z]+|\d+")
 _MIN_PREFIX = 4
+_SPLIT = 5
+"""Letters of a segment in which a slip may split a word."""
 _LONG = 8
 _NAMES = 8192
+_MOST_WORDS = 0.6
 _SEVERAL = 2
 """Words of a name of which the order or a shortened one says something."""
 
@@ -62,7 +65,7 @@ def _reworded(name: str, candidates: Iterable[str]) -> str | None:
 
 def is_reworded(name: str, other: str) -> bool:
     """Whether names of several words have the same ones in another order, or some of them shortened or written out."""
-    words, others = _words(name), _words(other)
+    words, others = words_in(name), words_in(other)
     if name == other or len(words) != len(others) or len(words) < _SEVERAL:
         return False
     return sorted(words) == sorted(others) or _is_shortened(words, others)
@@ -128,16 +131,17 @@ def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
 
 
 def _is_typo(name: str, other: str) -> bool:
-    if _squeezed(name) == _squeezed(other):
+    if squeezed(name) == squeezed(other):
         return True
-    parts, others = _segments(name), _segments(other)
+    parts, others = segments(name), segments(other)
     if len(parts) != len(others):
         return False
     pairs = [(a, b) for a, b in zip(parts, others, strict=True) if a != b]
-    words, other_words = _words("/".join(a for a, _ in pairs)), _words("/".join(b for _, b in pairs))
+    words, other_words = words_in("/".join(a for a, _ in pairs)), words_in("/".join(b for _, b in pairs))
     if len(words) != len(other_words):
         # A stray or missing letter may also split a word (`cmd_vell`, `c_md_vel`): judge the segment as a whole.
-        return all(min(len(a), len(b)) >= 5 and OSA.distance(_squeezed(a), _squeezed(b)) <= 1 for a, b in pairs)
+        split = len(pairs) == 1 and min(map(len, pairs[0])) >= _SPLIT
+        return split and bool(OSA.distance(*map(squeezed, pairs[0])) <= 1)
     different = [(a, b) for a, b in zip(words, other_words, strict=True) if a != b]
     return len(different) == 1 and all(_is_word_typo(a, b) for a, b in different)
 
@@ -154,16 +158,19 @@ def _same_words(name: str, other: str) -> bool:
     """Equal last segments, one name's words all among the other's, or most words in common."""
     if names.leaf(name) == names.leaf(other):
         return True
-    mine, theirs = _plain_words(name), _plain_words(other)
-    common = mine & theirs
-    if not common:
-        return False
-    return common in (mine, theirs) or len(common) / len(mine | theirs) >= 0.6
+    mine, theirs = plain_words(name), plain_words(other)
+    return share_enough(len(mine & theirs), len(mine), len(theirs))
+
+
+def share_enough(common: int, mine: int, theirs: int) -> bool:
+    """Whether names of so many words, not numbers, have so many in common that they may speak of the same: all of one
+    of them, or most."""
+    return common > 0 and (common in (mine, theirs) or common / (mine + theirs - common) >= _MOST_WORDS)
 
 
 def has_all_words(name: str, other: str) -> bool:
     """Whether one of the names has all words of the other. Numbers are none."""
-    mine, theirs = _plain_words(name), _plain_words(other)
+    mine, theirs = plain_words(name), plain_words(other)
     return mine <= theirs or theirs <= mine
 
 
@@ -171,34 +178,37 @@ def is_word_more(name: str, other: str) -> bool:
     """Whether the names differ in one namespace alone, which has a word more in one of them, and several in both:
     `/robot_base_controller/odom`, `/robot_xl_base_controller/odom`. A word more at the end of a name (`scan_filtered`)
     is mostly another thing."""
-    parts, others = _segments(name), _segments(other)
+    parts, others = segments(name), segments(other)
     pairs = [(a, b) for a, b in zip(parts, others, strict=False) if a != b]
     if len(parts) != len(others) or len(pairs) != 1 or parts[-1] != others[-1]:
         return False
-    short, long = sorted((_words(each) for each in pairs[0]), key=len)
+    short, long = sorted((words_in(each) for each in pairs[0]), key=len)
     rest = iter(long)
     return len(short) > 1 and len(long) == len(short) + 1 and all(word in rest for word in short)
 
 
 def share_words(name: str, other: str) -> bool:
     """Whether a word is in both names. Numbers are none."""
-    return not _plain_words(name).isdisjoint(_plain_words(other))
+    return not plain_words(name).isdisjoint(plain_words(other))
 
 
 # Each name is compared with hundreds of others.
 @lru_cache(maxsize=_NAMES)
-def _words(name: str) -> tuple[str, ...]:
+def words_in(name: str) -> tuple[str, ...]:
+    """The words and numbers of a name, in lower case."""
     return tuple([w.lower() for w in _WORD.findall(name)])
 
 
 @lru_cache(maxsize=_NAMES)
-def _segments(name: str) -> list[str]:
+def segments(name: str) -> list[str]:
+    """What stands between the slashes of a name."""
     return name.strip("/").split("/")
 
 
 @lru_cache(maxsize=_NAMES)
-def _plain_words(name: str) -> frozenset[str]:
-    return frozenset(w for w in _words(name) if not w.isdigit())
+def plain_words(name: str) -> frozenset[str]:
+    """The words of a name without its numbers."""
+    return frozenset(w for w in words_in(name) if not w.isdigit())
 
 
 @lru_cache(maxsize=_NAMES)
@@ -213,5 +223,6 @@ def folded(name: str) -> str:
 
 
 @lru_cache(maxsize=_NAMES)
-def _squeezed(name: str) -> str:
+def squeezed(name: str) -> str:
+    """The name without case, `_` and `-`."""
     return re.sub(r"[_-]", "", name).lower()

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
-from rapidfuzz import process
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.incremental.derived import derived
+from preflight_analysis.model.alike import Names
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import dangling_consumers, dangling_providers
 from preflight_analysis.model.entry import Entry
 from preflight_analysis.model.name_index import around
 from preflight_analysis.model.names_in_sources import meant_in_sources
-from preflight_analysis.model.nearest import folded, is_slip_of_words, likeness
+from preflight_analysis.model.nearest import is_slip_of_words, likeness
 from preflight_analysis.model.siblings import slips_beside, without_slash
 
 _ENOUGH = 2
@@ -89,42 +87,34 @@ class _Targets:
     counts: Mapping[Entry, int]
 
     @cached_property
-    def _by_beginning(self) -> Mapping[str, Mapping[str, int]]:
-        """How often each is written, by what a node puts before it: nothing for a global name, `~` for a private one,
-        and the namespace for one that is `relative`."""
-        found: dict[str, dict[str, int]] = {"global": {}, "private": {}, "relative": {}}
+    def _several(self) -> Mapping[str, Names[tuple[str, int]]]:
+        """Those of several files with that, by what a node puts before each (`_beginnings`), and by the rest."""
+        found: dict[str, list[tuple[str, tuple[str, int]]]] = {"global": [], "private": [], "relative": []}
         for (_, written, *_), count in self.counts.items():
             kind = "global" if names.is_global(written) else "private" if names.is_private(written) else "relative"
-            name = names.canonicalize(f"/{written.removeprefix('~')}")
-            found[kind][name] = max(count, found[kind].get(name, 0))
-        return found
-
-    @cached_property
-    def _several(self) -> tuple[str, ...]:
-        return tuple(each.text for each, count in self.counts.items() if count >= _ENOUGH)
+            if count >= _ENOUGH:
+                found[kind].append((names.canonicalize(f"/{written.removeprefix('~')}"), (written, count)))
+        return {kind: Names(written) for kind, written in found.items()}
 
     def has(self, name: str, node: str) -> bool:
         """Whether several files have a target by which a node would come to this full name."""
-        known = self._by_beginning
-        below = [("global", ""), ("relative", names.parent(node).rstrip("/")), ("private", node)]
-        return any(
-            name.startswith(f"{before}/") and known[kind].get(name[len(before) :], 0) >= _ENOUGH
-            for kind, before in below
-        )
+        return any(any(self._several[kind].named(rest)) for kind, rest in _beginnings(name, node))
 
     def alike(self, name: str, node: str) -> Iterator[tuple[int, str]]:
         """The targets of several files of which the full name is a slip, and how many files have each."""
-        fulls = [names.resolve(written, node) for written in self._several]
-        # Each of the words may be that far away: see `is_slip_of_words`.
-        most = 2 * (folded(name).count("_") + 1)
-        near = process.extract(
-            folded(name), list(map(folded, fulls)), scorer=OSA.distance, score_cutoff=most, limit=None
-        )
-        for _, _, index in near:
-            alike = likeness(name, fulls[index])
-            if alike is not None and alike[0] == "typo" and is_slip_of_words(name, fulls[index]):
-                written = self._several[index]
-                yield self.counts[Entry("remap", written)], written
+        for kind, rest in _beginnings(name, node):
+            for other, (written, count) in self._several[kind].typos(rest).items():
+                alike = likeness(rest, other)
+                if alike is not None and alike[0] == "typo" and is_slip_of_words(rest, other):
+                    yield count, written
+
+
+def _beginnings(name: str, node: str) -> Iterator[tuple[str, str]]:
+    """What is left of a full name of a node by what it may have put before that: nothing before a global name, itself
+    before a private one, and its namespace before one that is `relative`."""
+    for kind, before in (("global", ""), ("relative", names.parent(node).rstrip("/")), ("private", node)):
+        if name.startswith(f"{before}/"):
+            yield kind, name[len(before) :]
 
 
 def _used(connection: Connection, known: _Targets) -> Elsewhere | None:
