@@ -12,8 +12,9 @@ from preflight_analysis.model.nearest import numbers_in, plain_words, segments, 
 
 T = TypeVar("T")
 _NAMES = 8192
-_ENDS = 2
-"""Letters that a name has in common with one of the same length, or one letter more or less, at one of its ends."""
+_ENDS = ((5, 9, 2), (9, 13, 4), (13, 21, 6), (21, 999, 10))
+"""From how many letters to how many, how many at the beginning or at the end are those of a name with one slip. Two
+names that are a letter apart in length have one of the rows in common."""
 
 
 class Names(Generic[T]):
@@ -23,6 +24,7 @@ class Names(Generic[T]):
         self._by_key: dict[Hashable, list[tuple[str, T]]] = {}
         self._by_word: dict[Hashable, list[int]] = {}
         self._items = [*items]
+        self._sizes = [len(plain_words(name)) for name, _ in self._items]
         for at, (name, _) in enumerate(self._items):
             for key in (*typo_keys(name), *_leaf_keys(name), ("n", name), *_level_keys(name)):
                 self._by_key.setdefault(key, []).append(self._items[at])
@@ -59,10 +61,8 @@ class Names(Generic[T]):
             keys: tuple[Hashable, ...] = ((word, numbers), (word, ())) if numbers else (word,)
             for key in keys:
                 common.update(self._by_word.get(key, ()))
-        most = len(words)
-        for at, count in common.items():
-            if count == most or share_enough(count, most, len(plain_words(self._items[at][0]))):
-                yield at
+        mine, sizes = len(words), self._sizes
+        return (at for at, count in common.items() if share_enough(count, mine, sizes[at]))
 
 
 @lru_cache(maxsize=_NAMES)
@@ -74,7 +74,9 @@ def typo_keys(name: str) -> tuple[Hashable, ...]:
     found += [("w", at, words[:at], words[at + 1 :]) for at in range(len(words))]
     for at, part in enumerate(parts):
         plain, rest = squeezed(part), (at, *parts[:at], "", *parts[at + 1 :])
-        found += [("p", plain[:_ENDS], rest), ("s", plain[-_ENDS:], rest)]
+        for least, most, ends in _ENDS:
+            if least <= len(plain) <= most:
+                found += [("p", plain[:ends], rest), ("s", plain[-ends:], rest)]
     return tuple(found)
 
 

@@ -140,8 +140,8 @@ def _is_typo(name: str, other: str) -> bool:
     words, other_words = words_in("/".join(a for a, _ in pairs)), words_in("/".join(b for _, b in pairs))
     if len(words) != len(other_words):
         # A stray or missing letter may also split a word (`cmd_vell`, `c_md_vel`): judge the segment as a whole.
-        split = len(pairs) == 1 and min(map(len, pairs[0])) >= _SPLIT
-        return split and bool(OSA.distance(*map(squeezed, pairs[0])) <= 1)
+        one, other_one = map(squeezed, pairs[0])
+        return len(pairs) == 1 and min(len(one), len(other_one)) >= _SPLIT and bool(OSA.distance(one, other_one) <= 1)
     different = [(a, b) for a, b in zip(words, other_words, strict=True) if a != b]
     return len(different) == 1 and all(_is_word_typo(a, b) for a, b in different)
 
@@ -165,7 +165,7 @@ def _same_words(name: str, other: str) -> bool:
 def share_enough(common: int, mine: int, theirs: int) -> bool:
     """Whether names of so many words, not numbers, have so many in common that they may speak of the same: all of one
     of them, or most."""
-    return common > 0 and (common in (mine, theirs) or common / (mine + theirs - common) >= _MOST_WORDS)
+    return common > 0 and (common in (mine, theirs) or common >= _MOST_WORDS * (mine + theirs - common))
 
 
 def has_all_words(name: str, other: str) -> bool:
