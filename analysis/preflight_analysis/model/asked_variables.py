@@ -8,6 +8,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installed import lack_of_variable
+from preflight_analysis.model.said import words_of
 
 _ASKED = re.compile(
     r"""\b(?:getenv|environ\.get)\(\s*(?P<quote>['"])(?P<name>\w+)(?P=quote)\s*(?:,\s*(?:''|""|None|\[\])\s*)?\)"""
@@ -20,7 +21,7 @@ def lack_of_asked(context: Context, file: str, said: str | None = None) -> Lack 
     document = context.documents.get(file)
     if not isinstance(document, Document) or not file.endswith(".py"):
         return None
-    words = set(re.findall(r"\w+", said.upper())) if said is not None else None
+    words = words_of(said.upper()) if said is not None else None
     for asked in _ASKED.finditer(document.text):
         name = asked["name"]
         if name not in context.environment.variables and (words is None or name.upper() in words):

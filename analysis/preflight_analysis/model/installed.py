@@ -24,6 +24,7 @@ from preflight_analysis.findings.lack import INSTALL, Lack
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import is_slip, is_slip_of_words, nearest
+from preflight_analysis.model.said import missing_module
 
 _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
 """Packages of which each installation of ROS 2 has at least one."""
@@ -33,7 +34,6 @@ _SET_UP = re.compile(r"ROS_(DISTRO|VERSION|PYTHON_VERSION|ROOT|ETC_DIR|PACKAGE_P
 """Variables that a distribution's set-up script sets."""
 _OF_MACHINE = re.compile(r"/(?:etc|home|media|mnt|opt|root|usr|var|Users)/")
 """Where a machine has its own files."""
-_NO_MODULE = re.compile(r"(?:ModuleNotFoundError|ImportError)?:? ?No module named '?([\w.]+)'?")
 _NO_PACKAGE = re.compile(
     r"type 'rosmake ([\w-]+)'|neither a launch file in package \[([\w-]+)\]|"
     r"ResourceNotFound: ([\w-]+)|resource not found: ([\w-]+)|[Pp]ackage (?:not found: )?['\"]([\w-]+)['\"]"
@@ -309,8 +309,8 @@ def lack_of_python(context: Context, last: str, traceback: Iterable[str]) -> Lac
         return lack_of_module(context, found[1])
     if (found := _NOT_STARTED.fullmatch(last)) and "subprocess" in whole:
         return lack_of_program(context, found[1])
-    if last.startswith("ImportError") and (found := _NO_MODULE.search(whole)):
-        return lack_of_module(context, found[1])  # Django says more of it
+    if last.startswith("ImportError") and (module := missing_module(whole)) is not None:
+        return lack_of_module(context, module)  # Django says more of it
     if last.startswith("SyntaxError") and any(newer.search(whole) for newer in _NEWER_SYNTAX):
         return lack_of_program(context, "python3.12")
     return None
@@ -330,8 +330,8 @@ def lack_said(context: Context, lines: Iterable[str]) -> Lack | None:
             return lack_of_build(context, found[1])
         if (found := _NO_LIBRARY.search(line)) and (package := _building(context, found[1] or found[2])) is not None:
             return lack_of_build(context, package)
-        if found := _NO_MODULE.search(line):
-            return lack_of_module(context, found[1])
+        if (module := missing_module(line)) is not None:
+            return lack_of_module(context, module)
         if found := _NO_PACKAGE.search(line):
             name = next(filter(None, found.groups()))
             wrong = name in context.environment.packages or near_package(context, name) is not None

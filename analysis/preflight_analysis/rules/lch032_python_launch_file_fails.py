@@ -31,11 +31,11 @@ from preflight_analysis.model.nearest import did_you_mean
 from preflight_analysis.model.problems import fix, problems_of, shown
 from preflight_analysis.model.python_imports import absent_module, slip_of
 from preflight_analysis.model.python_keywords import UnknownKeyword, unknown_keywords
+from preflight_analysis.model.said import missing_file, missing_name, words_of
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.problems import problem_claim
 from preflight_analysis.rules.rule import Rule
 
-_NO_FILE = re.compile(r"No such file or directory: '(/[^']+)'\Z")
 _RAISE = re.compile(r"\s*raise\b")
 _OF_MACHINE = re.compile(
     r"""['"](?:/(?:\.dockerenv|dev|etc|proc|run|sys)\b|git\b)|\bos\.environ\b|\bgetenv\(|\bwhich\(|\bplatform\.|\bgethostname\("""
@@ -45,13 +45,14 @@ _BEFORE = 4
 """Lines before a `raise` that say what it is raised for."""
 _OF_TEXTS = ("AttributeError", "IndexError", "TypeError", "ValueError")
 """What is raised where a text does not have what was looked for in it."""
-_WORD = re.compile(r"\w+")
 _RELEASES = "Humble, Jazzy, Kilted or Rolling"
-_NO_NAME = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
-_OLD_KEYWORD = re.compile(r"node_(?:executable|name|namespace|plugin)\Z")
+_OLD_KEYWORDS = frozenset(("node_executable", "node_name", "node_namespace", "node_plugin"))
 """Of nodes and components, deprecated in Foxy."""
-_ARGUMENTS = re.compile(r"\(\) (?:missing|got an unexpected keyword argument)")
-_LAUNCH = re.compile(r"launch(?:_ros|_xml|_yaml|_testing(?:_ros|_ament_cmake)?)?\Z")
+_ARGUMENTS = ("() missing", "() got an unexpected keyword argument")
+_LAUNCH = frozenset((
+    "launch", "launch_ros", "launch_xml", "launch_yaml", "launch_testing", "launch_testing_ros",
+    "launch_testing_ament_cmake",
+))  # fmt: skip
 """The modules of which all names are known."""
 
 
@@ -83,7 +84,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 context.disk, problem.location.file
             ):
                 continue
-            case PythonException("TypeError", said) if _ARGUMENTS.search(said) and any(
+            case PythonException("TypeError", said) if any(each in said for each in _ARGUMENTS) and any(
                 each.call.start <= problem.location.span.start < each.call.end
                 or problem.location.span.contains(each.call.start)
                 for each in wrong_calls.get(problem.location.file, ())
@@ -147,7 +148,7 @@ def _keyword(rule: Rule, context: Context, path: str, wrong: UnknownKeyword) -> 
         place,
         subject=Subject("keyword", wrong.name),
         kind="invalid" if wrong.near is None else "near",
-        doubts=otherwise_in(context, BEFORE_GALACTIC) if _OLD_KEYWORD.match(wrong.name) else (),
+        doubts=otherwise_in(context, BEFORE_GALACTIC) if wrong.name in _OLD_KEYWORDS else (),
         candidates=(wrong.near,),
         fixes=fixes,
         stops_launch=True,
@@ -178,7 +179,7 @@ def _empty_argument(context: Context, frames: tuple[Location, ...], said: str) -
     document = context.disk.text(frames[-1].file) if frames else None
     if not isinstance(document, Document) or _RAISE.match(document.text, frames[-1].span.start) is None:
         return None
-    words = set(_WORD.findall(said))
+    words = words_of(said)
     return next((name for name, arg in context.tree.args.items() if arg.value == "" and name in words), None)
 
 
@@ -209,27 +210,27 @@ def _near_file(context: Context, error: str, said: str) -> str | None:
 
 
 def _missing_file(error: str, said: str) -> str | None:
-    found = _NO_FILE.search(said) if error == "FileNotFoundError" else None
-    return found[1] if found is not None else None
+    path = missing_file(said) if error == "FileNotFoundError" else None
+    return path if path is not None and os.path.isabs(path) else None
 
 
 def _lack(context: Context, failed: PythonImportFailed) -> Lack | None:
     """What is not there to be imported; None for a name that a module does not have, and for those of launch itself."""
-    if _LAUNCH.match(failed.module.partition(".")[0]) or not failed.message.startswith("No module named"):
+    if failed.module.partition(".")[0] in _LAUNCH or not failed.message.startswith("No module named"):
         return None
     return lack_of_module(context, failed.module)
 
 
 def _wrong_import(context: Context, failed: PythonImportFailed, file: str) -> tuple[str, tuple[Doubt, ...]] | None:
     """What is said of an import that no machine can do; None of one that a machine may."""
-    name = _NO_NAME.search(failed.message)
-    if name is not None and _LAUNCH.match(name[2].partition(".")[0]):
-        top = name[2].partition(".")[0]
+    name = missing_name(failed.message)
+    if name is not None and name.module.partition(".")[0] in _LAUNCH:
+        top = name.module.partition(".")[0]
         instead = f"it is in '{failed.instead}'" if failed.instead else f"no {top} of {_RELEASES} has it"
-        return f"cannot import name '{name[1]}' from '{name[2]}'; {instead}", ()
+        return f"cannot import name '{name.name}' from '{name.module}'; {instead}", ()
     if name is None and not failed.message.startswith("No module named"):
         return None
-    absent = absent_module(context, file, f"{name[2]}:{name[1]}" if name is not None else failed.module)
+    absent = absent_module(context, file, f"{name.module}:{name.name}" if name is not None else failed.module)
     if absent is not None:
         return f"module '{absent[0]}' does not exist{did_you_mean(absent[1])}", ()
     near = slip_of(context, file, failed.module) if name is None else None

@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.quoted import Program, Quoted
 from preflight_analysis.documents.span import Location, Origin
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation.problems import CommandFailed, CommandMissing, MalformedCommand, Problem
@@ -26,25 +27,16 @@ from preflight_analysis.model.installed import (
 )
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.problems import include_chain, problems_of, quoted, rename, shown
+from preflight_analysis.model.said import missing_file, words_of
 from preflight_analysis.rules.further_reading import ROSLAUNCH_PARAM, SECURITY, XACRO
 from preflight_analysis.rules.problems import problem_claim
 from preflight_analysis.rules.rule import Rule
 
-_TRACEBACK = re.compile(r"Traceback \(most recent call last\):")
-_ERROR = re.compile(r"\berror\b", re.IGNORECASE)
 _STDERR_LINES = 3
-_NO_FILE = re.compile(
-    r"No such file or directory:? '?(?P<after>/[^'\s]+)|(?P<before>/[^'\s:]+): No such file or directory"
-)
-_NO_FILE_HERE = re.compile(
-    r"No such file or directory:? '?(?P<after>[\w.+-][^\s':]*)"
-    r"|(?<![^\s:'])(?P<before>[\w.+-][^\s':]*): No such file or directory"
-)
-"""With a path that is relative."""
+_TRACEBACK = "Traceback (most recent call last):"
 _NO_INPUT = "xacro: error: expected exactly one input file"
 _NONE = re.compile(r"(?<![A-Za-z])None(?![A-Za-z])")
-_GETENV = re.compile(r"(?:getenv|environ\.get)\(\s*['\"](\w+)['\"]\s*\)")
-"""A variable that is read without a default."""
+_READS = ("getenv", "environ.get")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -71,8 +63,8 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
     lack = lack_said(context, reversed(failed.stderr))
     text, about = say("the command failed: {quoted}", quoted=_said(failed)), Subject("command")
     against: tuple[Doubt, ...] = ()
-    if lack is None and (found := next(filter(None, map(_NO_FILE.search, failed.stderr)), None)) is not None:
-        path = found["after"] or found["before"]
+    missing = (path for path in map(missing_file, failed.stderr) if path is not None and os.path.isabs(path))
+    if lack is None and (path := next(missing, None)) is not None:
         lack = _variable_in(context, path, problem.origin)
         if lack is not None:
             about = Subject("variable", lack.name)
@@ -97,8 +89,8 @@ def _failed(rule: Rule, context: Context, problem: Problem[ProblemKind], failed:
 def _is_beside(context: Context, origin: Origin, said: str) -> bool:
     """Whether what a command did not find has no folder, and is in that of the launch file: it is found by those who
     start the launch there."""
-    found = _NO_FILE_HERE.search(said)
-    name = (found["after"] or found["before"]) if found is not None else None
+    name = missing_file(said)
+    name = name if name is not None and not os.path.isabs(name) else None
     folders = {os.path.dirname(place.file) for place in origin}
     beside = (context.disk.text(os.path.join(folder, name)) for folder in folders) if name is not None else ()
     return any(isinstance(each, Document) for each in beside)
@@ -109,20 +101,26 @@ def _variable_in(context: Context, path: str, origin: Origin) -> Lack | None:
     if _NONE.search(path) is None:
         return None
     files = dict.fromkeys(place.file for place in reversed(origin))
-    texts = (document.text for file in files if (document := context.documents.get(file)) is not None)
-    names = (name for text in texts for name in _GETENV.findall(text))
+    programs = (Program(file, context.documents[file].text) for file in files if file in context.documents)
+    names = (each.text for program in programs for each in program.quoted if _reads_variable(program, each))
     unset = next((name for name in names if name not in context.environment.variables), None)
     return lack_of_variable(context, unset) if unset is not None else None
+
+
+def _reads_variable(program: Program, quoted: Quoted) -> bool:
+    """Whether it is a variable that is read without a default."""
+    return quoted.call.endswith(_READS) and program.text[quoted.end :].lstrip().startswith(")")
 
 
 def _said(failed: CommandFailed) -> str:
     """What the command or the sandbox says of it."""
     lines = [line.strip() for line in failed.stderr if line.strip()]
-    if any(_TRACEBACK.match(line) for line in lines):
+    if any(line.startswith(_TRACEBACK) for line in lines):
         reported = lines[-1:]
     else:
         # xacro says what is wrong and where, and may go on with advice.
-        start = next((n for n, line in enumerate(lines) if _ERROR.search(line)), max(0, len(lines) - _STDERR_LINES))
+        told = (n for n, line in enumerate(lines) if "error" in words_of(line.lower()))
+        start = next(told, max(0, len(lines) - _STDERR_LINES))
         reported = lines[start : start + _STDERR_LINES]
     return "; ".join([failed.reason, *reported])
 

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import compress
 
+from preflight_analysis.documents.document import SpannedText
+from preflight_analysis.documents.span import Span
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.partial_text import is_whole
@@ -16,6 +18,9 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Lack
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.incremental.derived import derived
+from preflight_analysis.launch.model import Substitution
+from preflight_analysis.launch.references import first_word
+from preflight_analysis.launch.substitutions import parse_value
 from preflight_analysis.model.asked_variables import lack_of_asked
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.elsewhere import absent_top_said, lacks_recording, paths_said
@@ -30,37 +35,25 @@ from preflight_analysis.model.installed import (
 from preflight_analysis.model.missing_params import missing_params
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.model.python_imports import absent_module
+from preflight_analysis.model.said import (
+    asks_for_input,
+    cause_of,
+    is_of_called,
+    killed_program,
+    lacks_param,
+    missing_module,
+    missing_name,
+    shows_conflict,
+    words_of,
+)
 from preflight_analysis.model.well_known import describes_robot, is_for_tools
 from preflight_analysis.rules.further_reading import RUNS, SECURITY
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import REASON_COLUMNS, Interface, Outcome, ParamUse, telling_line
 from preflight_analysis.tracing.request import split_args
 
-_WORD = re.compile(r"\w+")
-_NO_PARAM = re.compile(r"(?i)\b(?:could not|cannot|can't|failed to|no|not|missing|without)\b.*\bparam(?:eter)?s?\b")
-"""How a program says that a parameter is not set, whose name it may not say."""
-_NO_MODULE = re.compile(r"No module named '([\w.]+)'")
-_NOT_IN_MODULE = re.compile(r"ImportError: cannot import name '\w+' from '(\w+)")
 _TEMPORARY = re.compile(r"(?<![\w/.])/(?:var/)?tmp/[\w.+-]+(?![\w.+/-])")
 """A file right in the folder for temporary ones, which another program writes before."""
-_ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
-_WANTS = re.compile(r"(?i)\busage\b|\bargument|\bfile|\bpath\b|\bIndexError\b|\brequired\b|\bopen\b|\binput\b|\boption")
-"""How a program says that it is not told what to read."""
-_KILLED = re.compile(
-    r": line \d+: +\d+ (?:Trace/breakpoint trap|Segmentation fault|Illegal instruction|Bus error|Aborted|Killed)"
-    r"(?: +\(core dumped\))? +([^\s]+)"
-)
-
-_CONFLICT = re.compile(r"\s*(?:<{7} |={7}$|>{7} )")
-
-_OF_CALLED = re.compile(
-    r"The traceback for the exception was written to the log file"
-    r"|CalledProcessError\b|returned non-zero exit status"
-)
-"""The last line of a roslaunch that a node starts, whose launch file is checked as others are, and of a node in Python
-for which another program failed: what that lacked (a repository, a device) is not said."""
-_EXIT = re.compile(r"it ended with exit code \d+: ")
-_EXCEPTION = re.compile(r"\A(?:\w+\.)+\w+: (?=\S)")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -86,7 +79,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             or bool(outcome.answers)
             or _is_of_another_program(outcome)
             or _is_of_two_modules(context, telling_line(outcome.stderr_tail))
-            or _OF_CALLED.search(telling_line(outcome.stderr_tail)) is not None
+            or is_of_called(telling_line(outcome.stderr_tail))
             or any(e.speculative for e in interface.endpoints)
             or node.kind == "test"
         )
@@ -123,8 +116,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 def _lacks_own_module(context: Context, node: LaunchNode, told: str) -> bool:
     """Whether the node ends for a module that a package of the workspace does not have."""
-    found, path = _NO_MODULE.search(told), node.resolved.path
-    return found is not None and path is not None and absent_module(context, path, found[1]) is not None
+    module, path = missing_module(told), node.resolved.path
+    return module is not None and path is not None and absent_module(context, path, module) is not None
 
 
 def _lack(context: Context, node: LaunchNode, outcome: Outcome) -> Lack | None:
@@ -153,12 +146,12 @@ def _lack_of_value(context: Context, param: Param) -> Lack | None:
 def _is_of_another_program(outcome: Outcome) -> bool:
     """Whether a shell script says that a signal killed a program that it started, which is not of the project: in the
     sandbox a browser or a window may end so."""
-    return (found := _KILLED.search(telling_line(outcome.stderr_tail))) is not None and "/" not in found[1]
+    return "/" not in (killed_program(telling_line(outcome.stderr_tail)) or "/")
 
 
 def _empty_param(node: LaunchNode, told: str) -> str | None:
     """The parameter that the node names before it ends, and which is empty until somebody gives it a value."""
-    words = set(_WORD.findall(told))
+    words = words_of(told)
     empty = (param.name for param in node.params if param.value == "" and names.leaf(param.name) in words)
     return next((f"parameter '{name}'" for name in empty), None)
 
@@ -166,7 +159,7 @@ def _empty_param(node: LaunchNode, told: str) -> str | None:
 def _unresolved_param(node: LaunchNode, told: str) -> str | None:
     """`'x', which is unresolved` of a parameter in the node's own tag that has no value here, as nobody gave the
     argument that it is made of, or only a part of it is known, and which the node names before it ends."""
-    words, known = set(_WORD.findall(told)), {names.leaf(param.name) for param in node.params}
+    words, known = words_of(told), {names.leaf(param.name) for param in node.params}
     for param in node.params:
         if param.name in words and not is_whole(param.value):
             return f"'{param.name}', which is unresolved"
@@ -185,12 +178,14 @@ def _empty_argument(context: Context, node: LaunchNode, told: str) -> str | None
     value, of a node that ends for a file or an argument."""
     span = node.tag.span_of("args")
     written = context.text(context.location(node.location.file, span)) if span is not None else ""
-    if "$(arg" not in written or _WANTS.search(told) is None:
+    if "$(arg" not in written or not asks_for_input(told):
         return None
-    parts = _ARGUMENT.split(written)
-    pattern = "".join(re.escape(part) if at % 2 == 0 else "(.*?)" for at, part in enumerate(parts))
+    parts = parse_value(SpannedText(written, Span(0, len(written)))).parts
+    named = [first_word(part)[0] for part in parts if isinstance(part, Substitution) and part.command == "arg"]
+    is_argument = [isinstance(part, Substitution) and part.command == "arg" for part in parts]
+    pattern = "".join("(.*?)" if yes else re.escape(part.text) for part, yes in zip(parts, is_argument, strict=True))
     found = re.fullmatch(pattern, node.args, re.DOTALL)
-    given = zip(parts[1::2], found.groups(), strict=True) if found is not None else ()
+    given = zip(named, found.groups(), strict=True) if found is not None else ()
     return next((f"argument '{name}'" for name, value in given if not value.strip()), None)
 
 
@@ -198,16 +193,16 @@ def _gets_temporary_file(context: Context, node: LaunchNode, told: str) -> bool:
     """Whether the node ends for a file, and gets one in the folder for temporary ones that is not there: the launch
     file or another program writes it before."""
     given = (word for word in _paths_of(node) if _TEMPORARY.fullmatch(word) is not None)
-    return _WANTS.search(told) is not None and any(not context.disk.exists(word) for word in given)
+    return asks_for_input(told) and any(not context.disk.exists(word) for word in given)
 
 
 def _is_of_two_modules(context: Context, telling: str) -> bool:
     """Whether a name was not found in a module of which two packages of the workspace have one: which of them is
     imported is decided by the order in which they are built."""
-    found = _NOT_IN_MODULE.search(telling)
+    found = missing_name(telling)
     if found is None:
         return False
-    module = f"src/{found[1]}"
+    module = f"src/{found.module.partition('.')[0]}"
     return sum(context.disk.is_folder(f"{each.share}/{module}") for each in context.environment.packages.values()) > 1
 
 
@@ -256,11 +251,11 @@ class _LostParams:
 
     def named_in(self, told: str) -> str | None:
         """The same of one that the node names at its end, whatever it was seen to read."""
-        words = set(_WORD.findall(told))
+        words = words_of(told)
         for name in (*self._reasons, *sorted(self._commands)):
             if names.leaf(name) in words and "_" in names.leaf(name) and name not in self._set:
                 return f"'{name}', which is unresolved"
-        unset = not self._complete and _NO_PARAM.search(told) is not None
+        unset = not self._complete and lacks_param(told)
         return "a parameter, which an unresolved part of the launch may set" if unset else None
 
     def possible_cause(self, read: ParamRead, outcome: Outcome) -> str | None:
@@ -277,8 +272,8 @@ class _LostParams:
         beside = known and names.leaf(read.name) not in self._leaves
         if self._complete and not beside:
             return None
-        leaf = re.compile(rf"(?<!\w)(?:{'|'.join(re.escape(names.leaf(name)) for name in written)})(?!\w)")
-        said = any(leaf.search(line) for line in (outcome.reason or "", *outcome.stderr_tail))
+        told = words_of("\n".join((outcome.reason or "", *outcome.stderr_tail)))
+        said = not told.isdisjoint(map(names.leaf, written))
         setter = "another launch" if self._complete else "an unresolved part of the launch"
         return f"'{read.name}', which {setter} may set" if said else None
 
@@ -297,11 +292,6 @@ def _is_reported(graph: Graph, node: LaunchNode, use: ParamUse) -> bool:
     return any(f"~{param.name}" == use.name for each in in_process for param in each.params)
 
 
-def _cause(reason: str) -> str:
-    """The line that says why, if the reason has one: without the exit code, and without the package of an exception."""
-    return _EXCEPTION.sub("", _EXIT.sub("", reason))
-
-
 def _message(name: str, outcome: Outcome, beside: str) -> Text:
     """What is said of a crash, quoted from the first of it that the node says itself."""
     does, said = "crashes on start: ", ""
@@ -309,7 +299,7 @@ def _message(name: str, outcome: Outcome, beside: str) -> Text:
         code = f" with exit code {outcome.exit_code}" if outcome.exit_code is not None else ""
         does = f"needs {outcome.lacks}; it exited{code}"
     elif outcome.reason:
-        said = _cause(outcome.reason)
+        said = cause_of(outcome.reason)
     elif outcome.signal:
         does += f"killed by {outcome.signal}"
     else:
@@ -317,7 +307,7 @@ def _message(name: str, outcome: Outcome, beside: str) -> Text:
     telling = telling_line(outcome.stderr_tail)[:REASON_COLUMNS]
     if telling and telling not in f"{name} {does}{said}":
         said += f"; {telling}"
-    conflict = telling.startswith("SyntaxError") and any(_CONFLICT.match(line) for line in outcome.stderr_tail)
+    conflict = telling.startswith("SyntaxError") and shows_conflict(outcome.stderr_tail)
     said += "; its source has marks of a merge conflict" if conflict else ""
     return say("{node} {does}{quoted}{beside}", node=name, does=does, quoted=said, beside=beside)
 
