@@ -53,6 +53,8 @@ _MADE = re.compile(r"[\w./~*]+")
 _ASKS_AT_ALL = re.compile(r"param", re.IGNORECASE)
 _LEAST = 4
 """Letters that are known of a name that is made."""
+_LOADS_YAML = re.compile(r"\byaml\.(?:\w+_)?load\b|\bYAML::Load")
+_YAML_FILE = re.compile(r"[\w.-]+\.ya?ml\b")
 _TREES = ("behaviortree", "BT::")
 _REGISTERS = ("registerNodeType", "registerBuilder")
 _CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\b[^;{}()]{0,200}\{")
@@ -77,6 +79,8 @@ def names_of_program(program: Program) -> Iterator[Entry]:
         yield from (Entry("name", word) for word in _WORD.findall(given))
     if _ASKS_AT_ALL.search(program.text):
         yield from (Entry("made", name) for name in _made(program.code))
+    if _LOADS_YAML.search(program.text):
+        yield from (Entry("yaml-file", found) for each in program.quoted for found in _YAML_FILE.findall(each.text))
     if of_trees:
         yield Entry("library", LIBRARY_OF_TREES)
         yield from _of_trees(program)

@@ -15,6 +15,8 @@ Likeness = Literal["typo", "words"]
 """`typo`: a slip of the keyboard apart, or the same but for case and underscores. `words`: made of the same words."""
 
 _WORD = re.compile(r"[A-Za-z]+|\d+")
+_CAMEL_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+_NUMBER = re.compile(r"\d+")
 _MIN_PREFIX = 4
 _SPLIT = 5
 """Letters of a segment in which a slip may split a word."""
@@ -214,7 +216,17 @@ def plain_words(name: str) -> frozenset[str]:
 @lru_cache(maxsize=_NAMES)
 def numbers_in(name: str) -> tuple[str, ...]:
     """The numbers in a name. Names that both have some, and not the same, are never alike."""
-    return tuple(re.findall(r"\d+", name))
+    return tuple(_NUMBER.findall(name))
+
+
+def without_numbers(name: str) -> str:
+    """The name with the same in the place of each number."""
+    return _NUMBER.sub("#", name)
+
+
+def camel_words(name: str) -> list[str]:
+    """The words and numbers of a name, in lower case, of which each may begin with a capital: `maxVel`, `MPCRate`."""
+    return [word.lower() for word in _CAMEL_WORD.findall(name)]
 
 
 def folded(name: str) -> str:

@@ -14,13 +14,12 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.name_index import named_in, own_folders, sources_in
 from preflight_analysis.model.names_of_programs import COMPUTED, parts_of, words_in
-from preflight_analysis.model.nearest import is_reworded, likeness, numbers_in
+from preflight_analysis.model.nearest import camel_words, is_reworded, likeness, numbers_in
 
 _SHORTEST = 4
 """Letters of a name that can be a slip of another one."""
 _ENOUGH = 2
 """Words that two names have in common where one of them has one more."""
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 
 
 class Asked(NamedTuple):
@@ -140,7 +139,7 @@ def _is_one_word_apart(name: str, other: str) -> bool:
 
 
 def _words(name: str) -> list[str]:
-    return [word.lower() for word in _WORD.findall(name)]
+    return [word for word in camel_words(name) if not word.isdigit()]
 
 
 def _are_opposite(name: str, other: str) -> bool:

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.quoted import Program
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import EndpointRef, Related
@@ -108,3 +109,10 @@ def _how_known(what: Endpoint | ParamUse) -> str:
     if what.catalogued:
         return f" (from {what.catalogued})"
     return " (from its source)" if what.inferred else ""
+
+
+def quoted_once(context: Context, file: str, text: str) -> Location | None:
+    """Where a file has a text in quotes, if that is once."""
+    document = context.document(file)
+    quoted = [each for each in Program(file, document.text).quoted if each.text == text] if document is not None else []
+    return context.location(file, Span(quoted[0].start + 1, quoted[0].end - 1)) if len(quoted) == 1 else None

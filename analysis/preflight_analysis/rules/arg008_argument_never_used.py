@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.document import SpannedText
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.problems import ArgumentNeeded, UndeclaredArgument
 from preflight_analysis.evaluation.tree import Include
@@ -16,6 +17,8 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.configurations import IMPLICIT
 from preflight_analysis.launch.model import Action, LaunchFile, Value, action_at
+from preflight_analysis.launch.references import arg_references
+from preflight_analysis.launch.substitutions import parse_value
 from preflight_analysis.model.arguments import declarations, pass_on
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.name_index import in_package
@@ -24,9 +27,6 @@ from preflight_analysis.model.problems import all_of, fix, problems_of, shown
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_ARG
 from preflight_analysis.rules.rule import Rule
 
-_REFERENCE = re.compile(r"\$\(\s*arg\s+([^\s()$]+)")
-_EVAL = re.compile(r"\$\(\s*eval\b(.*)", re.DOTALL)
-_NAME = re.compile(r"[A-Za-z_]\w*")
 _VARIABLE = re.compile(r"\$\(\s*var\s+['\"]?([^\s()$'\"]+)")
 _ANY = re.compile(r"\$\(\s*var\s+['\"]?\$\(")
 """Where the name of an argument is itself computed."""
@@ -310,11 +310,8 @@ def _substitutes(action: Action) -> bool:
 
 
 def _references(text: str) -> set[str]:
-    """The arguments that a text speaks of; of an expression any name in it, a string too (`arg('name')`)."""
-    found = set(_REFERENCE.findall(text))
-    for expression in _EVAL.findall(text):
-        found.update(_NAME.findall(expression))
-    return found
+    """The arguments that a text speaks of."""
+    return {name for name, _ in arg_references(parse_value(SpannedText(text, Span(0, len(text)))))}
 
 
 def _used_in_texts(context: Context, path: str, files: Iterable[Value]) -> set[str] | None:

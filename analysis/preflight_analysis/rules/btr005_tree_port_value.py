@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -28,7 +27,6 @@ from preflight_analysis.trees.read import Used, entry_of
 
 _UNUSED = ("", "{}")
 """What an output has that nobody wants."""
-_ENTRY = re.compile(r"[A-Za-z_]\w*\Z")
 
 
 class _Port(NamedTuple):
@@ -93,7 +91,7 @@ def _wrong(used: Used, attribute: Attribute, port: _Port, *, is_version_4: bool)
     name, value, span = attribute.name, attribute.value.text, attribute.value.span
     if entry_of(attribute) is not None or value == "=":
         return None
-    entry = (value, f"{{{value}}}") if _ENTRY.match(value) else None
+    entry = (value, f"{{{value}}}") if value.isidentifier() else None
     hint = f"; did you mean '{entry[1]}'?" if entry is not None else ""
     if port.is_output:
         message = f"'{value}' is not a blackboard entry: '{used.name}' cannot write its output '{name}'{hint}"

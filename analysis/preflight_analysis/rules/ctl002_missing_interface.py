@@ -5,7 +5,6 @@ https://control.ros.org/jazzy/doc/ros2_control/hardware_interface/doc/hardware_i
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from collections.abc import Set as AbstractSet
 
@@ -19,8 +18,10 @@ from preflight_analysis.model.problems import quoted
 from preflight_analysis.rules.further_reading import ROS2_CONTROL_URDF
 from preflight_analysis.rules.rule import Rule
 
-_AS_DESCRIBED = re.compile(r"(?:mock_components|fake_components|gz_ros2_control|ign_ros2_control|gazebo_ros2_control)/")
-"""Before the names of hardware that has the interfaces of the description and no others."""
+_AS_DESCRIBED = frozenset(
+    ("mock_components", "fake_components", "gz_ros2_control", "ign_ros2_control", "gazebo_ros2_control")
+)
+"""Packages of hardware that has the interfaces of the description and no others."""
 _FULL_NAMES = ("_interface", "_interfaces")
 """The ends of the names of parameters that may have interfaces with their joints."""
 
@@ -33,7 +34,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             continue
         commands = {joint.name: set(joint.commands) for system in systems for joint in system.joints}
         states = {joint.name: set(joint.states) for system in systems for joint in system.joints}
-        own = {joint.name for system in systems if not _AS_DESCRIBED.match(system.plugin) for joint in system.joints}
+        own = {
+            joint.name
+            for system in systems
+            if system.plugin.partition("/")[0] not in _AS_DESCRIBED
+            for joint in system.joints
+        }
         yield from _of_controller(rule, context, each, commands, states, own)
         yield from _by_full_name(rule, context, each, commands, states)
 

@@ -18,7 +18,7 @@ from preflight_analysis.rules.problems import problem_claim
 from preflight_analysis.rules.rule import Rule
 
 _TAG = re.compile(rf"(?:{'|'.join(TAGS)})(?=\s+[\w-]+\s*=)")
-_REMARK = re.compile(r"(?:#|//)")
+_REMARK = ("#", "//")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -37,7 +37,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             problem,
             message,
             subject=Subject("text", text),
-            effect="style" if put or _REMARK.match(text) else None,
+            effect="style" if put or text.startswith(_REMARK) else None,
             fixes=fixes,
         )
 
@@ -48,7 +48,7 @@ def _fixes(context: Context, place: Location, text: str, lost: bool) -> Iterator
         return
     if lost:
         yield from fix("Insert '<'", writer.insert_open_bracket(place.span.start), preferred=True)
-    elif _REMARK.match(text):
+    elif text.startswith(_REMARK):
         edits = writer.comment_out(place.span, text.lstrip("#/ "))
         yield from fix("Convert the text to a comment", edits, preferred=True)
 

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from itertools import chain
 
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.document import Document, SpannedText
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.xml import without_comments
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation import names
@@ -20,7 +21,8 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.launch.problems import SubstitutionAsText
-from preflight_analysis.launch.substitutions import SUBSTITUTIONS
+from preflight_analysis.launch.references import arg_references
+from preflight_analysis.launch.substitutions import SUBSTITUTIONS, parse_value
 from preflight_analysis.launch.substitutions_ros2 import SUBSTITUTIONS_ROS2
 from preflight_analysis.model.arguments import declarations
 from preflight_analysis.model.context import Context
@@ -32,9 +34,6 @@ from preflight_analysis.rules.rule import Rule
 
 _COMMANDS = "|".join(map(re.escape, {**SUBSTITUTIONS, **SUBSTITUTIONS_ROS2}))
 _SUBSTITUTION = re.compile(rf"\$\((?:{_COMMANDS})(?: [^()]*)?\)")
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-"""In a robot description, where xacro leaves it as it is."""
-_ARG = re.compile(r"\$\((?:arg|var)\s+([^\s()]+)\s*\)")
 _ARGUMENT = re.compile(r"[\s\"',]+")
 _LONGEST = 4096
 _SOURCES = (".py", ".cpp", ".cc", ".h", ".hpp")
@@ -76,7 +75,7 @@ def _left_in(param: Param) -> tuple[Param, str] | None:
     for text in texts:
         if not isinstance(text, str) or "$(" not in text or len(text) >= _LONGEST:
             continue
-        if (found := _SUBSTITUTION.search(_COMMENT.sub("", text))) is not None:
+        if (found := _SUBSTITUTION.search(without_comments(text))) is not None:
             return param, found[0]
     return None
 
@@ -97,9 +96,9 @@ def _not_made(rule: Rule, context: Context, tags: Tags, param: Param, text: str)
     document = context.documents.get(where.file)
     fixes: tuple[Fix, ...] = ()
     # Without the argument the launcher would refuse what it is told to replace.
-    arg = _ARG.fullmatch(text)
+    arg = next((name for name, _ in arg_references(parse_value(SpannedText(text, Span(0, len(text)))))), None)
     declared = {*declarations(context.launch_files[where.file]), *(context.tree.args if ament else ())}
-    unknown = arg is not None and arg[1] not in declared
+    unknown = arg is not None and arg not in declared
     if tag is not None and not unknown and document is not None:
         edits = writer_of(document).set_attribute(tag.action, attribute, "true")
         fixes = fix(f'Add {attribute}="true" to the tag', edits, preferred=True)

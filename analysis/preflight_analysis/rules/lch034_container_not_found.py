@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.dataclass import dataclass
@@ -16,7 +15,7 @@ from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.model.containers_elsewhere import called_elsewhere
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, has_all_words, likeness, share_words
-from preflight_analysis.model.places import attribute_location
+from preflight_analysis.model.places import attribute_location, quoted_once
 from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.model.syntax import Tags
 from preflight_analysis.rules.further_reading import COMPOSITION, NODELET
@@ -157,10 +156,7 @@ def _target(context: Context, tags: Tags, node: LaunchNode, container: str) -> L
     target = tag.above[0].value("target") if tag is not None and tag.above else None
     if target is not None:
         return context.location(node.location.file, target.span)
-    document = context.documents.get(node.location.file)
-    text = document.text if document is not None else ""
-    quoted = [match.span(2) for match in re.finditer(rf"(['\"])({re.escape(container)})\1", text)]
-    return context.location(node.location.file, Span(*quoted[0])) if len(quoted) == 1 else node.location
+    return quoted_once(context, node.location.file, container) or node.location
 
 
 def _full(container: str) -> str:

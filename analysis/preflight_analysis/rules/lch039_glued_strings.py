@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import io
-import re
+import math
 import tokenize
 from collections.abc import Iterator
 
@@ -23,8 +23,6 @@ from preflight_analysis.model.problems import fix, include_chain, quoted, shorte
 from preflight_analysis.rules.further_reading import FORMATS, ROSLAUNCH_ROSPARAM
 from preflight_analysis.rules.rule import Rule
 
-_BOOLEAN = re.compile(r"true|false", re.IGNORECASE)
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _PLAIN = 2
 """How many items of a list have to be what the text is made of."""
 _BREAKS = "/_-.:,=@[](){}"
@@ -67,10 +65,21 @@ def _lists_with_text(params: tuple[Param, ...]) -> tuple[tuple[Param, list[str]]
         texts = [item for item in value if isinstance(item, str)] if isinstance(value, list) else []
         if not isinstance(value, list) or not texts or len(value) - len(texts) < _PLAIN:
             continue
-        kind = _BOOLEAN if any(isinstance(item, bool) for item in value) else _NUMBER
-        if all(len(text.split()) > 1 and all(map(kind.fullmatch, text.split())) for text in texts):
+        is_alike = _is_boolean if any(isinstance(item, bool) for item in value) else _is_number
+        if all(len(text.split()) > 1 and all(map(is_alike, text.split())) for text in texts):
             found.append((param, texts[0].split()))
     return tuple(found)
+
+
+def _is_boolean(word: str) -> bool:
+    return word.lower() in ("true", "false")
+
+
+def _is_number(word: str) -> bool:
+    try:
+        return math.isfinite(float(word))
+    except ValueError:
+        return False
 
 
 @derived

@@ -4,7 +4,6 @@ an argument names them, the launch file could not be followed."""
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import PurePath
 
@@ -25,6 +24,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.joint_names import meant_around
+from preflight_analysis.model.name_index import named_in, sources_in
 from preflight_analysis.model.params_in_sources import meant_in_one_file
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.robot.of_launch import robots_of
@@ -42,9 +42,6 @@ _FOLDERS = frozenset({"config", "configs", "param", "params", "parameters", "cfg
 _NOT_OURS = frozenset({"test", "tests", "build", "install", "log"})
 _ABOVE = 3
 """Folders above a package that may be those of its repository."""
-_LOADS = re.compile(r"\byaml\.(?:\w+_)?load\b|\bYAML::Load")
-_YAML_FILE = re.compile(r"[\w.-]+\.ya?ml\b")
-_PROGRAMS = (".py", ".cpp", ".cc", ".hpp", ".h")
 _MOST = 200
 """Files of one package that are read."""
 _LONGEST = 200_000
@@ -222,12 +219,8 @@ def _folders(context: Context, share: str) -> Iterator[tuple[str, str]]:
 @query
 def _read_by_programs(db: Database, folder: str) -> frozenset[str]:
     """The YAML files that programs of a package name which read YAML themselves."""
-    disk, found = Disk(db), set[str]()
-    for path in files_in(disk, folder, deep=True):
-        document = disk.text(path) if path.endswith(_PROGRAMS) else None
-        if isinstance(document, Document) and _LOADS.search(document.text):
-            found.update(_YAML_FILE.findall(document.text))
-    return frozenset(found)
+    found = (named_in(db, path, "yaml-file") for path in sources_in(db, folder) or ())
+    return frozenset(each.text for names in found for each in names)
 
 
 @query

@@ -6,7 +6,6 @@ MoveIt asks for the parameters of the groups and joints that it knows: others st
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Literal
 
@@ -24,9 +23,12 @@ from preflight_analysis.robot.of_launch import SemanticRobot, given_robot, seman
 from preflight_analysis.rules.further_reading import MOVEIT_KINEMATICS
 from preflight_analysis.rules.rule import Rule
 
-_KINEMATICS = re.compile(r"robot_description_kinematics[./]([^./]+)[./]kinematics_solver")
-_PLANNERS = re.compile(r"(?:.+[./])?([^./]+)[./]planner_configs")
-_LIMITS = re.compile(r"robot_description_planning[./]joint_limits[./]([^./]+)[./]\w+")
+_KINEMATICS = ("robot_description_kinematics", None, "kinematics_solver")
+"""Parts of the name of a parameter, None for that of the group or joint."""
+_PLANNERS = (None, "planner_configs")
+"""The last ones, whatever is before."""
+_LIMITS = ("robot_description_planning", "joint_limits", None, "")
+"""The last part is any."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -55,13 +57,16 @@ def _params(context: Context, node: LaunchNode) -> Mapping[str, Param]:
     return {**around, **moveit_params(tree, node)}
 
 
-def _named(pattern: re.Pattern[str], params: Mapping[str, Param]) -> dict[str, Param]:
+def _named(wanted: tuple[str | None, ...], params: Mapping[str, Param]) -> dict[str, Param]:
     """The groups or joints that parameters are for, each with the first of them."""
     found: dict[str, Param] = {}
     for name, param in params.items():
-        match = pattern.fullmatch(name)
-        if match is not None:
-            found.setdefault(match[1], param)
+        parts = name.replace("/", ".").split(".")
+        if wanted is _PLANNERS:
+            parts = parts[-len(wanted) :]
+        of = parts[wanted.index(None)] if len(parts) == len(wanted) else ""
+        if of and all(part == each for part, each in zip(parts, wanted, strict=True) if each):
+            found.setdefault(of, param)
     return found
 
 

@@ -1,7 +1,6 @@
 """PKG004: a package that a launch file needs and the package.xml above it does not name."""
 
 import os
-import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
@@ -9,7 +8,7 @@ from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.xml import without_comments
+from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
@@ -24,7 +23,6 @@ from preflight_analysis.model.problems import fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.rule import Rule
 
-_FORMAT = re.compile(r"<package\b[^<>]*\bformat\s*=\s*[\"']([23])[\"']")
 _FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
 
@@ -110,9 +108,10 @@ def _found_by(part: Substitution) -> Iterator[tuple[str, Span]]:
 def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str) -> tuple[Fix, ...]:
     if not isinstance(manifest, Document) or os.path.basename(owner.manifest) != MANIFEST:
         return ()
-    text = without_comments(manifest.text)
     folders = file[len(owner.share) :].split("/")
-    tag = "exec_depend" if _FORMAT.search(text) else "run_depend"
+    root = parse_xml(manifest.path, manifest.text, lines=manifest.lines).root
+    given = root.get("format") if root is not None else None
+    tag = "exec_depend" if given is not None and given.value.text in ("2", "3") else "run_depend"
     if file.endswith(".test") or any(folder in _TEST_FOLDERS for folder in folders):
         tag = "test_depend"
     edits = XmlWriter(manifest).add_dependency(tag, name)

@@ -1,13 +1,12 @@
 """PKG007: a package.xml names a package that there is nowhere."""
 
 import os
-import re
 from collections.abc import Iterator
 
 from preflight_analysis.catalogue.released import DISTRIBUTIONS, distributions_with, system_keys
-from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.document import Document, Text
 from preflight_analysis.documents.span import Span
-from preflight_analysis.documents.xml import without_comments
+from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
@@ -22,8 +21,6 @@ from preflight_analysis.model.nearest import did_you_mean, is_slip_of_words, nea
 from preflight_analysis.model.problems import all_of, fix
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.rule import Rule
-
-_DEPENDENCY = re.compile(r"<(\w*depend)\b[^<>]*>\s*([\w.+-]+)\s*</\1\s*>")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -65,14 +62,22 @@ def _packages(context: Context) -> Iterator[Package]:
 def _unknown(manifest: Document, environment: Environment) -> tuple[tuple[tuple[Span, ...], str], ...]:
     """The names, each with its places, that neither ROS nor rosdep knows."""
     unknown: dict[str, list[Span]] = {}
-    for found in _DEPENDENCY.finditer(without_comments(manifest.text)):
-        name = found[2]
+    for name, span in _dependencies(manifest):
         # rosdep has forgotten Python 2; manifests for both still name it.
         key = f"python3-{name[7:]}" if name.startswith("python-") else name
         known = name in environment.packages or not system_keys().isdisjoint((name, key))
         if not known and not any(distributions_with(name, generation) for generation in DISTRIBUTIONS):
-            unknown.setdefault(name, []).append(Span(*found.span(2)))
+            unknown.setdefault(name, []).append(span)
     return tuple((tuple(spans), name) for name, spans in unknown.items())
+
+
+def _dependencies(manifest: Document) -> Iterator[tuple[str, Span]]:
+    root = parse_xml(manifest.path, manifest.text, lines=manifest.lines).root
+    for element in root.elements if root is not None else ():
+        for child in element.children if element.tag.endswith("depend") else ():
+            if isinstance(child, Text) and (name := child.content.text.strip()):
+                start = child.content.text.index(name)
+                yield name, child.content.slice_span(start, start + len(name))
 
 
 @query

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -26,7 +25,6 @@ from preflight_analysis.rules.further_reading import NAMES, PARAMETER_SERVER, RO
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.interface import Interface
 
-_ARGUMENT = re.compile(r"_[A-Za-z]\w*")
 _GROUP = 4
 """Parameters of a file that are read one namespace below."""
 _PARTLY = ("catalogue", "source")
@@ -117,7 +115,7 @@ def _as_on_the_command_line(
     nodes, read = {node.name for node in graph.tree.nodes}, graph.read_names
     for param in odd:
         above, _, leaf = param.name.rpartition("/")
-        if above in nodes and param.name not in read and _ARGUMENT.fullmatch(leaf):
+        if above in nodes and param.name not in read and leaf[:1] == "_" and leaf[1:2].isalpha():
             yield rule.claim(
                 f"parameter '{leaf}' begins with '_', which is the form of a node's arguments ('{leaf}:=...'); did you "
                 f"mean '{leaf[1:]}'?",

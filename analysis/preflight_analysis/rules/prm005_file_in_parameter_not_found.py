@@ -27,6 +27,7 @@ from preflight_analysis.model.given_in_vain import others_in_vain
 from preflight_analysis.model.installation import will_be_there
 from preflight_analysis.model.installed import is_made_of_template, may_be_made
 from preflight_analysis.model.meant import meant_values
+from preflight_analysis.model.nearest import camel_words
 from preflight_analysis.model.places import argument_location
 from preflight_analysis.model.problems import include_chain, shown
 from preflight_analysis.rules.further_reading import PARAMETERS, ROSLAUNCH_PARAM
@@ -37,11 +38,9 @@ from preflight_analysis.tracing.request import split_args
 _LONGEST = 4096
 """A path has fewer characters, a robot description has more."""
 _EXTENSION = re.compile(r"\.[A-Za-z][A-Za-z0-9_]{0,9}\Z")
-_LIST = re.compile(r"[,;:]")
 _PATTERN = re.compile(r"[*?!\[\]{}$%<>|&\"'()\s#]")
 """Characters of wildcards and of texts that are filled in later (`left_%04d.png`, `${NAME}.yaml`, `!!NOT_SET!!`)."""
-_PACKAGE_URI = re.compile(r"package://([^/]+)/(.*)\Z")
-_WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+_PACKAGE_URI = "package://"
 _WRITTEN = frozenset(
     re.findall(
         r"\w+",
@@ -52,7 +51,7 @@ _WRITTEN = frozenset(
     )
 )
 """Words in the name of a parameter, option, node or folder that say: this file is made when the node runs."""
-_GENERATED = re.compile(r"(?:\A|_)gen(?:_|\Z)")
+_GENERATED = "gen"
 """Likewise in the name of an argument that hands the path on."""
 _MADE_WHEN_RUN = (".bag", ".log", ".db", ".pid", ".sock", ".sqlite", ".tmp")
 _FETCHED = frozenset(
@@ -89,7 +88,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             values = _argument_uses(context.tree) if values is None else values
             given = named.location()
             location, arguments = _where_written(context, given, path, values)
-            if any(_made_when_run(name) or _GENERATED.search(name) for name in arguments):
+            if any(_made_when_run(name) or _GENERATED in name.split("_") for name in arguments):
                 continue
             related = include_chain((*named.origin[:-1], location))
             if location != given:
@@ -215,7 +214,7 @@ def _elsewhere(tree: LaunchTree, node: LaunchNode) -> bool:
 
 
 def _made_when_run(name: str) -> bool:
-    return any(word.lower() in _WRITTEN for word in _WORD.findall(name))
+    return any(word in _WRITTEN for word in camel_words(name))
 
 
 def _missing(text: str, context: Context) -> Iterator[str]:
@@ -257,11 +256,12 @@ def _is_built(below: str, share: str, context: Context) -> bool:
 
 
 def _paths(text: str, environment: Environment) -> Iterable[str]:
-    if found := _PACKAGE_URI.match(text):
-        package = environment.packages.get(found[1])
-        return (os.path.join(package.share, found[2]),) if package is not None else ()
+    if text.startswith(_PACKAGE_URI):
+        name, _, below = text.removeprefix(_PACKAGE_URI).partition("/")
+        package = environment.packages.get(name)
+        return (os.path.join(package.share, below),) if package is not None and below else ()
     plain = text.removeprefix("file://")
-    pieces = _LIST.split(plain) if "/" in plain else ()
+    pieces = plain.replace(";", ",").replace(":", ",").split(",") if "/" in plain else ()
     return [piece for piece in pieces if piece.startswith("/")]
 
 

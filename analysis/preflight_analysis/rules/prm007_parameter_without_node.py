@@ -14,7 +14,7 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.nearest import nearest, numbers_in
 from preflight_analysis.model.parameters import namespace_of
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, rename
@@ -24,7 +24,6 @@ from preflight_analysis.rules.rule import Rule
 
 _FAR = 2000
 """How far above a parameter the YAML key of its dictionary is looked for."""
-_DIGITS = re.compile(r"\d+")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -142,7 +141,7 @@ def _at_fault(namespace: str, nodes: frozenset[str], homes: frozenset[str]) -> s
 def _near(leaf: str, others: Iterable[str]) -> str | None:
     """The name that is a typo away. Names that differ by a plural or a number were written so."""
     near = nearest(leaf, others)
-    if near is None or near.rstrip("s") == leaf.rstrip("s") or _DIGITS.findall(near) != _DIGITS.findall(leaf):
+    if near is None or near.rstrip("s") == leaf.rstrip("s") or numbers_in(near) != numbers_in(leaf):
         return None
     return near
 

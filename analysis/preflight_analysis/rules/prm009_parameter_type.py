@@ -30,7 +30,7 @@ _OTHER_NUMBER = re.compile(
 )
 _PLAIN = re.compile(r"-?[0-9]+\.[0-9]+")
 _SAID = "type mismatch of parameter '{name}': {value} is {kind}, {node} expects {wanted} (default {default}){advice}"
-_IN_ANOTHER_BASE = re.compile("[-+]?0[xob]", re.IGNORECASE)
+_OTHER_BASES = ("0x", "0o", "0b")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -101,7 +101,7 @@ def _plain_number(context: Context, param: Param, read: ParamRead) -> tuple[Fix,
     file = context.launch_files.get(param.place.file)
     tag = action_at(file, param.place.span.start) if file is not None else None
     try:
-        number = float(int(written, 0) if _IN_ANOTHER_BASE.match(written) else written)
+        number = float(int(written, 0) if written.lower().lstrip("-+").startswith(_OTHER_BASES) else written)
     except (OverflowError, ValueError):  # an old octal number, or one that is too large
         return ()
     # What has a type keeps it. A number of many digits would have an exponent again.

@@ -11,7 +11,7 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Alike, Finding, Fix
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest, without_numbers
 from preflight_analysis.model.param_matching import reports_params
 from preflight_analysis.model.parameters import OF_ALL_NODES
 from preflight_analysis.model.params_in_sources import may_be_made
@@ -31,7 +31,6 @@ _OF_TRANSPORT = re.compile(
 _SAID = "parameter '{name}' is not declared by {node}; its value is ignored{near}"
 _MANY = "parameters are not declared by {node}; their values are ignored"
 _NO_CLOCK = "parameter '{name}' of {node} has no effect; did you mean '{near}'?"
-_NUMBER = re.compile(r"\d+")
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -64,8 +63,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             package = context.environment.packages.get(node.package)
             if package in own and may_be_made(context.disk.db, package.share, param.name):
                 continue
-            numbered = _NUMBER.sub("#", param.name)
-            if not interface.tells_all("parameters") and numbered in {_NUMBER.sub("#", name) for name in declared}:
+            numbered = without_numbers(param.name)
+            if not interface.tells_all("parameters") and numbered in set(map(without_numbers, declared)):
                 continue  # one of a row, `odom1` beside `odom0`, of which the node may take as many as it is given
             near = _near(param.name, [name for name in declared if (name, param.place.file) not in given])
             if near is None and _is_controller(node):

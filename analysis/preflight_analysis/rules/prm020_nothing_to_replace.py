@@ -4,13 +4,14 @@ import re
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.problems import NothingToReplace
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.places import quoted_once
 from preflight_analysis.model.problems import problems_of, rename, shown
 from preflight_analysis.rules.further_reading import FORMATS, NAV2
 from preflight_analysis.rules.problems import problem_claim
@@ -59,9 +60,7 @@ def _slip(name: str, others: Iterable[str]) -> str | None:
 
 def _place(context: Context, around: Location, name: str) -> Location:
     """Where the file names it, if that is once."""
-    document = context.documents.get(around.file)
-    quoted = [m.span(2) for m in re.finditer(rf"(['\"])({re.escape(name)})\1", document.text)] if document else []
-    return context.location(around.file, Span(*quoted[0])) if len(quoted) == 1 else around
+    return quoted_once(context, around.file, name) or around
 
 
 RULE = Rule(

@@ -6,7 +6,6 @@ https://docs.nav2.org/plugins/
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
@@ -20,21 +19,18 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import did_you_mean, is_slip
+from preflight_analysis.model.nearest import camel_words, did_you_mean, is_slip
 from preflight_analysis.model.problems import rename
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
 from preflight_analysis.rules.rule import Rule
 
-_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _ALIKE = 0.6
 """How many of all the words of two names have to be in both."""
 _FEWEST = 2
 """Words of a name that is another one without some of its words; one alone is `Controller`."""
 
 _KINDS = {".type": "controller", ".plugin": "plugin"}
-_MARK = re.compile(r"/|::")
-_OF_PACKAGE = re.compile(r"(\w+)(?:/|::)\w+\Z")
 
 
 class _Named(NamedTuple):
@@ -107,8 +103,8 @@ def _types_in(document: Document) -> tuple[_Named, ...]:
     for param in (param for section in read_param_file(document).sections for param in section.params):
         kind = next((kind for end, kind in _KINDS.items() if param.name.endswith(end)), None)
         type_ = param.value
-        if kind is not None and isinstance(type_, str) and (package := _OF_PACKAGE.match(type_)) is not None:
-            found.append(_Named(kind, package[1], type_, param.value_span))
+        if kind is not None and isinstance(type_, str) and (package := _package_of(type_)) is not None:
+            found.append(_Named(kind, package, type_, param.value_span))
     return tuple(found)
 
 
@@ -125,9 +121,14 @@ def _meant(named: _Named, known: Collection[str], *, is_own: bool) -> str | None
     return near[0] if len(near) == 1 else None
 
 
+def _package_of(type_: str) -> str | None:
+    package, mark, name = type_.replace("::", "/").partition("/")
+    return package if mark and package.isidentifier() and name.isidentifier() else None
+
+
 def _exact(type_: str, known: Collection[str]) -> str | None:
     """What a description calls a type that has the other mark: pluginlib looks for the name itself."""
-    same = (each for each in known if _MARK.sub("/", each) == _MARK.sub("/", type_))
+    same = (each for each in known if each.replace("::", "/") == type_.replace("::", "/"))
     return next(same, None) if type_ not in known else None
 
 
@@ -151,7 +152,7 @@ def _share_most(type_: str, other: str) -> bool:
 
 
 def _words(type_: str) -> set[str]:
-    return {*_WORD.findall(type_.partition("/")[2])}
+    return {*camel_words(type_.partition("/")[2])}
 
 
 RULE = Rule(

@@ -21,13 +21,12 @@ from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.request import split_args
 
 _SAID = "recorded topic '{name}' has no publisher in this launch; did you mean '{near}', published by {node}?"
-_TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
 _FLAG = re.compile(
     r"-[ahqpj]+|--(?:all(?:-topics|-services|-actions)?|bz2|lz4|quiet|publish|split|tcpnodelay|udp|repeat-latched|help"
     r"|include-\S+|no-discovery|use-sim-time|snapshot|snapshot-mode|start-paused|topics)"
 )
 """Options without a value, after which topics may follow."""
-_SEVERAL = re.compile(r"--(?:exclude-\S+|services|actions|topic-types)")
+_SEVERAL = ("--services", "--actions", "--topic-types")
 """Options that take all words up to the next one."""
 _CONVENTIONS = ("compressed", "compressedDepth", "theora", "camera_info", "parameter_descriptions", "parameter_updates")
 """Last parts of names that image_transport, drivers of cameras and dynamic_reconfigure make."""
@@ -108,11 +107,11 @@ def _topics(words: Sequence[str]) -> Iterator[str]:
     skipped, several = False, False
     for word in words:
         if word.startswith("-"):
-            several = _SEVERAL.fullmatch(word) is not None
+            several = word in _SEVERAL or word.startswith("--exclude-")
             skipped = not several and "=" not in word and _FLAG.fullmatch(word) is None
         elif skipped:
             skipped = False
-        elif not several and _TOPIC.fullmatch(word):
+        elif not several and word and names.is_legal(word):
             yield word
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from preflight_analysis.evaluation import names
@@ -23,8 +22,7 @@ from preflight_analysis.tracing.request import split_args
 _SAID = (
     "played topic '{name}' has no subscriber in this launch; did you mean '{near}' (subscriber: {node}, no publisher)?"
 )
-_TOPIC = re.compile(r"[~/A-Za-z_][A-Za-z0-9_/]*")
-_PREFIX = re.compile(r"-p|--prefix(?:=.*)?")
+_PREFIX = ("-p", "--prefix")
 """Of a text that goes in front of all names (ROS 1)."""
 _REMAPS = ("-m", "--remap")
 """Before names of the recording with others for them (ROS 2); in ROS 1 these may stand anywhere."""
@@ -67,7 +65,11 @@ def _played(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:
     """The topics that a player is told to play, as written and in full: those after `--topics`, by the names that they
     are played under, and the names that topics of the recording are given."""
     words = split_args(node.args)
-    if node.unknowns or "play" not in (node.executable, *words[1:2]) or any(map(_PREFIX.fullmatch, words)):
+    if (
+        node.unknowns
+        or "play" not in (node.executable, *words[1:2])
+        or any(word.partition("=")[0] in _PREFIX for word in words)
+    ):
         return ()
     if (node.package, node.executable) == ("rosbag", "play"):
         renamed = _renamed(words)
@@ -79,7 +81,9 @@ def _played(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:
     else:
         return ()
     topics = [topic for topic in _after(words, ("--topics",)) if topic not in renamed]
-    full = ((word, names.resolve(word, node.name)) for word in (*topics, *renamed.values()) if _TOPIC.fullmatch(word))
+    full = (
+        (word, names.resolve(word, node.name)) for word in (*topics, *renamed.values()) if word and names.is_legal(word)
+    )
     return tuple((word, outer.get(name, name)) for word, name in full)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -13,12 +12,12 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.nearest import words_in
 from preflight_analysis.model.parameters import by_namespace
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import NAMES, TOPIC_NAMES
 from preflight_analysis.rules.rule import Rule
 
-_WORD = re.compile(r"[A-Za-z]+|\d+")
 _SIDES = (("left", "right"), ("front", "rear"), ("front", "back"), ("upper", "lower"), ("top", "bottom"))
 _OTHER_SIDE = {(one, other) for pair in _SIDES for one, other in (pair, pair[::-1])}
 _LONGEST = 200
@@ -85,7 +84,7 @@ def _copies(names: Iterable[_Named]) -> tuple[tuple[_Named, _Named], ...]:
         for given, alike in by_value.items()
         if len(alike) == len(_SIDES[0])
         for first, second in (alike, alike[::-1])
-        if _is_of_first(_words(first.own), _words(second.own), _words(given))
+        if _is_of_first(words_in(first.own), words_in(second.own), words_in(given))
     )
 
 
@@ -100,10 +99,6 @@ def _is_of_first(own: Sequence[str], other: Sequence[str], given: Sequence[str])
         numbers = {number for stem, number in pairwise(given) if at and stem == own[at - 1]}
         return mine in numbers and theirs not in numbers
     return (mine, theirs) in _OTHER_SIDE and mine in given and theirs not in given
-
-
-def _words(name: str) -> list[str]:
-    return [word.lower() for word in _WORD.findall(name)]
 
 
 RULE = Rule(
