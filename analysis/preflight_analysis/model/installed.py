@@ -23,7 +23,7 @@ from preflight_analysis.environment.packages import LEGACY_MANIFEST
 from preflight_analysis.findings.lack import INSTALL, Lack
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import is_slip, is_slip_of_words, nearest
+from preflight_analysis.model.nearest import is_slip, is_slip_of_words, nearest, nearest_slip
 from preflight_analysis.model.said import missing_module
 
 _CORE = frozenset({"rclpy", "rclcpp", "launch_ros"})
@@ -257,8 +257,7 @@ def unset_variable(context: Context, name: str) -> Lack:
 
 def near_variable(context: Context, name: str) -> str | None:
     """A variable that is set, of whose name this is a slip."""
-    near = nearest(name, context.environment.variables)
-    return near if near is not None and is_slip(name, near) else None
+    return nearest_slip(name, context.environment.variables)
 
 
 def lack_of_program(context: Context, program: str) -> Lack:

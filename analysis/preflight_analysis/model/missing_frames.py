@@ -13,7 +13,7 @@ from preflight_analysis.frames.uses import OF_SENSOR
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.frames import frames_of
-from preflight_analysis.model.nearest import is_slip, nearest
+from preflight_analysis.model.nearest import nearest_slip
 
 _LAST_WORDS = re.compile(r"(?:_?(?:link|frame|optical|sensor|id))+\Z")
 
@@ -70,8 +70,7 @@ def mentioned_slips(context: Context) -> Iterator[tuple[Mention, str]]:
         if name not in OF_SENSOR or mention.frame in names or counts[mention.frame] > 1:
             continue
         links = {edge.child for edge in frames.edges if edge.how == "urdf" and edge.space == mention.space}
-        near = nearest(mention.frame, links)
-        if near is not None and is_slip(mention.frame, near):
+        if (near := nearest_slip(mention.frame, links)) is not None:
             yield mention, near
 
 
@@ -95,9 +94,7 @@ def _elsewhere(frames: Frames, use: Use, prefixes: frozenset[str]) -> Iterator[E
 
 
 def _near(frames: Frames, use: Use) -> str | None:
-    names = frames.names(use.space)
-    near = nearest(use.frame, names)
-    return near if near is not None and is_slip(use.frame, near) else None
+    return nearest_slip(use.frame, frames.names(use.space))
 
 
 def _root(frames: Frames, use: Use) -> str | None:

@@ -95,6 +95,12 @@ def is_slip(name: str, other: str) -> bool:
     return int(OSA.distance(folded(name), folded(other))) <= most
 
 
+def nearest_slip(name: str, candidates: Iterable[str]) -> str | None:
+    """The nearest one, if it is a slip."""
+    near = nearest(name, candidates)
+    return near if near is not None and is_slip(name, near) else None
+
+
 def is_slip_of_words(name: str, other: str) -> bool:
     """As `is_slip`, of names that are put together from words: `hsrb_bringup` is no slip of `hero_bringup`, as its word
     is another one."""

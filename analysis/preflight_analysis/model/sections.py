@@ -28,7 +28,7 @@ from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import likeness, nearest
 from preflight_analysis.model.section_reader import SectionReader
-from preflight_analysis.model.written_elsewhere import around
+from preflight_analysis.model.names_elsewhere import section_around
 from preflight_analysis.tracing.interface import Interface
 
 Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
@@ -441,15 +441,8 @@ def _slip(context: Context, section: Section) -> Slip | None:
     below = f"/{'/'.join(rest)}"
     if not section.exact or not rest or not any(node.name.endswith(below) for node in context.tree.nodes):
         return None
-    keys = around(context, _KEYS, _YAML)
-    if keys.get(space, 0) > 1:
-        return None
-    found = [
-        Slip(f"/{each}{below}", files)
-        for each, files in keys.items()
-        if files >= _ENOUGH and likeness(f"/{space}", f"/{each}") == ("typo", 1)
-    ]
-    return found[0] if len(found) == 1 else None
+    found = section_around(context, space)
+    return Slip(f"/{found[0]}{below}", found[1]) if found is not None else None
 
 
 @derived

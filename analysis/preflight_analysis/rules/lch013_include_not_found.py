@@ -10,7 +10,7 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.catalogued import catalogue_doubts, is_of_distribution
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import is_slip, nearest
+from preflight_analysis.model.nearest import is_slip, nearest, nearest_slip
 from preflight_analysis.model.problems import problems_of, rename
 from preflight_analysis.rules.further_reading import LARGE_PROJECTS, ROSLAUNCH_INCLUDE
 from preflight_analysis.rules.missing_files import check_missing_files
@@ -51,8 +51,7 @@ def _near(name: str, others: Sequence[str]) -> str | None:
     near = nearest(name, others, key=_stem)
     if near is not None and (_stem(name) == _stem(near) or is_slip(_stem(name), _stem(near))):
         return near
-    near = nearest(name, others)  # `camera_lanch.py`
-    return near if near is not None and is_slip(name, near) else None
+    return nearest_slip(name, others)  # `camera_lanch.py`
 
 
 def _stem(name: str) -> str:

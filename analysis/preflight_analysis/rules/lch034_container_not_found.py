@@ -12,8 +12,8 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.graph.build import effective_remaps
-from preflight_analysis.model.containers_elsewhere import called_elsewhere
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.names_elsewhere import container_of_package
 from preflight_analysis.model.nearest import did_you_mean, has_all_words, likeness, share_words
 from preflight_analysis.model.places import attribute_location, quoted_once
 from preflight_analysis.model.problems import include_chain, rename
@@ -68,7 +68,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         message = f"container '{full}' is not started by this launch; it is the target of {loaded}"
         if near and names.leaf(near[0]) == leaf and tree.ros.ament and not load.written.startswith("/"):
             message += "; a target without a leading slash is resolved in '/'"
-        elsewhere = called_elsewhere(context, full) if not near else None
+        elsewhere = container_of_package(context, full) if not near else None
         if elsewhere is not None:
             message += f"; other launch files of the package load into '{elsewhere}'"
         related = tuple(Related(f"the {container} of this launch", containers[name].location) for name in near)

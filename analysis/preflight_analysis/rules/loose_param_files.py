@@ -23,8 +23,8 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.joint_names import meant_around
 from preflight_analysis.model.name_index import named_in, sources_in
+from preflight_analysis.model.names_elsewhere import joint_around
 from preflight_analysis.model.params_in_sources import meant_in_one_file
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.robot.of_launch import robots_of
@@ -124,7 +124,7 @@ def _unknown_joints(context: Context, document: Document) -> Iterator[Finding]:
     for nodes in _joint_lists(document):
         beside = frozenset(node.value for node in nodes)
         for node in nodes:
-            meant = meant_around(context, node.value, beside)
+            meant = joint_around(context, node.value, beside)
             if meant is not None:
                 yield ctl001.RULE.claim(
                     ctl001.IN_NO_OTHER_FILE.format(node.value, *meant),

@@ -1,7 +1,7 @@
 """PRM020: what `RewrittenYaml` or `ReplaceString` is to replace is not in the file (ROS 2)."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
@@ -10,7 +10,7 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
+from preflight_analysis.model.nearest import did_you_mean, nearest_slip
 from preflight_analysis.model.places import quoted_once
 from preflight_analysis.model.problems import problems_of, rename, shown
 from preflight_analysis.rules.further_reading import FORMATS, NAV2
@@ -47,15 +47,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 def _near(name: str, by: str, text: str) -> str | None:
     """What is in the file and differs by a slip; of a path the last key does."""
     if by != "RewrittenYaml":
-        return _slip(name, _MARKED.findall(text))
+        return nearest_slip(name, _MARKED.findall(text))
     above, dot, leaf = name.rpartition(".")
-    near = _slip(leaf, _KEY.findall(text))
+    near = nearest_slip(leaf, _KEY.findall(text))
     return f"{above}{dot}{near}" if near is not None else None
-
-
-def _slip(name: str, others: Iterable[str]) -> str | None:
-    near = nearest(name, others)
-    return near if near is not None and is_slip(name, near) else None
 
 
 def _place(context: Context, around: Location, name: str) -> Location:
