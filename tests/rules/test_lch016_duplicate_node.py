@@ -196,7 +196,7 @@ def test_a_python_launch_file_that_was_not_run(body: str) -> None:
         'return LaunchDescription([a("one") if x else a("one")])',
         'return LaunchDescription([a("one"), *(a("one") for side in x)])',
         'b = a("one"); return LaunchDescription([b, b])',
-        'b = a("one"); c = a("one"); return LaunchDescription([c])',
+        'b = a("one"); c = a("one"); return LaunchDescription([c])  # or b',
         "b = a(x); return LaunchDescription([b, a(x)])",
         'ld = LaunchDescription([a("one")]); ld.add_action(more(x)); ld.add_action(a("one")); return ld',
         'ld = LaunchDescription([a("one")]); more(ld); ld.add_action(a("one")); return ld',

@@ -428,7 +428,7 @@ def test_keywords_that_may_be_right(statement: str) -> None:
                 node = Node(package="p", executable="a", name="two")
             except TypeError:
                 node = Node(package="p", node_executable="a", node_name="two")
-            return LaunchDescription([])
+            return LaunchDescription([made, node])
 
         def never():
             return Node(nmae="one")

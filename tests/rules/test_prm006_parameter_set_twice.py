@@ -234,10 +234,10 @@ def test_a_key_of_a_file_of_ros2_stands_there_twice() -> None:
         pump:
           ros__parameters:
             message: all is well
-            ^^^^^^^ warning[PRM006] duplicate key 'message' in this section: the later one overrides it with 'pump is off'
+            ^^^^^^^ warning[PRM006] duplicate key 'message' in this section: the later one overrides it with 'off'
             limits.high: 2
             ^^^^^^^^^^^ hint[PRM006] duplicate key 'limits.high' in this section
-            message: pump is off
+            message: 'off'
             limits: {high: 2, low: 1}
         other:
           ros__parameters: {message: ''}

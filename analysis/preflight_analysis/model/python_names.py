@@ -22,7 +22,7 @@ CONDITIONS = frozenset({"IfCondition", "LaunchConfigurationEquals", "LaunchConfi
 
 class BoundNames:
     """The names of a file, as far as it tells what they stand for: one that is bound in several places, or is an
-    argument of a function somewhere, may be anything."""
+    argument of a function somewhere, may be anything, and so may what no module of launch has."""
 
     def __init__(self, source: PythonSource) -> None:
         bound: Counter[str] = Counter()
@@ -36,9 +36,11 @@ class BoundNames:
                 elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
                     bound[node.name] += 1
                 elif isinstance(node, (ast.Import, ast.ImportFrom)):
+                    module = node.module or "" if isinstance(node, ast.ImportFrom) else ""
                     for alias in node.names:
                         bound[alias.asname or alias.name] += 1
-                        self._imported.add(alias.asname or alias.name)
+                        if "launch" in f"{module}.{alias.name}":
+                            self._imported.add(alias.asname or alias.name)
         self._values = {name: value for name, value in source.assigned.items() if bound[name] == 1}
         self._bound = bound
 

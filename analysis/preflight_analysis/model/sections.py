@@ -6,7 +6,6 @@ launch file wrote (`RewrittenYaml`, `ReplaceString`) stands for the one that it 
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
@@ -26,9 +25,9 @@ from preflight_analysis.findings.finding import Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import likeness, nearest
-from preflight_analysis.model.section_reader import SectionReader
 from preflight_analysis.model.names_elsewhere import section_around
+from preflight_analysis.model.nearest import nearest
+from preflight_analysis.model.section_reader import SectionReader
 from preflight_analysis.tracing.interface import Interface
 
 Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
@@ -36,10 +35,6 @@ Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere
 `misspelt`: one has nearly its name; `only`: it is the only section of a node that the file is for; `wildcard`: what it
 fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
 the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
-_KEYS = (re.compile(r"^([A-Za-z]\w*):[ \t]*$", re.MULTILINE),)
-_YAML = (".yaml", ".yml")
-_ENOUGH = 2
-"""Parameter files that have to agree on a namespace."""
 
 
 class Getter(NamedTuple):
