@@ -46,6 +46,7 @@ from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, to_json, to_text
 from preflight_analysis.findings.sarif import to_sarif
 from preflight_analysis.graph.graph_json import graph_json
+from preflight_analysis.interfaces.nodl_read import read_nodl
 from preflight_analysis.live.compare import compare
 from preflight_analysis.live.expected import expected_of
 from preflight_analysis.live.model import CannotObserveError, Expected
@@ -53,7 +54,6 @@ from preflight_analysis.live.observe_ros1 import Ros1Observer
 from preflight_analysis.live.observe_ros2 import said
 from preflight_analysis.live.report import event_json, line
 from preflight_analysis.live.watcher import State
-from preflight_analysis.nodl.read import read_nodl
 from preflight_analysis.queries.calls import incoming, items_at, outgoing
 from preflight_analysis.queries.completion import complete
 from preflight_analysis.queries.completion_values import Lookup

@@ -6,15 +6,16 @@ from dataclasses import replace
 import pytest
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits.edit import Edit
-from preflight_analysis.evaluation.tree import Tag
+from preflight_analysis.evaluation.tree import LaunchNode, Tag
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.annotations import (
-    annotated,
     annotation_edits,
     annotation_template,
     annotation_text,
     read_annotation,
 )
+from preflight_analysis.interfaces.declared import annotated
+from preflight_analysis.interfaces.merge import Provider
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.ros1_xml import read_ros1
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, ParamUse
@@ -27,6 +28,12 @@ def node_action(text: str) -> Action:
     return next(action for action in root.walk() if action.kind == "node")
 
 
+def _node(text: str) -> LaunchNode:
+    (node,) = analyse(read_fixture(text)).tree.nodes
+    return node
+
+
+ANNOTATED = Provider(annotated)
 CONTENT = (
     '<topics><topic name="chatter" type="std_msgs/String" class="sub"/><topic name="~out" class="pub"/></topics>'
     '<services><service name="reset" type="std_srvs/Trigger" class="server"/></services>'
@@ -89,17 +96,17 @@ def test_a_comment_that_is_no_xml_is_a_problem_within_the_comment() -> None:
 
 
 def test_other_comments_are_left_alone() -> None:
-    action = node_action('<launch><node pkg="p" type="t" name="n"><!-- <param name="a"/> see < b --></node></launch>')
-    assert read_annotation(action) == (None, ())
-    assert annotated("/n", NOT_RUN, action) is NOT_RUN
+    node = _node('<launch><node pkg="p" type="t" name="n"><!-- <param name="a"/> see < b --></node></launch>')
+    assert read_annotation(node.action) == (None, ())
+    assert ANNOTATED.added(node, NOT_RUN) is NOT_RUN
 
 
 def test_a_run_that_spun_beats_the_annotation_and_one_that_failed_is_completed() -> None:
-    action = node_action(f'<launch><node pkg="p" type="t" name="n">{CONTENT}</node></launch>')
+    node = _node(f'<launch><node pkg="p" type="t" name="n">{CONTENT}</node></launch>')
     spun = interface_from_json({"publishers": {"other": "x/Y"}})
-    assert annotated("/n", spun, action) is spun
+    assert ANNOTATED.added(node, spun) is spun
     crashed = interface_from_json({"status": "crashed", "exit_code": 1, "subscribers": {"chatter": "x/Seen"}})
-    both = annotated("/n", crashed, action)
+    both = ANNOTATED.added(node, crashed)
     assert both.source == "annotation"
     assert both.outcome == crashed.outcome
     assert both.complete

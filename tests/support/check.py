@@ -47,8 +47,10 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.graph.build import build_graph
+from preflight_analysis.interfaces.declared import annotated
+from preflight_analysis.interfaces.merge import with_part
+from preflight_analysis.interfaces.plugins import PluginIndex
 from preflight_analysis.model.context import Context
-from preflight_analysis.nodl.plugins import PluginIndex
 from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.tracing.interface import (
@@ -372,7 +374,9 @@ def _described(data: Mapping[str, Any], name: str) -> dict[str, Any]:
 def interfaces_of(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:
     unknown = set(given) - {node.name for node in tree.nodes}
     assert not unknown, f"the fixture has interfaces of nodes that are not there: {unknown}"
-    return [interface_from_json(given[node.name]) if node.name in given else NOT_RUN for node in tree.nodes]
+    runs = [interface_from_json(given[node.name]) if node.name in given else NOT_RUN for node in tree.nodes]
+    pairs = [(node, run, annotated(node, run)) for node, run in zip(tree.nodes, runs, strict=True)]
+    return [with_part(node.name, run, part) if part is not None else run for node, run, part in pairs]
 
 
 def environment_of(fixture: Fixture) -> Environment:

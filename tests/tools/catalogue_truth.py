@@ -33,7 +33,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
-from preflight_analysis.nodl.catalogued import Catalogued, catalogued
+from preflight_analysis.interfaces.catalogued import Catalogued, catalogued
 from preflight_analysis.tracing.interface import NOT_RUN, Interface
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.trace import Tracer

@@ -180,17 +180,6 @@ def annotated_names(action: Action) -> Iterator[tuple[str, str, Span]]:
                     yield item.name, value, span
 
 
-def annotated(node: str, traced: Interface, action: Action) -> Interface:
-    """`traced`, or where the run did not reach the event loop, what it saw together with what `action` annotates.
-    `node` is its full name."""
-    if traced.complete:
-        return traced
-    annotation, _ = read_annotation(action)
-    if annotation is None:
-        return traced
-    return traced.with_more(node, "annotation", annotation.endpoints, annotation.params)
-
-
 def worth_writing(interface: Interface) -> Iterator[Endpoint | ParamUse]:
     """What of an interface belongs into an annotation, actions as such. What every node has by its client library, and
     what was found after a made-up answer, is left out; so are parameters that it does not read."""

@@ -18,7 +18,6 @@ from preflight_analysis.evaluation.ros2.remaps import source_for
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import ActionEndpoint, actions_of, moves_actions
-from preflight_analysis.graph.annotations import annotated
 from preflight_analysis.graph.bare_types import bare_types, full_types, resolved
 from preflight_analysis.graph.domains import Domain, Domains, domains_of, groups_apart, separation
 from preflight_analysis.graph.model import PROVIDERS, Channel, Connection, Graph, ParamRead
@@ -45,7 +44,6 @@ def build_graph(
 
     `interfaces` has one entry for each of `tree.nodes_and_simulated`, in that order; `NOT_RUN` for a node of which
     nothing is known.
-    Where a trace is missing or failed, what the launch file annotates is added to what was seen.
 
     `external_topics` are patterns of the topics that something outside of the launch offers or wants. The
     client libraries of the `environment`'s distribution decide what a remap moves, and its variables are those that the
@@ -59,7 +57,7 @@ def build_graph(
     started, nodes = len(tree.nodes), tree.nodes_and_simulated
     if len(nodes) != len(interfaces):
         raise ValueError(f"{len(interfaces)} interfaces of {len(nodes)} nodes")
-    processes = kept.each_row(_process, (tree.nodes, interfaces[:started]))
+    processes = tuple(interfaces[:started])
     bare = dict.fromkeys(chain.from_iterable(kept.each(bare_types, processes)))
     if bare:
         full = tuple((each, _only(disk, environment, tree.generation, *each)) for each in bare)
@@ -87,10 +85,6 @@ def _only(disk: Disk | None, environment: Environment | None, generation: int, k
         return None
     found = full_types(disk, environment, generation, kind, name)
     return found[0] if len(found) == 1 else None
-
-
-def _process(node: LaunchNode, interface: Interface) -> Interface:
-    return annotated(node.name, interface, node.action)
 
 
 @dataclass(frozen=True, slots=True)

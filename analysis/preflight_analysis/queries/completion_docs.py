@@ -9,7 +9,7 @@ from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.markdown import block, code, escaped
 from preflight_analysis.graph.annotations import worth_writing
-from preflight_analysis.nodl.catalogued import catalogued
+from preflight_analysis.interfaces.catalogued import catalogued
 from preflight_analysis.queries.hover_symbols import package_text
 from preflight_analysis.queries.param_texts import default_text
 from preflight_analysis.queries.places import link

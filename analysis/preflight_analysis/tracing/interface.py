@@ -49,6 +49,8 @@ _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning
 _THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
 _WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
 Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "catalogue", "none"]
+DECLARED: tuple[Source, ...] = ("annotation", "settings", "nodl")
+"""Where somebody has written down what a node does."""
 
 
 class NamedBy(NamedTuple):
@@ -345,7 +347,7 @@ class Interface:
     @property
     def declared(self) -> bool:
         """Whether somebody has written down what the node does."""
-        return self.source in ("annotation", "settings", "nodl")
+        return self.source in DECLARED
 
     @property
     def complete(self) -> bool:
@@ -437,39 +439,6 @@ class Interface:
     def pending(self) -> bool:
         """Whether its run has yet to end."""
         return self.outcome.reason == PENDING
-
-    def with_more(
-        self,
-        node: str,
-        source: Source,
-        endpoints: tuple[Endpoint, ...],
-        params: tuple[ParamUse, ...],
-        nodes: tuple[MadeNode, ...] = (),
-        frames: tuple[Frame, ...] = (),
-        frame_uses: tuple[FrameUse, ...] = (),
-    ) -> Interface:
-        """What a run of the node of that full name saw together with what `source` says beyond that, types of what it
-        saw among it."""
-
-        def full(what: Endpoint | ParamUse) -> str:
-            return names.resolve(what.name, what.node or node)
-
-        seen = {(e.role, full(e)) for e in self.endpoints}
-        types = {(e.role, full(e)): e.type for e in endpoints}
-        asked = {full(p) for p in self.params}
-        broadcast = {(f.parent, f.child) for f in self.frames}
-        return replace(
-            self,
-            source=source,
-            endpoints=(
-                *(e if e.type else replace(e, type=types.get((e.role, full(e)))) for e in self.endpoints),
-                *(e for e in endpoints if (e.role, full(e)) not in seen),
-            ),
-            params=self.params + tuple(p for p in params if full(p) not in asked),
-            nodes=self.nodes or nodes,
-            frames=self.frames + tuple(f for f in frames if (f.parent, f.child) not in broadcast),
-            frame_uses=self.frame_uses + frame_uses,
-        )
 
 
 NOT_RUN = Interface("none", Outcome("not-run"))

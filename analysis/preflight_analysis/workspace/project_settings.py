@@ -24,7 +24,7 @@ paths:                          # the same for files below a folder, or of a pat
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 import yaml
@@ -37,15 +37,15 @@ from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.distribution import known_distributions
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.findings.finding import Severity
 from preflight_analysis.findings.severities import ALL, CHOICES, Severities
-from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_annotation, read_item
+from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_item
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.interfaces.settings import NodeSettings
 from preflight_analysis.knowledge.model import Problem as KnowledgeProblem
 from preflight_analysis.rules.registry import rule_by_id
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.tracing.interface import Endpoint, ParamUse
 from preflight_analysis.workspace.index import Root
 
 KEYS = ("roots", "external", "nodes", "knowledge", "distribution", "severities", "paths")
@@ -60,22 +60,6 @@ class SettingsProblem:
 
     message: str
     line: int
-
-
-@dataclass(frozen=True, slots=True)
-class NodeSettings:
-    """What the settings say of nodes: those of an executable of a package, or the one of a full name."""
-
-    package: str | None
-    executable: str | None
-    name: str | None
-    endpoints: tuple[Endpoint, ...]
-    params: tuple[ParamUse, ...]
-
-    def speaks_of(self, node: LaunchNode) -> bool:
-        """Whether the node is one of them."""
-        given = ((self.name, node.name), (self.package, node.package), (self.executable, node.executable))
-        return all(asked in (None, found) for asked, found in given)
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,23 +188,6 @@ def document_of(path: str, text: str) -> Document:
     """The document of a settings file. One for one text: what several roots say of a place in it is said of the same
     place."""
     return Document(path, text, digest(text), (), (), LineIndex(text))
-
-
-def from_settings(
-    tree: LaunchTree, interfaces: Sequence[Interface], settings: Sequence[NodeSettings]
-) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end the settings are added.
-
-    An annotation in the launch file counts before them.
-    """
-    if not settings:
-        return interfaces
-    filled = list(interfaces)
-    for index, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
-        said = next((each for each in settings if each.speaks_of(node)), None)
-        if said is not None and not interface.complete and read_annotation(node.action)[0] is None:
-            filled[index] = interface.with_more(node.name, "settings", said.endpoints, said.params)
-    return filled
 
 
 def _node(node: yaml.Node, problems: list[SettingsProblem]) -> NodeSettings | None:

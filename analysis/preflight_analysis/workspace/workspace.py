@@ -38,23 +38,17 @@ from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.database import Cancelled, Database
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.query import query
+from preflight_analysis.interfaces.merge import merged
+from preflight_analysis.interfaces.part import Launch
+from preflight_analysis.interfaces.plugins import PluginIndex
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.behavior_trees import trees_of
 from preflight_analysis.model.context import Context
-from preflight_analysis.nodl.catalogued import from_catalogue
-from preflight_analysis.nodl.configured import with_configured
-from preflight_analysis.nodl.installed import NodlFiles
-from preflight_analysis.nodl.loaded_plugins import LoadedPlugins
-from preflight_analysis.nodl.moveit_clients import with_moveit_clients
-from preflight_analysis.nodl.named_endpoints import with_named_endpoints
-from preflight_analysis.nodl.plugins import PluginIndex
-from preflight_analysis.nodl.simulated_controllers import with_simulated_controllers
 from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, found_in_loose_files, run_rules
 from preflight_analysis.source.analyse import SourceAnalysis
-from preflight_analysis.source.fallback import Fallback
 from preflight_analysis.tracing import preload
-from preflight_analysis.tracing.interface import NOT_RUN, Interface
+from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.parameter_server import SharedParams
 from preflight_analysis.tracing.recipe import is_python
 from preflight_analysis.tracing.request import TraceRequest, split_args
@@ -66,7 +60,6 @@ from preflight_analysis.workspace.not_run import not_run
 from preflight_analysis.workspace.own_knowledge import OwnKnowledge, own_knowledge
 from preflight_analysis.workspace.project_settings import (
     ProjectSettings,
-    from_settings,
     located_problems,
     project_settings_of,
 )
@@ -397,12 +390,12 @@ class Workspace:
             analysis = _under_names(analysis, tree)
         project = self.settings
         managed = with_spawned(tree, analysis.documents)
-        whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
+        whole = self._merged(managed, interfaces, analysis.documents, kept)
         of_source = resolve_node_names(tree, whole[: len(tree.nodes)], analysis.documents, analysis.context.known)
         if of_source is not tree:
             analysis = _under_names(analysis, of_source)
             managed = with_spawned(of_source, analysis.documents)
-            whole = self._filled_in(managed, interfaces, project, analysis.documents, kept)
+            whole = self._merged(managed, interfaces, analysis.documents, kept)
         db.leave_if_cancelled()
         seen = self.environment_of(tree.file)
         graph = build_graph(managed, whole, project.external_topics, seen, analysis.documents, kept, self.sources)
@@ -440,28 +433,14 @@ class Workspace:
             analysis = supposed(self.sources.db, self, analysis.root, analysis.args, assumed)
         return analysis, next(iter(left_out.values()), None)
 
-    def _filled_in(
-        self,
-        tree: LaunchTree,
-        interfaces: Sequence[Interface],
-        project: ProjectSettings,
-        documents: Mapping[str, Document],
-        kept: Kept,
+    def _merged(
+        self, tree: LaunchTree, runs: Sequence[Interface], documents: Mapping[str, Document], kept: Kept
     ) -> Sequence[Interface]:
-        """The interfaces with what is known beside runs; those of simulated nodes after them."""
+        """What the nodes do, by what runs told and all else that is known of them; those of simulated nodes last."""
         environment = self.environment_of(tree.file)
-        interfaces = from_settings(tree, interfaces, project.nodes)
-        interfaces = NodlFiles(environment, self.sources).fill_in(tree, interfaces, kept)
-        sources = SourceAnalysis(environment, self.sources)
-        interfaces = Fallback(sources, self._similar).fill_in(tree, interfaces, kept)
-        interfaces = (*interfaces, *(NOT_RUN for _ in tree.simulated)) if tree.simulated else interfaces
-        interfaces = from_catalogue(tree, interfaces, environment, kept)
-        if not tree.ros.own_parameters:
-            interfaces = with_simulated_controllers(tree, interfaces, environment)
-        interfaces = LoadedPlugins(environment, sources).fill_in(tree, interfaces, documents, kept)
-        interfaces = with_configured(tree, interfaces, documents, kept)
         known = KnownMeanings(self.own_knowledge.files, environment.distro, tree.generation)
-        return with_named_endpoints(tree, with_moveit_clients(tree, interfaces, kept), known, documents, kept)
+        settings = self.settings.nodes
+        return merged(Launch(tree, environment, documents, self.sources, kept, known, settings, self._similar), runs)
 
     @property
     def _settings_files(self) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from preflight_analysis.environment.writing import write_file
-from preflight_analysis.nodl.write import nodl_files
+from preflight_analysis.interfaces.nodl_write import nodl_files
 from preflight_analysis.snapshot.files import to_json, to_yaml
 from preflight_analysis.workspace.workspace import Analysis
 

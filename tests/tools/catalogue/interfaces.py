@@ -18,7 +18,7 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.model import Environment, Package, Packages
-from preflight_analysis.nodl.groups import GROUPS
+from preflight_analysis.interfaces.nodl_groups import GROUPS
 from preflight_analysis.source.analyse import SourceAnalysis, SourceInterface, SourceKey
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from preflight_analysis.environment.model import Package
+from preflight_analysis.interfaces.nodl_groups import GROUPS
 from preflight_analysis.model.plugin_params import LISTED
-from preflight_analysis.nodl.groups import GROUPS
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.cpp_analysis import PLUGIN_NODE
 from preflight_analysis.source.known_params import LaunchParams

@@ -18,7 +18,8 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros1.spawners import asked_of
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
-from preflight_analysis.nodl.catalogued import catalogued
+from preflight_analysis.interfaces.catalogued import catalogued
+from preflight_analysis.interfaces.part import Launch, Part, Rows
 from preflight_analysis.tracing.interface import Endpoint, Interface
 
 _SIMULATOR = frozenset({("gazebo_ros", name) for name in ("gazebo", "gzserver", "debug")})
@@ -38,14 +39,13 @@ _SERVICES = (
 )
 
 
-def with_simulated_controllers(
-    tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment
-) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order; that of a simulator has the ends of the controllers that scripts
-    load in it. Which robots it has nobody knows before: they may be there."""
+def controllers_asked(launch: Launch, known: Sequence[Interface]) -> Rows | None:
+    """The ends of the controllers that scripts load in the simulator. Which robots it has nobody knows before: they
+    may be there."""
+    tree = launch.tree
     at = next((at for at, node in enumerate(tree.nodes) if (node.package, node.executable) in _SIMULATOR), None)
-    if at is None or interfaces[at].complete:
-        return interfaces
+    if tree.ros.own_parameters or at is None or known[at].complete:
+        return None
     asked = [each for node in tree.nodes if (each := asked_of(node)) is not None]
     spaces = _spaces(tree, tree.nodes[at]) if asked else None
     found: list[Endpoint] = []
@@ -55,13 +55,14 @@ def with_simulated_controllers(
             for name in map(each.full, each.controllers):
                 type_ = tree.params.get(f"{name}/type")
                 if type_ is not None and isinstance(type_.value, str):
-                    found += _of_controller(name, type_.value, environment)
-    if not found:
-        return interfaces
-    whole = list(interfaces)
-    more = {(end.role, end.name): end for end in found}
-    whole[at] = whole[at].with_more(tree.nodes[at].name, "catalogue", tuple(more.values()), ())
-    return whole
+                    found += _of_controller(name, type_.value, launch.environment)
+    ends = {(end.role, end.name): end for end in found}
+    return Rows((launch.shown({at: tuple(ends.values())}),)) if ends else None
+
+
+def of_controllers(node: LaunchNode, known: Interface, ends: tuple[Endpoint, ...] | None) -> Part | None:
+    """The ends of a simulator beside its own."""
+    return Part("catalogue", ends) if ends else None
 
 
 def _spaces(tree: LaunchTree, simulator: LaunchNode) -> set[str] | None:

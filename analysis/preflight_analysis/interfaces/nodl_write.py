@@ -15,7 +15,7 @@ from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import actions_of
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.nodl.groups import GROUPS
+from preflight_analysis.interfaces.nodl_groups import GROUPS
 from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse, Role
 
 _NAME = re.compile(r"[A-Za-z]\Z|[/~A-Za-z][A-Za-z0-9_/]*[A-Za-z0-9_]\Z")

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from preflight_analysis.catalogue import packages, renamed
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.nodl import catalogued
+from preflight_analysis.interfaces import catalogued
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Range
 from support import package_elsewhere
 

@@ -16,13 +16,11 @@ from dataclasses import replace
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
-from preflight_analysis.graph.annotations import read_annotation
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.incremental.database import Database
-from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.incremental.query import query
-from preflight_analysis.nodl.read import Described, read_nodl
-from preflight_analysis.tracing.interface import Endpoint, Interface, ParamUse
+from preflight_analysis.interfaces.nodl_read import Described, read_nodl
+from preflight_analysis.tracing.interface import Endpoint, ParamUse
 
 MAX_INCLUDED = 64
 """Documents that one is made of."""
@@ -31,32 +29,15 @@ _FILE = re.compile(r"(.+?)(?:\.nodl)?\.(?:yaml|yml|json|xml)\Z")
 _WORD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
-class NodlFiles:
-    """What the documents of one environment say. Thread-safe; raises nothing."""
-
-    def __init__(self, environment: Environment, disk: Disk) -> None:
-        self._environment = environment
-        self._disk = disk
-
-    def fill_in(self, tree: LaunchTree, interfaces: Sequence[Interface], kept: Kept) -> Sequence[Interface]:
-        """The interfaces of the nodes of `tree`, in order; to what a run did not tell to its end is added what a
-        document says. Annotations and settings count before it."""
-        db, environment = self._disk.db, self._environment
-        with_files = {name for name in {node.package for node in tree.nodes} if _files_of(db, environment, name)}
-        if not with_files:
-            return interfaces
-        filled = list(interfaces)
-        for at, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
-            if node.package not in with_files or interface.complete or read_annotation(node.action)[0] is not None:
-                continue
-            found = _about(db, environment, node.package, _name(node), tree.generation)
-            if found is not None:
-                filled[at] = kept.get(_with, (node.name, at), node.name, interface, found)
-        return filled
-
-
-def _with(node: str, interface: Interface, found: Described) -> Interface:
-    return interface.with_more(node, "nodl", found.endpoints, found.params)
+def nodl_of(
+    generation: int, environment: Environment, disk: Disk, nodes: Sequence[LaunchNode]
+) -> tuple[Described | None, ...]:
+    """What the document of each node says, None where there is none."""
+    having = {name for name in {node.package for node in nodes} if _files_of(disk.db, environment, name)}
+    return tuple(
+        _about(disk.db, environment, node.package, _name(node), generation) if node.package in having else None
+        for node in nodes
+    )
 
 
 @query

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.catalogue import packages
-from preflight_analysis.nodl import catalogued
+from preflight_analysis.interfaces import catalogued
 from support import package_elsewhere
 
 TOPIC, KIND = "{sources}.topic", "{sources}.data_type"

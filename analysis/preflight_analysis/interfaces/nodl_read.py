@@ -16,7 +16,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.bare_types import KINDS
-from preflight_analysis.nodl.groups import GROUPS
+from preflight_analysis.interfaces.nodl_groups import GROUPS
 from preflight_analysis.tracing.interface import Endpoint, ParamUse, Role
 
 _ROLES_1: Mapping[str, Mapping[str, tuple[Role, ...]]] = {

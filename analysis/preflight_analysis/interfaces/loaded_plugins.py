@@ -8,21 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import compress
 from typing import Any, NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
-from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.params import given_within
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
-from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.interfaces.catalogued import Catalogued, catalogued, may_be_newer, typed_end
+from preflight_analysis.interfaces.part import Launch, Part, Rows
+from preflight_analysis.interfaces.plugins import package_of
 from preflight_analysis.model.plugin_params import KIND, LISTED
-from preflight_analysis.nodl.catalogued import Catalogued, catalogued, may_be_newer, typed_end
-from preflight_analysis.nodl.plugins import package_of
-from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.source.known_params import LaunchParams
 from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy, TypedBy
 
@@ -42,68 +38,57 @@ class _Host(NamedTuple):
     defaults: Mapping[str, Any]
 
 
-class LoadedPlugins:
-    """Adds to interfaces what plugins make."""
+def plugins_asked(launch: Launch, known: Sequence[Interface]) -> Rows | None:
+    """The ends that the plugins make of nodes that no run told of."""
+    hosts = launch.kept.each(_hosts, known) if launch.tree.ros.own_parameters else ()
+    pairs = zip(launch.nodes, hosts, strict=True) if any(hosts) else ()
+    found = {at: ends for at, (node, of) in enumerate(pairs) if of and (ends := _of_hosts(launch, node, of))}
+    return Rows((launch.shown(found),)) if found else None
 
-    def __init__(self, environment: Environment, sources: SourceAnalysis) -> None:
-        self._environment = environment
-        self._sources = sources
 
-    def fill_in(
-        self, tree: LaunchTree, interfaces: Sequence[Interface], documents: Mapping[str, Document], kept: Kept
-    ) -> Sequence[Interface]:
-        """The interfaces of the nodes of `tree`, in order, with what the plugins make of those that no run told of."""
-        if not tree.ros.own_parameters:
-            return interfaces
-        hosts = kept.each(_hosts, interfaces)
-        if not any(hosts):
-            return interfaces
-        whole = list(interfaces)
-        for at, (node, of_node) in compress(
-            enumerate(zip(tree.nodes_and_simulated, hosts, strict=True)), map(bool, hosts)
-        ):
-            ends = {(end.role, end.name): end for host in of_node for end in self._ends(node, host, documents)}
-            if ends:
-                whole[at] = whole[at].with_more(node.name, whole[at].source, tuple(ends.values()), ())
-        return whole
+def of_plugins(node: LaunchNode, known: Interface, ends: tuple[Endpoint, ...] | None) -> Part | None:
+    """What the plugins of a node make in it."""
+    return Part(known.source, ends, leads=False) if ends else None
 
-    def _ends(self, node: LaunchNode, host: _Host, documents: Mapping[str, Document]) -> Iterator[Endpoint]:
-        params = node.params if host.name == _OWN else given_within(node, host.name, documents)
-        given = {param.name: param.value for param in params}
-        places = {param.name: param.place for param in params}
-        values = {**host.defaults, **given}
-        listed = {item for name, value in values.items() if not name.endswith(KIND) for item in _items(value)}
-        for name, type_ in [*_types(values, listed)][:_MOST]:
-            below = {key[len(name) + 1 :]: value for key, value in values.items() if key.startswith(f"{name}.")}
-            for end in self._ends_of(name, type_, below, values, places):
-                yield end if host.name == _OWN else replace(end, name=names.resolve(end.name, host.name))
 
-    def _ends_of(
-        self,
-        name: str,
-        type_: str,
-        below: Mapping[str, Any],
-        values: Mapping[str, Any],
-        places: Mapping[str, Location],
-    ) -> Iterator[Endpoint]:
-        package = package_of(type_)
-        here = self._environment.packages.get(package)
-        if here is not None and here.is_within(self._environment.workspace):
-            # Loads the parser, which who has no plugins does without.
-            from preflight_analysis.source.cpp_analysis import PLUGIN_NODE  # noqa: PLC0415
+def _of_hosts(launch: Launch, node: LaunchNode, hosts: Sequence[_Host]) -> tuple[Endpoint, ...]:
+    return tuple({(end.role, end.name): end for host in hosts for end in _ends(launch, node, host)}.values())
 
-            params = LaunchParams({f"{PLUGIN_NODE}/{name}.{key}": value for key, value in below.items()})
-            said = self._sources.plugin(type_, name, params, package)
-            for end in said.endpoints if said is not None else ():
-                if not end.builtin:
-                    yield replace(end, inferred=True)
-            return
-        distro = distribution_of(2, self._environment.distro)
-        found = catalogued(package, "plugins", type_, distro, is_used=self._environment.distro == distro)
-        if found is not None:
-            more = {f"{_OF_LOADER}{key}": value for key, value in values.items()}
-            newer = may_be_newer(self._environment.distro, distro)
-            yield from _as_loaded(name, found, {**below, **more}, places, newer=newer)
+
+def _ends(launch: Launch, node: LaunchNode, host: _Host) -> Iterator[Endpoint]:
+    params = node.params if host.name == _OWN else given_within(node, host.name, launch.documents)
+    given = {param.name: param.value for param in params}
+    places = {param.name: param.place for param in params}
+    values = {**host.defaults, **given}
+    listed = {item for name, value in values.items() if not name.endswith(KIND) for item in _items(value)}
+    for name, type_ in [*_types(values, listed)][:_MOST]:
+        for end in _ends_of(launch, name, type_, values, places):
+            yield end if host.name == _OWN else replace(end, name=names.resolve(end.name, host.name))
+
+
+def _ends_of(
+    launch: Launch, name: str, type_: str, values: Mapping[str, Any], places: Mapping[str, Location]
+) -> Iterator[Endpoint]:
+    """Those of one plugin: `values` are all that the node which loads it is given."""
+    environment, package = launch.environment, package_of(type_)
+    below = {key[len(name) + 1 :]: value for key, value in values.items() if key.startswith(f"{name}.")}
+    here = environment.packages.get(package)
+    if here is not None and here.is_within(environment.workspace):
+        # Loads the parser, which who has no plugins does without.
+        from preflight_analysis.source.cpp_analysis import PLUGIN_NODE  # noqa: PLC0415
+
+        params = LaunchParams({f"{PLUGIN_NODE}/{name}.{key}": value for key, value in below.items()})
+        said = launch.sources.plugin(type_, name, params, package)
+        for end in said.endpoints if said is not None else ():
+            if not end.builtin:
+                yield replace(end, inferred=True)
+        return
+    distro = distribution_of(2, environment.distro)
+    found = catalogued(package, "plugins", type_, distro, is_used=environment.distro == distro)
+    if found is not None:
+        more = {f"{_OF_LOADER}{key}": value for key, value in values.items()}
+        newer = may_be_newer(environment.distro, distro)
+        yield from _as_loaded(name, found, {**below, **more}, places, newer=newer)
 
 
 def _hosts(interface: Interface) -> tuple[_Host, ...]:

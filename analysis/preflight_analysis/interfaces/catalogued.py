@@ -22,9 +22,9 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.meanings import place_of, within
 from preflight_analysis.evaluation.ros2.spawners import LOAD_CONTROLLER, asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
-from preflight_analysis.graph.annotations import read_annotation
 from preflight_analysis.incremental.kept import Kept
-from preflight_analysis.nodl.groups import GROUPS
+from preflight_analysis.interfaces.nodl_groups import GROUPS
+from preflight_analysis.interfaces.part import Launch, Part, Rows
 from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, NamedBy, ParamUse, Range, Role, TypedBy
 
 _KEPT = 1024
@@ -60,33 +60,31 @@ class Catalogued:
     """ROS 2: whether there are parameters of further nodes, below the namespace of this one."""
 
 
+def catalogue_asked(launch: Launch, known: Sequence[Interface]) -> Rows | None:
+    """What decides which names and types the nodes have that the catalogue knows."""
+    if not any(map(_lacks, known)):
+        return None
+    tree, environment = launch.tree, launch.environment
+    columns = _own_params(tree, launch.kept), _asked(tree)
+    return Rows(columns, (environment, distribution_of(tree.generation, environment.distro)))
+
+
 def from_catalogue(
-    tree: LaunchTree, interfaces: Sequence[Interface], environment: Environment, kept: Kept
-) -> Sequence[Interface]:
-    """The interfaces of the nodes of `tree`, in order, those that a simulator makes last: to what a run did not tell,
-    as there was none or it ended early, is added what the catalogue says. A package of the workspace is what it is
-    there, whatever others of its name do."""
-    if not any(map(_lacks, interfaces)):
-        return interfaces
-    distro = distribution_of(tree.generation, environment.distro)
-    columns = tree.nodes_and_simulated, interfaces, _own_params(tree, kept), _asked(tree)
-    return kept.each_row(_filled_in, columns, environment, distro)
-
-
-def _filled_in(
     node: LaunchNode,
     interface: Interface,
     given: Sequence[Param],
     asked: tuple[str, ...],
     environment: Environment,
     distro: str,
-) -> Interface:
-    if not _lacks(interface) or not node.package or _is_annotated(node):
-        return interface
+) -> Part | None:
+    """What the catalogue says of a node of which a run did not tell all, as there was none or it ended early. A package
+    of the workspace is what it is there, whatever others of its name do."""
+    if not _lacks(interface) or not node.package:
+        return None
     package, kind, name = place_of(node)
     here = environment.packages.get(package)
     if here is not None and here.is_within(environment.workspace):
-        return interface
+        return None
     is_used = environment.distro == distro
     found = catalogued(package, kind, name, distro, is_used=is_used)
     if found is None:
@@ -94,36 +92,29 @@ def _filled_in(
         others = (catalogued(*known, distro, is_used=False) for known in _renamed(package, kind, name, distro))
         found = next(filter(None, others), None)
     if found is None:
-        return interface
+        return None
     found = _as_remapped(node, _as_set(node, given, found, newer=may_be_newer(environment.distro, distro)))
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
     manages = bool(asked) or any(end.type == LOAD_CONTROLLER for end in found.endpoints)
     does = (found, *(_controllers(node, asked, distro, is_used=is_used) if manages else ()))
-    whole = interface.with_more(
-        node.name,
+    not_here = "its package is not installed here" if here is None else None
+    reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
+    return Part(
         "catalogue",
         tuple(end for each in does for end in each.endpoints),
         tuple(use for each in does for use in each.params),
         tuple(made for each in does for made in each.nodes) if len(does) == 1 else _beside(node, does),
+        # How its run ended is not changed by what is known beyond that.
+        reason=None if interface.known else reason,
     )
-    if interface.known:
-        return whole  # how its run ended is not changed by what is known beyond that
-    not_here = "its package is not installed here" if here is None else None
-    reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
-    return replace(whole, outcome=replace(whole.outcome, reason=reason))
 
 
 def _lacks(interface: Interface) -> bool:
     """Whether nothing is known of a node but by a run that ended early."""
     seen = interface.known and not (interface.source == "trace" and interface.outcome.early)
     return not (seen or interface.pending)
-
-
-def _is_annotated(node: LaunchNode) -> bool:
-    """Whether the user says what it does. The tag of a simulated node is that of what spawns its robot."""
-    return node.kind != "simulated" and read_annotation(node.action)[0] is not None
 
 
 def _renamed(package: str, kind: str, name: str, distro: str) -> Iterator[tuple[str, str, str]]:

@@ -8,8 +8,8 @@ import pytest
 import yaml
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.graph.model import Graph
-from preflight_analysis.nodl.read import read_nodl
-from preflight_analysis.nodl.write import nodl, nodl_files
+from preflight_analysis.interfaces.nodl_read import read_nodl
+from preflight_analysis.interfaces.nodl_write import nodl, nodl_files
 from preflight_analysis.snapshot.difference import difference
 from preflight_analysis.snapshot.make import snapshot_of
 from preflight_analysis.tracing.interface import NOT_RUN, Endpoint, Interface, Outcome, ParamUse

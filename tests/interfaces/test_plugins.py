@@ -6,7 +6,7 @@ import pytest
 from preflight_analysis.catalogue import packages
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.nodl.plugins import PluginIndex
+from preflight_analysis.interfaces.plugins import PluginIndex
 
 
 def index(distro: str) -> PluginIndex:

@@ -1,1 +1,0 @@
-"""NoDL, the community's description of what a node does (https://nodl.readthedocs.io)."""
