@@ -58,7 +58,7 @@ CARTOGRAPHER = """
 def topics(analysis: Analysis) -> dict[str, str]:
     """The topics of the only node whose parameter or argument names a file: `<` for one that it subscribes to."""
     assert analysis.graph is not None
-    ends = [end for end in analysis.graph.interfaces[0].endpoints if "what is known of" in (end.catalogued or "")]
+    ends = [end for end in analysis.graph.interfaces[0].endpoints if "what is known of" in end.evidence.said_by]
     return {end.name: f"{'<' if end.role == 'subscriber' else '>'} {end.type}" for end in ends}
 
 

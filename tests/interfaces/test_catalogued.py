@@ -11,7 +11,7 @@ import pytest
 from preflight_analysis.catalogue import packages, renamed
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.interfaces import catalogued
-from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Range
+from preflight_analysis.tracing.interface import Endpoint, Evidence, Interface, Outcome, ParamUse, Range
 from support import package_elsewhere
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
@@ -70,13 +70,13 @@ def test_a_node_of_a_package_that_is_not_here(tmp_path: Path) -> None:
     evidence = "the catalogue of noetic (makers/scanner at 0123456)"
     assert (interface.source, interface.outcome.status) == ("catalogue", "not-run")
     assert interface.outcome.reason == f"its package is not installed here; known by {evidence}"
-    assert {(e.role, e.name, e.inferred, e.catalogued) for e in interface.endpoints} == {
+    assert {(e.role, e.name, e.evidence.inferred, e.evidence.said_by) for e in interface.endpoints} == {
         ("publisher", "scan", True, evidence),
         ("service", "~reset", True, evidence),
     }
     assert not interface.complete
     assert interface.params[0] == ParamUse(
-        "~rate", "get", 10.0, True, inferred=True, type="double", range=Range(0, 50), catalogued=evidence
+        "~rate", "get", 10.0, True, type="double", range=Range(0, 50), evidence=Evidence("catalogue", evidence)
     )
     assert [(use.name, use.access, use.mandatory) for use in interface.params[1:]] == [
         ("~port", "get", True),
@@ -101,12 +101,12 @@ def test_a_run_that_ended_early_is_completed(tmp_path: Path, outcome: Outcome) -
     run = Interface("trace", outcome, _SEEN, (ParamUse("~rate", "get"),))
     interface = after(run, tmp_path)
     assert (interface.source, interface.outcome) == ("catalogue", outcome)
-    assert [(e.name, e.inferred, e.catalogued[:13]) for e in interface.endpoints] == [
+    assert [(e.name, e.evidence.inferred, e.evidence.said_by[:13]) for e in interface.endpoints] == [
         ("/scan", False, ""),
         ("early", False, ""),
         ("~reset", True, "the catalogue"),
     ]
-    assert [(use.name, use.inferred) for use in interface.params] == [
+    assert [(use.name, use.evidence.inferred) for use in interface.params] == [
         ("~rate", False),
         ("~port", True),
         ("frame", True),
@@ -200,7 +200,7 @@ def test_controllers_have_nodes_beside_their_manager(tmp_path: Path, name: str) 
     assert [interface.known for interface in graph.interfaces] == [True, True, False]
     assert {"/cmd_vel", "/left/odom"} <= graph.topics.keys()
     (heard,) = graph.topics["/cmd_vel"].consumers
-    assert (heard.node.name, heard.endpoint.uncertain, heard.endpoint.catalogued[:22]) == (
+    assert (heard.node.name, heard.endpoint.uncertain, heard.endpoint.evidence.said_by[:22]) == (
         "/left/base",
         True,
         "the catalogue of jazzy",
@@ -267,7 +267,7 @@ def test_what_a_condition_decides_is_possible(tmp_path: Path) -> None:
     analysis = analysed(tmp_path, f"<launch>{text}</launch>")
     assert [(f.severity, f.confidence) for f in analysis.findings if f.rule == "TOP003"] == [("info", "possible")]
     assert analysis.graph is not None
-    assert [use.assumed for use in analysis.graph.interfaces[1].params] == [True]
+    assert [use.evidence.assumed for use in analysis.graph.interfaces[1].params] == [True]
 
 
 @pytest.mark.parametrize(("offered", "said"), [("set_rate", []), ("~reset", ["SRV001"])])
@@ -304,7 +304,7 @@ def test_a_node_that_another_distribution_calls_differently(tmp_path: Path, pack
     graph = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", distro="jazzy").graph
     assert graph is not None
     assert known(graph) == [("catalogue", 2, 3)]
-    assert {end.of_other_distribution for end in graph.interfaces[0].endpoints} == {True}
+    assert all("other distribution" in end.evidence.doubts for end in graph.interfaces[0].endpoints)
 
 
 def test_the_data_has_what_others_are_called_now(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -32,7 +32,7 @@ def names_of(folder: Path, args: str, robot: str = ROBOT.format("/arm"), type_: 
     graph = package_elsewhere.analysed(folder, text, distro="noetic").graph
     assert graph is not None
     ends = [end for end in graph.interfaces[0].endpoints if end.name.startswith("/arm")]
-    assert all(end.assumed for end in ends)
+    assert all(end.evidence.assumed for end in ends)
     return {end.name for end in ends}
 
 

@@ -132,7 +132,7 @@ def test_a_node_of_a_class_of_its_own(harness: Harness) -> None:
     found = harness.read(CLASS + MAIN)
     assert found.source == "source"
     assert ends(found) == DRIVER
-    assert all(e.inferred for e in found.endpoints)
+    assert all(e.evidence.inferred for e in found.endpoints)
     assert params(found) == {"~cmd_topic": "cmd_vel", "~limits.speed": 2.0, "~service": True}
     assert {e.name: dict(e.qos) for e in found.endpoints if e.qos} == {
         "map": {"reliability": "reliable", "durability": "transient_local", "depth": 1},

@@ -56,6 +56,7 @@ from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.tracing.interface import (
     NOT_RUN,
     Endpoint,
+    Evidence,
     Frame,
     FrameUse,
     Interface,
@@ -64,6 +65,7 @@ from preflight_analysis.tracing.interface import (
     ParamUse,
     Range,
     Role,
+    Unsure,
 )
 from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
@@ -323,10 +325,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
             source_file=made.get(name, [None, None])[0],
             source_line=made.get(name, [None, None])[1],
             builtin=name in data.get("builtin", ()),
-            speculative=name in data.get("speculative", ()),
-            on_demand=name in data.get("on_demand", ()),
-            similar=name in data.get("similar", ()),
-            catalogued=data.get("catalogued", ""),
+            evidence=_evidence_of(data, name),
         )
         for key, role in _ROLES.items()
         for name, type_ in data.get(key, {}).items()
@@ -369,6 +368,15 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
 def _described(data: Mapping[str, Any], name: str) -> dict[str, Any]:
     given = dict(data.get("described", {}).get(name, {}))
     return {**given, "range": Range(*given["range"])} if "range" in given else given
+
+
+def _evidence_of(data: Mapping[str, Any], name: str) -> Evidence:
+    """How an end of that name is known, of an interface as fixtures write it."""
+    said_by = data.get("catalogued", "")
+    known = Evidence("catalogue", said_by) if said_by else Evidence()
+    known = Evidence("similar") if name in data.get("similar", ()) else known
+    doubts: dict[str, Unsure] = {"speculative": "made-up answer", "on_demand": "on demand"}
+    return known.but(*(doubt for key, doubt in doubts.items() if name in data.get(key, ())))
 
 
 def interfaces_of(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:

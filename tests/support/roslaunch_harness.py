@@ -49,7 +49,7 @@ def master_view(requests: list[TraceRequest], interfaces: list[Interface]) -> di
         ends += [
             (request.node, e.role, names.resolve(e.name, request.node, remaps), e.type)
             for e in interface.endpoints
-            if not e.on_demand
+            if "on demand" not in e.evidence.doubts
         ]
     types = {name: kind for _, role, name, kind in ends if role in ("publisher", "subscriber") and kind != "*"}
     view: dict[str, dict[str, list[list[str]]]] = {}

@@ -69,7 +69,9 @@ def seen(interface: Interface) -> dict[str, Any]:
     return {
         "status": interface.outcome.status,
         "answers": interface.outcome.answers,
-        "endpoints": sorted(repr(replace(e, md5=None, stood_in=False)) for e in interface.endpoints),
+        "endpoints": sorted(
+            repr(replace(e, md5=None, evidence=e.evidence.without("stand-in"))) for e in interface.endpoints
+        ),
         "params": sorted({repr(p) for p in interface.params if not p.builtin}),
         "nodes": interface.nodes,
         "frames": interface.frames,

@@ -27,7 +27,7 @@ LAZY = """
 def test_a_lazy_node_is_given_a_subscriber(tmp_path: Path) -> None:
     found = trace(write_node(tmp_path, LAZY), "/a/n", remaps=(("headlines", "/moved"),))
     assert found.outcome.status == "spinning"
-    assert {(e.role, e.name, e.on_demand) for e in found.endpoints if not e.builtin} == {
+    assert {(e.role, e.name, "on demand" in e.evidence.doubts) for e in found.endpoints if not e.builtin} == {
         ("publisher", "headlines", False),
         ("publisher", "weather", False),
         ("subscriber", "news", True),
@@ -61,7 +61,7 @@ RELAY = """
 def test_a_node_that_passes_on_any_type_is_given_a_message(tmp_path: Path) -> None:
     found = trace(write_node(tmp_path, RELAY))
     assert own(found) == {("subscriber", "in", "*"), ("publisher", "out", "*")}
-    assert [e.name for e in found.endpoints if e.on_demand] == ["out"]
+    assert [e.name for e in found.endpoints if "on demand" in e.evidence.doubts] == ["out"]
 
 
 FLEETING = """

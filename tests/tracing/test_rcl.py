@@ -84,7 +84,7 @@ def test_a_service_that_is_waited_for_answers_and_what_comes_then_is_speculative
         "it asks for the service /start again and again, and was told that it is there",
         "it calls the service /start, and was given an empty answer",
     }
-    assert {key: end.speculative for key, end in ends(found).items()} == {
+    assert {key: "made-up answer" in end.evidence.doubts for key, end in ends(found).items()} == {
         ("client", "start"): False,
         ("publisher", "after"): True,
     }
@@ -94,7 +94,7 @@ def test_actions_are_one_end_each_and_their_servers_are_waited_for(harness: RclH
     found = harness.trace("action")
     assert found.outcome.status == "spinning"
     assert found.outcome.answers == ("it waits for the action server /n/other, and was told that it is there",)
-    assert {key: (end.type, end.speculative) for key, end in ends(found).items()} == {
+    assert {key: (end.type, "made-up answer" in end.evidence.doubts) for key, end in ends(found).items()} == {
         ("action_server", "count"): ("fib/action/Fib", False),
         ("action_client", "~/other"): ("fib/action/Fib", False),
         ("publisher", "after"): ("std_msgs/msg/String", True),
@@ -225,14 +225,14 @@ def test_a_trace_wins_over_the_source_which_says_where_things_are_made(tmp_path:
     harness = RclHarness(tmp_path)
     source = with_source(harness)
     found = harness.trace("talk chatter")
-    places = {key: (end.source_file, end.source_line, end.inferred) for key, end in ends(found).items()}
+    places = {key: (end.source_file, end.source_line, end.evidence.inferred) for key, end in ends(found).items()}
     assert (found.source, places) == ("trace", {("publisher", "chatter"): (source, 6, False)})
     # Of parameters rcl knows nothing.
     rate = uses(found)["~rate"]
-    assert (rate.default, rate.inferred, rate.source_line) == (10.0, True, 8)
+    assert (rate.default, rate.evidence.inferred, rate.source_line) == (10.0, True, 8)
     given = uses(harness.trace("declare", "<param name='rate' value='2.0'/>"))
     rate, frames = given["~rate"], given["~frames"]
-    assert (rate.default, rate.inferred, rate.source_line) == (10.0, False, 8)
+    assert (rate.default, rate.evidence.inferred, rate.source_line) == (10.0, False, 8)
     assert (frames.default, frames.type, frames.source_line) == (["map", "base"], "string array", None)
 
 

@@ -232,7 +232,7 @@ def test_what_a_node_waits_for_is_told_and_what_comes_after_is_speculative(tmp_p
     found = harness.trace("talker")
     assert found.outcome.status == "spinning"
     assert "it waits for the service /start, and was told that it is there" in found.outcome.answers
-    speculative = {name: end.speculative for (_, name), end in ends(found).items()}
+    speculative = {name: "made-up answer" in end.evidence.doubts for (_, name), end in ends(found).items()}
     assert speculative == {"before": False, "start": False, "after": True}
 
 
@@ -417,7 +417,7 @@ def test_actions_are_one_end_each_and_their_servers_are_waited_for(tmp_path: Pat
     found = harness.trace("counter")
     assert (found.outcome.status, found.notes) == ("spinning", found.outcome.answers)
     assert found.outcome.answers == ("it waits for the action server ~/other, and was told that it is there",)
-    assert {key: (end.type, end.speculative) for key, end in ends(found).items()} == {
+    assert {key: (end.type, "made-up answer" in end.evidence.doubts) for key, end in ends(found).items()} == {
         ("publisher", "before"): ("std_msgs/msg/String", False),
         ("action_server", "count"): ("fib/action/Fib", False),
         ("action_client", "~/other"): ("fib/action/Fib", False),

@@ -102,7 +102,7 @@ def test_a_wait_for_a_service_is_answered_and_what_comes_then_marked(node: Path,
     assert found.outcome.status == "spinning"
     assert found.outcome.answers == (f"it waits for the service {service}, and was told that it is there",)
     assert own(found) == MADE | {LATE}
-    assert [e.name for e in found.endpoints if e.speculative] == ["late"]
+    assert [e.name for e in found.endpoints if "made-up answer" in e.evidence.doubts] == ["late"]
 
 
 def test_a_call_is_answered_after_its_wait_was(node: Path) -> None:
@@ -117,14 +117,16 @@ def test_a_wait_for_an_action_server_is_answered(node: Path) -> None:
     assert found.outcome.answers == ("it waits for the action server /ns/move, and was told that it is there",)
     topics = {("publisher", "move/goal"), ("publisher", "move/cancel")}
     topics |= {("subscriber", f"move/{name}") for name in ("status", "feedback", "result")}
-    assert {(e.role, e.name) for e in found.endpoints if not e.builtin and not e.speculative} >= topics
-    assert [e.name for e in found.endpoints if e.speculative] == ["late"]
+    assert {
+        (e.role, e.name) for e in found.endpoints if not e.builtin and "made-up answer" not in e.evidence.doubts
+    } >= topics
+    assert [e.name for e in found.endpoints if "made-up answer" in e.evidence.doubts] == ["late"]
 
 
 def test_a_service_that_comes_is_waited_for(node: Path) -> None:
     found = trace(node, args=("own_service",))
     assert (found.outcome.status, found.outcome.answers) == ("spinning", ())
-    assert not any(e.speculative for e in found.endpoints)
+    assert not any("made-up answer" in e.evidence.doubts for e in found.endpoints)
 
 
 def test_a_crash_is_the_nodes_own(node: Path) -> None:

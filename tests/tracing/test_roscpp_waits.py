@@ -30,7 +30,9 @@ def waiting(package: Path, mode: str) -> Interface:
 def made(interface: Interface) -> dict[str, bool]:
     """Those of the node's publishers that stand for a place in its source, and whether they are speculative."""
     return {
-        e.name: e.speculative for e in interface.endpoints if e.role == "publisher" and e.name in ("before", "after")
+        e.name: "made-up answer" in e.evidence.doubts
+        for e in interface.endpoints
+        if e.role == "publisher" and e.name in ("before", "after")
     }
 
 

@@ -112,7 +112,7 @@ def test_a_node_that_cannot_be_run_has_what_its_executable_does_elsewhere(harnes
     assert found.elsewhere is not None
     assert (found.elsewhere.node, found.elsewhere.changed) == ("/works", False)
     assert told(found) == {("publisher", "status"), ("publisher", "~debug"), ("subscriber", "scan")}
-    assert all(e.similar and e.uncertain for e in found.endpoints)
+    assert all(e.evidence.source == "similar" and e.uncertain for e in found.endpoints)
     assert {p.name for p in found.params if not p.builtin} == {"~input", "~model"}
     assert analysis.graph is not None
     assert "/robot/status" in analysis.graph.topics
@@ -126,7 +126,9 @@ def test_what_a_crashed_node_made_itself_comes_first(harness: Harness) -> None:
     found = interface(harness.analyse("crashes.launch", CRASHES))
     assert (found.source, found.outcome.status) == ("similar", "crashed")
     assert ("subscriber", "nothing") in told(found), "made by itself, with the default"
-    assert not any(e.similar for e in found.endpoints if e.name in ("status", "~debug", "scan", "nothing"))
+    assert not any(
+        e.evidence.source == "similar" for e in found.endpoints if e.name in ("status", "~debug", "scan", "nothing")
+    )
 
 
 WAITS = """

@@ -333,7 +333,7 @@ def test_what_a_lifecycle_node_does_in_its_transitions(
     real, stood_in = both_of_ros2(Ros2Harness(tmp_path, managed=body), "managed")
     assert seen(stood_in) == seen(real)
     assert stood_in.transitions == real.transitions == transitions
-    assert {end.name for end in real.endpoints if not (end.builtin or end.inferred)} == made
+    assert {end.name for end in real.endpoints if not (end.builtin or end.evidence.inferred)} == made
     assert [end.type for end in real.endpoints if end.name == "~/change_state"] == ["lifecycle_msgs/srv/ChangeState"]
 
 

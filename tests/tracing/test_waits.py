@@ -29,7 +29,11 @@ def waiting(folder: Path, body: str, after: str = "rospy.spin()", **more: object
 
 def made(interface: Interface) -> dict[str, bool]:
     """Names of the node's publishers and whether they are speculative."""
-    return {e.name: e.speculative for e in interface.endpoints if e.role == "publisher" and not e.builtin}
+    return {
+        e.name: "made-up answer" in e.evidence.doubts
+        for e in interface.endpoints
+        if e.role == "publisher" and not e.builtin
+    }
 
 
 SERVICE = "it waits for the service start, and was told that it is there"

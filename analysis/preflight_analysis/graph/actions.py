@@ -17,7 +17,7 @@ from dataclasses import replace
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.generation import ros
-from preflight_analysis.tracing.interface import Endpoint, Role
+from preflight_analysis.tracing.interface import Endpoint, Role, together
 
 _FROM_CLIENT = ("goal", "cancel")
 TOPICS = ("goal", "cancel", "status", "feedback", "result")
@@ -108,7 +108,7 @@ def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEndpoint
     type_ = (topics[0].type or "").removesuffix("Goal")
     if not type_.endswith("Action") or [topic.type for topic in topics] != [_type(type_, topic) for topic in TOPICS]:
         return None
-    goal, speculative = topics[0], any(topic.speculative for topic in topics)
+    goal = topics[0]
     endpoint = Endpoint(
         role,
         name,
@@ -116,9 +116,7 @@ def _recognised(role: Role, name: str, topics: list[Endpoint]) -> ActionEndpoint
         _md5(topics),
         source_file=goal.source_file,
         source_line=goal.source_line,
-        speculative=speculative,
-        inferred=any(topic.inferred for topic in topics),
-        similar=any(topic.similar for topic in topics),
+        evidence=together(topic.evidence for topic in topics),
     )
     return ActionEndpoint(endpoint, tuple(topics), TOPICS)
 
@@ -158,9 +156,7 @@ def _part(endpoint: Endpoint, role: Role, name: str, type_: str | None) -> Endpo
         role,
         f"{endpoint.name}/{name}",
         type_,
-        speculative=endpoint.speculative,
-        inferred=endpoint.inferred,
-        similar=endpoint.similar,
+        evidence=endpoint.evidence,
     )
 
 

@@ -187,7 +187,7 @@ def worth_writing(interface: Interface) -> Iterator[Endpoint | ParamUse]:
     parts = {id(part) for action in actions for part in action.parts}
     alone = (e for e in interface.endpoints if id(e) not in parts and not e.role.startswith("action_"))
     for endpoint in (*alone, *(action.endpoint for action in actions)):
-        if not endpoint.builtin and not endpoint.speculative:
+        if not endpoint.builtin and "made-up answer" not in endpoint.evidence.doubts:
             yield endpoint
     yield from (p for p in interface.params if p.access in ("get", "has") and not p.builtin)
 

@@ -8,11 +8,10 @@ from typing import Any
 from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.graph.model import Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.tf_frames import frames_of
-from preflight_analysis.tracing.interface import Frame, Interface
+from preflight_analysis.tracing.interface import Endpoint, Frame, Interface
 
 SCHEMA = "ros-preflight/graph/1"
 
-_FLAGS = ("builtin", "speculative", "on_demand", "inferred", "similar")
 _KEYS = {
     "publisher": "publishers",
     "subscriber": "subscribers",
@@ -60,7 +59,7 @@ def interface_json(
     for connection in connections:
         endpoint = connection.endpoint
         end: dict[str, Any] = {"name": connection.name, "type": endpoint.type, "qos": json_value(endpoint.qos)}
-        end.update({flag: True for flag in _FLAGS if getattr(endpoint, flag)})
+        end.update(_flags(endpoint))
         if connection.action is not None:
             end["action"] = connection.action
         lists[_KEYS[endpoint.role]].append(end)
@@ -71,6 +70,18 @@ def interface_json(
         "params_read": _params_read(reads),
         **({"unnamed": [{"role": e.role, "type": e.type} for e in interface.unnamed]} if interface.unnamed else {}),
     }
+
+
+def _flags(endpoint: Endpoint) -> dict[str, bool]:
+    known = endpoint.evidence
+    flags = {
+        "builtin": endpoint.builtin,
+        "speculative": "made-up answer" in known.doubts,
+        "on_demand": "on demand" in known.doubts,
+        "inferred": known.inferred,
+        "similar": known.source == "similar",
+    }
+    return {flag: True for flag, holds in flags.items() if holds}
 
 
 def _frames(frames: Iterable[Frame]) -> dict[str, Any]:

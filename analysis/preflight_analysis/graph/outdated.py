@@ -87,7 +87,7 @@ def _other_type(item: AnnotatedItem, seen: Sequence[tuple[LaunchNode, Interface]
     found: set[str] = set()
     for node, interface in seen:
         endpoints = (*interface.endpoints, *(action.endpoint for action in actions_of(interface.endpoints)))
-        types = {e.type for e in endpoints if _key(e, node) == _key(what, node) and not e.assumed}
+        types = {e.type for e in endpoints if _key(e, node) == _key(what, node) and not e.evidence.assumed}
         found |= {type_ for type_ in types if type_ is not None}
     plain = {type_.removesuffix("Action") for type_ in found} if what.role.startswith("action") else found
     known = str(what.type).removesuffix("Action") if what.role.startswith("action") else what.type

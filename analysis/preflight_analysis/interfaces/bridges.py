@@ -13,8 +13,9 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.bridges import Argument, arguments_of, is_bridge, rows_of
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.tracing.interface import Endpoint, NamedBy, Role
+from preflight_analysis.tracing.interface import Endpoint, Evidence, NamedBy, Role
 
+_EVIDENCE = Evidence("configuration")
 _TYPE = re.compile(r"\w+/(?:msg/)?\w+\Z")
 _ROLES: dict[str, tuple[Role, ...]] = {
     "@": ("publisher", "subscriber"),
@@ -36,7 +37,8 @@ def bridged(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> 
         package, _, rest = type_.partition("/")
         kind = "msg/" if kinds_in_types else ""
         for role in _ROLES.get(direction, ()) if names.is_legal(name) else ():
-            yield Endpoint(role, name, f"{package}/{kind}{rest.removeprefix('msg/')}", named_by=named_by)
+            full = f"{package}/{kind}{rest.removeprefix('msg/')}"
+            yield Endpoint(role, name, full, evidence=_EVIDENCE, named_by=named_by)
 
 
 def _is_topic(given: Argument) -> bool:

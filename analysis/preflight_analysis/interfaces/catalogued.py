@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeVar
 
 from preflight_analysis.catalogue.packages import distribution_of, interfaces_of
 from preflight_analysis.catalogue.released import DISTRIBUTIONS
@@ -25,8 +25,19 @@ from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.interfaces.nodl_groups import GROUPS
 from preflight_analysis.interfaces.part import Launch, Part, Rows
-from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, NamedBy, ParamUse, Range, Role, TypedBy
+from preflight_analysis.tracing.interface import (
+    Endpoint,
+    Evidence,
+    Interface,
+    MadeNode,
+    NamedBy,
+    ParamUse,
+    Range,
+    Role,
+    TypedBy,
+)
 
+_What = TypeVar("_What", Endpoint, ParamUse)
 _KEPT = 1024
 _TYPE = ".type"
 _NAMED_BY = "named_by"
@@ -37,7 +48,7 @@ _SERIES = re.compile(r"(\D*[A-Za-z])0")
 """The name of the first parameter of a numbered series."""
 _PACKAGES = {"parallel_gripper_action_controller": "parallel_gripper_controller"}
 """The package of controllers whose types begin with another name."""
-_OF_SPAWNERS = tuple(ParamUse(f"~{name}", "get", inferred=True) for name in ("type", "fallback_controllers"))
+_OF_SPAWNERS = tuple(ParamUse(f"~{name}", "get") for name in ("type", "fallback_controllers"))
 """What the section of a controller has for its spawner
 (https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html)."""
 
@@ -49,7 +60,7 @@ class Catalogued:
     endpoints: tuple[Endpoint, ...]
     params: tuple[ParamUse, ...]
     nodes: tuple[MadeNode, ...]
-    evidence: str
+    said_by: str
     by_parameter: tuple[tuple[str, Endpoint], ...] = ()
     """Ends that parameters name where they are set, of which those with a default are among `endpoints`."""
     typed: tuple[tuple[Endpoint, str, Mapping[str, str]], ...] = ()
@@ -100,7 +111,7 @@ def from_catalogue(
     manages = bool(asked) or any(end.type == LOAD_CONTROLLER for end in found.endpoints)
     does = (found, *(_controllers(node, asked, distro, is_used=is_used) if manages else ()))
     not_here = "its package is not installed here" if here is None else None
-    reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.evidence}")))
+    reason = "; ".join(filter(None, (not_here or interface.outcome.reason, f"known by {found.said_by}")))
     return Part(
         "catalogue",
         tuple(end for each in does for end in each.endpoints),
@@ -140,10 +151,15 @@ def _controllers(node: LaunchNode, asked: Sequence[str], distro: str, *, is_used
         else:
             yield replace(
                 found,
-                endpoints=tuple(replace(end, node=full, conditional=True) for end in found.endpoints),
-                params=tuple(replace(use, node=full, conditional=True) for use in (*found.params, *_OF_SPAWNERS)),
+                endpoints=tuple(_on_condition(end, full) for end in found.endpoints),
+                params=tuple(_on_condition(use, full) for use in (*found.params, *_OF_SPAWNERS)),
                 nodes=(MadeNode(name, name, inferred=True, full=full),),
             )
+
+
+def _on_condition(what: _What, node: str) -> _What:
+    """An end or a parameter of one of several nodes, which is there once somebody asks for it."""
+    return replace(what, node=node, evidence=what.evidence.but("condition"))
 
 
 def _asked(tree: LaunchTree) -> Sequence[tuple[str, ...]]:
@@ -190,7 +206,8 @@ def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued, *, newe
         for param, value in values:
             if isinstance(value, str) and value and names.is_legal(value):
                 by = NamedBy(param.name, param.place)
-                ends.append(replace(end, name=value, conditional=end.conditional and bool(end.name), named_by=by))
+                evidence = end.evidence if end.name else end.evidence.without("condition")
+                ends.append(replace(end, name=value, evidence=evidence, named_by=by))
     return replace(found, endpoints=tuple(ends))
 
 
@@ -257,7 +274,7 @@ def _catalogued(
     if found is None:
         return None
     repository, commit, _ = of_package["source"]
-    evidence = f"the catalogue of {distro} ({repository} at {commit[:7]})"
+    said_by = f"the catalogue of {distro} ({repository} at {commit[:7]})"
 
     def end(role: Role, each: Mapping[str, Any], name: str) -> Endpoint:
         return Endpoint(
@@ -266,19 +283,16 @@ def _catalogued(
             each.get("type"),
             None,
             each.get("qos", {}),
-            inferred=True,
-            conditional="conditional" in each,
-            catalogued=evidence,
-            of_other_distribution=not is_used,
+            evidence=_evidence(each, said_by, is_used=is_used),
         )
 
     rows = [(role, each) for role, group in GROUPS.items() for each in found.get(group, ())]
     ends = [(end(role, each, each.get("name", "") if _NAMED_BY in each else each["name"]), each) for role, each in rows]
     return Catalogued(
         tuple(made for made, _ in ends if made.name),
-        tuple(_param(name, about, evidence, is_used=is_used) for name, about in found.get("parameters", {}).items()),
+        tuple(_param(name, about, said_by, is_used=is_used) for name, about in found.get("parameters", {}).items()),
         tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
-        evidence,
+        said_by,
         tuple((each[_NAMED_BY].removeprefix("~"), made) for made, each in ends if _NAMED_BY in each),
         tuple(
             (made, name.removeprefix("~"), types)
@@ -290,23 +304,26 @@ def _catalogued(
     )
 
 
+def _evidence(about: Mapping[str, Any], said_by: str, *, is_used: bool) -> Evidence:
+    known = Evidence("catalogue", said_by)
+    known = known.but("condition") if "conditional" in about else known
+    return known if is_used else known.but("other distribution")
+
+
 def _is_relative(param: str) -> bool:
     return not param.startswith(("~", "/"))
 
 
-def _param(name: str, about: Mapping[str, Any], evidence: str, *, is_used: bool) -> ParamUse:
+def _param(name: str, about: Mapping[str, Any], said_by: str, *, is_used: bool) -> ParamUse:
     return ParamUse(
         name,
         about.get("access", "get"),
         about.get("default_value"),
         "default_value" in about or "has_default" in about,
         "mandatory" in about,
-        inferred=True,
+        evidence=_evidence(about, said_by, is_used=is_used),
         type=about.get("type"),
         dynamic="dynamic" in about,
         read_only="read_only" in about,
         range=Range(*about["range"]) if "range" in about else None,
-        conditional="conditional" in about,
-        catalogued=evidence,
-        of_other_distribution=not is_used,
     )

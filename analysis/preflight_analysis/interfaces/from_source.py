@@ -144,7 +144,7 @@ def _has_unknown_frames(interface: Interface) -> bool:
     """Whether its run told that it broadcasts frames or listens to them, and not which."""
     if interface.source not in ("trace", "similar") or interface.frames or interface.frame_uses:
         return False
-    return any(not end.inferred and names.leaf(end.name) in _TF for end in interface.endpoints)
+    return any(not end.evidence.inferred and names.leaf(end.name) in _TF for end in interface.endpoints)
 
 
 def _may_activate_itself_later(interface: Interface) -> bool:
@@ -158,7 +158,7 @@ def _later(node: LaunchNode, interface: Interface, found: SourceInterface) -> tu
     """What the node is given and only its source declares."""
     seen = {use.name.removeprefix("~") for use in interface.params}
     given = {param.name for param in node.params} - seen
-    return tuple(replace(use, inferred=True) for use in found.params if use.name.removeprefix("~") in given)
+    return tuple(use for use in found.params if use.name.removeprefix("~") in given)
 
 
 def _places(
@@ -174,7 +174,7 @@ def _places(
         corrected.append((end, replace(end, source_file=file, source_line=line)))
     corrected += [(use, _described(use, declared[use.name])) for use in interface.params if use.name in declared]
     lists = any(use.access == "list" for use in interface.params)
-    return tuple(corrected), tuple(replace(use, inferred=True) for use in declared.values() if lists)
+    return tuple(corrected), tuple(declared.values()) if lists else ()
 
 
 def _described(use: ParamUse, said: ParamUse) -> ParamUse:
@@ -186,7 +186,7 @@ def _described(use: ParamUse, said: ParamUse) -> ParamUse:
         has_default=default.has_default,
         type=said.type or use.type,
         builtin=use.builtin,
-        inferred=False,
+        evidence=use.evidence,
     )
 
 
@@ -195,8 +195,8 @@ def _whole(node: LaunchNode, interface: Interface, found: SourceInterface) -> Pa
     is_built = node.resolved.path is not None or node.resolved.not_executable or node.unknowns
     return Part(
         "source",
-        tuple(_beside(found, replace(endpoint, inferred=True)) for endpoint in found.endpoints),
-        tuple(replace(use, inferred=True) for use in found.params),
+        tuple(_beside(found, endpoint) for endpoint in found.endpoints),
+        found.params,
         found.nodes,
         found.frames,
         found.frame_uses,
@@ -211,4 +211,4 @@ def _whole(node: LaunchNode, interface: Interface, found: SourceInterface) -> Pa
 def _beside(found: SourceInterface, end: Endpoint) -> Endpoint:
     """The end, with whether others of its role and type have names that are not known."""
     beside = not {(end.role, end.type), (end.role, None), (end.role, "*")}.isdisjoint(found.unnamed)
-    return replace(end, beside_unnamed=True) if beside else end
+    return replace(end, evidence=end.evidence.but("computed names")) if beside else end

@@ -81,7 +81,7 @@ def _ends_of(
         said = launch.sources.plugin(type_, name, params, package)
         for end in said.endpoints if said is not None else ():
             if not end.builtin:
-                yield replace(end, inferred=True)
+                yield end
         return
     distro = distribution_of(2, environment.distro)
     found = catalogued(package, "plugins", type_, distro, is_used=environment.distro == distro)

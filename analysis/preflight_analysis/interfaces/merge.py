@@ -91,8 +91,8 @@ def with_part(node: str, known: Interface, part: Part) -> Interface:
         replace(end, type=type_) if end.type is None and (type_ := types.get((end.role, full(end)))) else end
         for end in ends
     ]
-    more = [end for end in part.endpoints if (end.role, full(end)) not in seen]
-    params = [use for use in part.params if full(use) not in asked]
+    more = [_said(end, part) for end in part.endpoints if (end.role, full(end)) not in seen]
+    params = [_said(use, part) for use in part.params if full(use) not in asked]
     frames = [frame for frame in part.frames if (frame.parent, frame.child) not in broadcast]
     adds = more or params or frames or part.frame_uses or typed != ends
     leads = part.leads and (adds or part.source in DECLARED or not known.likely_complete)
@@ -110,6 +110,12 @@ def with_part(node: str, known: Interface, part: Part) -> Interface:
         elsewhere=part.elsewhere if leads and part.elsewhere is not None else known.elsewhere,
         outcome=known.outcome if part.reason is None else replace(known.outcome, reason=part.reason),
     )
+
+
+def _said(what: _What, part: Part) -> _What:
+    """With the source that it is known from, which is that of the part where it has no other."""
+    known = what.evidence
+    return replace(what, evidence=replace(known, source=part.source)) if known.source == "trace" else what
 
 
 def _corrected(known: Iterable[_What], instead: Mapping[int, Any]) -> list[_What]:

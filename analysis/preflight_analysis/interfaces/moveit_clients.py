@@ -8,9 +8,9 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.moveit import controller_params, moveit_controllers
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.interfaces.part import Launch, Part, Rows
-from preflight_analysis.tracing.interface import Endpoint, Interface, NamedBy
+from preflight_analysis.tracing.interface import Endpoint, Evidence, Interface, NamedBy
 
-_EVIDENCE = "what is known of moveit_simple_controller_manager"
+_EVIDENCE = Evidence("catalogue", "what is known of moveit_simple_controller_manager")
 
 
 def clients_asked(launch: Launch, known: Sequence[Interface]) -> Rows | None:
@@ -41,4 +41,4 @@ def _each_client(node: LaunchNode, params: tuple[Param, ...], kinds_in_types: bo
         if kinds_in_types:
             type_ = type_.replace("/", "/action/")
         named_by = NamedBy(controller.param.name, controller.param.place)
-        yield Endpoint("action_client", name, type_, None, {}, inferred=True, catalogued=_EVIDENCE, named_by=named_by)
+        yield Endpoint("action_client", name, type_, None, {}, evidence=_EVIDENCE, named_by=named_by)

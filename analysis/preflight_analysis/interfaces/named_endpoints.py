@@ -27,7 +27,17 @@ from preflight_analysis.evaluation.ros2.params import of_name
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.interfaces.part import Launch, Part, Rows
-from preflight_analysis.tracing.interface import ENDS, Endpoint, Interface, NamedBy, ParamUse, Role, Source
+from preflight_analysis.tracing.interface import (
+    ENDS,
+    Endpoint,
+    Evidence,
+    Interface,
+    NamedBy,
+    ParamUse,
+    Role,
+    Source,
+    Unsure,
+)
 
 _ROLES: Mapping[tuple[str, str], Role] = {
     ("topic", "publisher"): "publisher",
@@ -88,10 +98,10 @@ def named(
     for kind, role_in_kind, name in names_not_made(node, known, given) if known is not None else ():
         role = _ROLES.get((kind, role_in_kind))
         end = by_name.get((role, name)) if role is not None else None
-        if end is not None and end.catalogued:
+        if end is not None and end.evidence.of_catalogue:
             changes.without.append(end)
     # What the catalogue has by default has the other name instead, unless something else names it as well.
-    changes.without += (end for end in changes.replaced if id(end) not in changes.named and end.catalogued)
+    changes.without += (end for end in changes.replaced if id(end) not in changes.named and end.evidence.of_catalogue)
     corrected, more = changes.corrected(interface), tuple(changes.more.values())
     if not (corrected or more):
         return None
@@ -132,8 +142,9 @@ class _Changes:
 def _learned(end: Endpoint, meant: Meant, named_by: NamedBy | None, kinds_in_types: bool) -> Mapping[str, Any]:
     """What is known of an end that a parameter names beyond that it is there."""
     learned: dict[str, Any] = {"named_by": named_by} if named_by is not None else {}
-    if end.of_other_distribution and meant.known.is_used:
-        learned |= {"catalogued": meant.known.evidence, "of_other_distribution": False}
+    if "other distribution" in end.evidence.doubts and meant.known.is_used:
+        confirmed = end.evidence.without("other distribution")
+        learned["evidence"] = replace(confirmed, said_by=meant.known.evidence)
     type_ = _type_of(meant, meant.type, kinds_in_types) if meant.type is not None else None
     if type_ not in (None, end.type) and _says_type(meant, end):
         learned["type"] = type_
@@ -178,15 +189,16 @@ def named_within(
         said = every.within(beside, process)
         part = named(beside, apart, said, beside.params, every, kinds_in_types) if said is not None else None
         if part is not None:
-            on_demand = all(end.conditional for end in apart.endpoints if end.node == name)
-            more += (replace(end, node=name, conditional=end.conditional or on_demand) for end in part.endpoints)
+            on_demand = all("condition" in end.evidence.doubts for end in apart.endpoints if end.node == name)
+            doubts: tuple[Unsure, ...] = ("condition",) if on_demand else ()
+            more += (replace(end, node=name, evidence=end.evidence.but(*doubts)) for end in part.endpoints)
             corrected += part.corrected
     return Part("catalogue", tuple(more), corrected=tuple(corrected), leads=False) if more or corrected else None
 
 
 def _says_type(meant: Meant, end: Endpoint) -> bool:
     """Whether the type counts: nothing else says it, or only the catalogue, which has the one of no parameters."""
-    default_of_catalogue = bool(end.catalogued) and end.typed_by is None and meant.known.is_used
+    default_of_catalogue = bool(end.evidence.of_catalogue) and end.typed_by is None and meant.known.is_used
     return end.type is None or (default_of_catalogue and meant.type != _ANY)
 
 
@@ -211,19 +223,12 @@ def _base(node: LaunchNode, meant: Meant, generation: int) -> str:
 
 def _endpoint(role: Role, name: str, meant: Meant, named_by: NamedBy | None, kinds_in_types: bool) -> Endpoint:
     type_ = _type_of(meant, meant.type, kinds_in_types) if meant.type is not None else None
+    known = Evidence("catalogue", meant.known.evidence)
     if meant.known.entry.whole:
-        return Endpoint(role, name, type_, None, meant.meaning.qos, named_by=named_by)
-    return Endpoint(
-        role,
-        name,
-        type_,
-        None,
-        meant.meaning.qos,
-        inferred=True,
-        catalogued=meant.known.evidence,
-        of_other_distribution=not meant.known.is_used,
-        named_by=named_by,
-    )
+        known = Evidence("configuration")
+    elif not meant.known.is_used:
+        known = known.but("other distribution")
+    return Endpoint(role, name, type_, None, meant.meaning.qos, evidence=known, named_by=named_by)
 
 
 def _type_of(meant: Meant, type_: str, kinds_in_types: bool) -> str:

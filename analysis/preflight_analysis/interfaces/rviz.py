@@ -16,8 +16,9 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast
 from preflight_analysis.evaluation import names
 from preflight_analysis.incremental.derived import derived
-from preflight_analysis.tracing.interface import Endpoint, NamedBy
+from preflight_analysis.tracing.interface import Endpoint, Evidence, NamedBy
 
+_EVIDENCE = Evidence("configuration")
 _LIBRARIES = ("rviz_default_plugins", "rviz")
 _GROUPS = ("rviz_common/Group", "rviz/Group")
 _TYPES = {
@@ -93,7 +94,8 @@ def _subscribers(config: Document, slash: str) -> Iterator[Endpoint]:
 def _subscriber(
     name: str, type_: str, qos: Mapping[str, str], place: Location, property_: str, display: str
 ) -> Endpoint:
-    return Endpoint("subscriber", name, type_, None, qos, inferred=True, named_by=NamedBy(property_, place, display))
+    named_by = NamedBy(property_, place, display)
+    return Endpoint("subscriber", name, type_, None, qos, evidence=_EVIDENCE, named_by=named_by)
 
 
 _Properties = Mapping[str, tuple[yaml.Node, yaml.Node]]

@@ -20,8 +20,9 @@ from preflight_analysis.evaluation.ros1.spawners import asked_of
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree
 from preflight_analysis.interfaces.catalogued import catalogued
 from preflight_analysis.interfaces.part import Launch, Part, Rows
-from preflight_analysis.tracing.interface import Endpoint, Interface
+from preflight_analysis.tracing.interface import Endpoint, Evidence, Interface
 
+_EVIDENCE = Evidence("catalogue", "what is known of gazebo_ros_control", ("condition",))
 _SIMULATOR = frozenset({("gazebo_ros", name) for name in ("gazebo", "gzserver", "debug")})
 _PLUGIN = re.compile(r"<plugin\b[^>]*gazebo_ros_control.{0,2000}?(?:</plugin>|/>)", re.DOTALL)
 _SPACE = re.compile(r"<robotNamespace>\s*([\w/~]*)\s*</robotNamespace>")
@@ -90,9 +91,7 @@ def _spaces_in(description: str) -> tuple[str | None, ...]:
 def _of_manager(space: str) -> Iterator[Endpoint]:
     for name, kind in _SERVICES:
         type_ = f"controller_manager_msgs/{''.join(map(str.title, kind.split('_')))}"
-        yield Endpoint(
-            "service", names.join(space, f"controller_manager/{name}"), type_, inferred=True, conditional=True
-        )
+        yield Endpoint("service", names.join(space, f"controller_manager/{name}"), type_, evidence=_EVIDENCE)
 
 
 def _of_controller(name: str, type_: str, environment: Environment) -> Iterator[Endpoint]:
@@ -101,5 +100,5 @@ def _of_controller(name: str, type_: str, environment: Environment) -> Iterator[
         found = catalogued(package, "controllers", type_, distro, is_used=environment.distro == distro)
         if found is not None:
             for end in found.endpoints:
-                yield replace(end, name=names.resolve(end.name, name), conditional=True)
+                yield replace(end, name=names.resolve(end.name, name), evidence=end.evidence.but("condition"))
             return

@@ -72,7 +72,7 @@ def _endpoint(connection: Connection, generation: int, documents: Mapping[str, D
         endpoint.type,
         endpoint.qos,
         not endpoint.uncertain,
-        endpoint.on_demand,
+        "on demand" in endpoint.evidence.doubts,
         topic_endpoints(endpoint.role, connection.name) if is_action and not ros(generation).native_actions else (),
         _place(connection_location(connection), documents),
         Place(endpoint.source_file, endpoint.source_line) if endpoint.source_file and endpoint.source_line else None,

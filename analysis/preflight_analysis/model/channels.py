@@ -30,13 +30,13 @@ def doubts_of_ends(
     said of ends that no run and no plain line of a source shows. `lacks`: see `not_all_known`."""
     found: dict[str, str | bool] = {}
     for end in ends:
-        of, node = end.endpoint, end.node.name
+        known, node = end.endpoint.evidence, end.node.name
         reasons = {
-            "FROM_SOURCE": of.inferred or of.displayed or of.stood_in,
-            "CATALOGUE": of.catalogued,
-            "NOT_ANALYSED": of.speculative,
-            "DEPENDS": of.on_demand or (of.assumed and assumed == "DEPENDS"),
-            "ASSUMED": of.assumed and assumed == "ASSUMED",
+            "FROM_SOURCE": known.inferred or end.endpoint.displayed or "stand-in" in known.doubts,
+            "CATALOGUE": known.of_catalogue,
+            "NOT_ANALYSED": "made-up answer" in known.doubts,
+            "DEPENDS": "on demand" in known.doubts or (known.assumed and assumed == "DEPENDS"),
+            "ASSUMED": known.assumed and assumed == "ASSUMED",
         }
         for reason, holds in reasons.items():
             if holds:

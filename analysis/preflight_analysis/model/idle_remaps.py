@@ -189,7 +189,7 @@ def _reports_names(node: LaunchNode, interface: Interface) -> bool:
         return False
     if node.package == "nodelet":
         return False  # those of images subscribe only while somebody reads what they make of it
-    return any(not (e.builtin or e.speculative) for e in interface.endpoints)
+    return any(not (e.builtin or "made-up answer" in e.evidence.doubts) for e in interface.endpoints)
 
 
 def _tells_in_part(node: LaunchNode, interface: Interface) -> bool:
@@ -197,7 +197,7 @@ def _tells_in_part(node: LaunchNode, interface: Interface) -> bool:
     told = interface.source == "source" or (interface.source == "trace" and interface.outcome.status == "spinning")
     if interface.declared or not told or node.unknowns or node.package == "nodelet":
         return False
-    return any(not (e.builtin or e.speculative) for e in interface.endpoints)
+    return any(not (e.builtin or "made-up answer" in e.evidence.doubts) for e in interface.endpoints)
 
 
 @dataclass(frozen=True, slots=True)

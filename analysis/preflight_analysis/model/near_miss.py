@@ -89,8 +89,8 @@ def doubts_of(near: NearMiss, lacks: str | bool, likely_complete: bool) -> tuple
     return (
         *doubts(
             LIKE_NAMES=not (near.same_type and alike),
-            COMPUTED=any(each.endpoint.beside_unnamed for each in ends),
-            ASSUMED=next((each.node.name for each in ends if each.endpoint.on_demand), ""),
+            COMPUTED=any("computed names" in each.endpoint.evidence.doubts for each in ends),
+            ASSUMED=next((each.node.name for each in ends if "on demand" in each.endpoint.evidence.doubts), ""),
         ),
         *doubts_of_ends(*ends, assumed="DEPENDS" if both_lone else "ASSUMED", lacks=lacks),
     )

@@ -102,13 +102,13 @@ def related_param_read(read: ParamRead) -> Related:
 
 
 def _how_known(what: Endpoint | ParamUse) -> str:
-    if what.similar:
+    if what.evidence.source == "similar":
         return " (from a run with other settings)"
     if isinstance(what, Endpoint) and what.displayed:
         return " (from its configuration)"
-    if what.catalogued:
-        return f" (from {what.catalogued})"
-    return " (from its source)" if what.inferred else ""
+    if what.evidence.said_by:
+        return f" (from {what.evidence.said_by})"
+    return " (from its source)" if what.evidence.inferred else ""
 
 
 def quoted_once(context: Context, file: str, text: str) -> Location | None:

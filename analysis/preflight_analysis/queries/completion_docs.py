@@ -74,7 +74,7 @@ def _program(
     known = catalogued(package, kind, name, distro, is_used=environment.distro == distro)
     if known is not None:
         yield from _does(known.endpoints, known.params)
-        yield f"\nFrom {escaped(known.evidence)}"
+        yield f"\nFrom {escaped(known.said_by)}"
 
 
 def _docstring(sources: SourceAnalysis, path: str) -> str:

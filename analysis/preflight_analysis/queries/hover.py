@@ -508,11 +508,11 @@ def _connection(connection: Connection, interface: Interface) -> str:
     elif endpoint.named_by is not None:
         text += f", named by the parameter {code(endpoint.named_by.parameter)}"
     text += _quality(endpoint)
-    if endpoint.speculative:
+    if "made-up answer" in endpoint.evidence.doubts:
         text += ", after a mock reply"
-    if endpoint.on_demand:
+    if "on demand" in endpoint.evidence.doubts:
         text += ", on demand"
-    if endpoint.similar:
+    if endpoint.evidence.source == "similar":
         text += ", seen in another run"
     return text + _made_at(endpoint)
 

@@ -19,7 +19,7 @@ from preflight_analysis.queries.param_texts import default_text, type_text, valu
 from preflight_analysis.queries.places import link, place
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.references import made_at
-from preflight_analysis.tracing.interface import NOT_RUN, Interface, ParamUse
+from preflight_analysis.tracing.interface import NOT_RUN, Evidence, Interface, ParamUse
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN_NODES = 8
@@ -64,7 +64,7 @@ def _with_plugins(analysis: Analysis, node: LaunchNode, interface: Interface) ->
         return interface
     known = {use.name.removeprefix("~") for use in interface.params}
     uses = (
-        ParamUse(name, "get", default, default is not None, inferred=True, catalogued=plugin.evidence)
+        ParamUse(name, "get", default, default is not None, evidence=Evidence("catalogue", plugin.evidence))
         for name, (default, plugin) in declared.items()
         if name not in known
     )

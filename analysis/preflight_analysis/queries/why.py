@@ -272,14 +272,14 @@ def _endpoint(analysis: Analysis, connection: Connection) -> Iterator[Link]:
 
 def _evidence(connection: Connection) -> str:
     end = connection.endpoint
-    if end.similar:
+    if end.evidence.source == "similar":
         return "; seen in a run with another configuration"
-    if end.catalogued:
-        return f"; from {end.catalogued}"
+    if end.evidence.said_by:
+        return f"; from {end.evidence.said_by}"
     if end.displayed:
         return "; from its configuration"
-    if end.inferred:
-        return "; from its source, under a condition" if end.conditional else "; from its source"
+    if end.evidence.inferred:
+        return "; from its source" + (", under a condition" if "condition" in end.evidence.doubts else "")
     return ""
 
 

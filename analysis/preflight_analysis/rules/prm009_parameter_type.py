@@ -128,7 +128,7 @@ def _finding(rule: Rule, param: Param, read: ParamRead, difference: _Difference)
         param.place,
         subject=Subject("parameter", param.name),
         effect=difference.effect,
-        doubts=(*difference.doubts, *doubts(ASSUMED=read.use.assumed, FROM_SOURCE=read.use.inferred)),
+        doubts=(*difference.doubts, *doubts(ASSUMED=read.use.evidence.assumed, FROM_SOURCE=read.use.evidence.inferred)),
         related=(related_param_read(read), *include_chain(param.origin)),
     )
 

@@ -133,7 +133,8 @@ def _of_sources(rule: Rule, context: Context, graph: Graph) -> Iterator[Finding]
 def _needed(interface: Interface) -> tuple[ParamUse, ...]:
     if interface.source != "source":
         return ()
-    return tuple(use for use in interface.params if use.mandatory and not use.conditional and use.name.startswith("~"))
+    needed = (use for use in interface.params if use.mandatory and use.name.startswith("~"))
+    return tuple(use for use in needed if "condition" not in use.evidence.doubts)
 
 
 def _refusals(interface: Interface) -> tuple[ParamUse, ...]:

@@ -86,7 +86,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 doubts=doubts(
                     SHARED=shared,
                     PARTLY_READ=near is None and not in_full,
-                    NOT_ANALYSED=node.name if not in_full and (use is None or use.inferred) else "",
+                    NOT_ANALYSED=node.name if not in_full and (use is None or use.evidence.inferred) else "",
                     FROM_SOURCE=(in_full or use is not None) and interface.source == "source",
                     LATER=node.name if interface.source == "trace" else "",
                 ),
@@ -118,7 +118,7 @@ def _is_controller(node: LaunchNode) -> bool:
 
 def _of_node(node: LaunchNode, uses: Iterable[ParamUse]) -> Iterator[ParamUse]:
     """Without what the library's base of a controller does to all parameters."""
-    return (use for use in uses if not (use.name == "/" and use.catalogued and _is_controller(node)))
+    return (use for use in uses if not (use.name == "/" and use.evidence.of_catalogue and _is_controller(node)))
 
 
 def _declared(node: LaunchNode, interface: Interface) -> dict[str, ParamUse] | None:

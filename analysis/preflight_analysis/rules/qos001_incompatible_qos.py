@@ -47,7 +47,7 @@ def _finding(
     offered, requested = problem
     nodes = {"node": provider.node.name, "other": consumer.node.name}
     # The robot moves without what a display shows.
-    mild = consumer.endpoint.assumed or consumer.endpoint.displayed or provider.endpoint.assumed
+    mild = consumer.endpoint.evidence.assumed or consumer.endpoint.displayed or provider.endpoint.evidence.assumed
     return rule.claim(
         say(_MESSAGE, name=channel.name, **nodes, offered=offered, requested=requested),
         connection_location(consumer),

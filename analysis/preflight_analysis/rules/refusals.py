@@ -29,10 +29,10 @@ def refusal(
         doubts=(
             *against,
             *doubts(
-                DEPENDS=node.name if use.assumed else "",
-                LIBRARY=use.assumed,
-                FROM_SOURCE=use.inferred,
-                CATALOGUE=bool(use.catalogued),
+                DEPENDS=node.name if use.evidence.assumed else "",
+                LIBRARY=use.evidence.assumed,
+                FROM_SOURCE=use.evidence.inferred,
+                CATALOGUE=use.evidence.of_catalogue,
             ),
         ),
         related=(related_node(node), *include_chain(node.origin)),

@@ -38,7 +38,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     hints: list[tuple[Connection, Connection | None]] = []
     for client in found.consumers:
         offer = offers.get(id(client))
-        if offer is None and (known.blind or client.endpoint.catalogued):
+        if offer is None and (known.blind or client.endpoint.evidence.of_catalogue):
             continue  # of a common node it is no news, as gazebo offers what its spawners call
         if offer is None and id(client) in found.elsewhere:
             yield elsewhere_finding(rule, context, client, _message(client, known), found.elsewhere[id(client)])

@@ -38,7 +38,7 @@ def _of_one_node(channel: Channel) -> tuple[tuple[Connection, Connection], ...]:
     for ends in (channel.providers, channel.consumers):
         first: dict[int, Connection] = {}
         for end in ends:
-            if end.endpoint.type in (None, "*") or end.endpoint.catalogued or end.action is not None:
+            if end.endpoint.type in (None, "*") or end.endpoint.evidence.of_catalogue or end.action is not None:
                 continue
             other = first.setdefault(id(end.node), end)
             if in_short(other.endpoint.type or "") != in_short(end.endpoint.type or ""):

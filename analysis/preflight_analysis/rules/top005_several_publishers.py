@@ -67,7 +67,7 @@ def _is_of_copies(channel: Channel, connections: list[Connection]) -> bool:
     """Whether nobody listens to copies of one program, as eight viewers, of which only the catalogue tells how they
     make the name: they may put it below one that is remapped."""
     programs = {(each.node.package, each.node.executable) for each in connections}
-    told = all(each.endpoint.catalogued for each in connections)
+    told = all(each.endpoint.evidence.of_catalogue for each in connections)
     return told and len(programs) == 1 and not channel.consumers
 
 

@@ -107,9 +107,9 @@ def _doubts(context: Context, graph: Graph, *ends: Connection) -> tuple[Doubt, .
 def _is_assumed(context: Context, end: Connection) -> bool:
     """Whether it is only assumed that the node has the end. What the catalogue says of a controller is sure enough once
     the launch activates that."""
-    endpoint = end.endpoint
-    if not endpoint.assumed or endpoint.similar or endpoint.of_other_distribution or not endpoint.catalogued:
-        return endpoint.assumed
+    known = end.endpoint.evidence
+    if not known.assumed or known.source != "catalogue" or "other distribution" in known.doubts:
+        return known.assumed
     return end.node.name not in _active_controllers(context)
 
 
@@ -125,7 +125,7 @@ def _is_moved(consumer: Connection, provider: Connection) -> bool:
     """Whether an end of the catalogue may be of another version, with the message in another package of the same
     project, for messages alone (`rtabmap_msgs`, `rtabmap_ros`)."""
     one, other = consumer.endpoint, provider.endpoint
-    if not (one.catalogued or other.catalogued) or one.type is None or other.type is None:
+    if not (one.evidence.of_catalogue or other.evidence.of_catalogue) or one.type is None or other.type is None:
         return False
     (package, _, name), (other_package, _, other_name) = one.type.partition("/"), other.type.partition("/")
     moved = package.endswith(_MESSAGES) != other_package.endswith(_MESSAGES)
@@ -152,7 +152,8 @@ def _misfits(channel: Channel) -> tuple[_Misfit, ...]:
         for provider in providers.values():
             if consumer.action is not None and provider.action is not None:
                 continue  # said once of the action, not of each of its topics
-            if consumer.node is provider.node and consumer.endpoint.catalogued and provider.endpoint.catalogued:
+            known = consumer.endpoint.evidence, provider.endpoint.evidence
+            if consumer.node is provider.node and all(each.of_catalogue for each in known):
                 continue  # within a node of others, as move_base's footprints
             difference = _difference(consumer, provider)
             if difference is not None and (provider.endpoint.type, difference) not in reported:

@@ -8,12 +8,13 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
-from preflight_analysis.tracing.interface import Endpoint, Frame, FrameUse, MadeNode, ParamUse, Role
+from preflight_analysis.tracing.interface import Endpoint, Evidence, Frame, FrameUse, MadeNode, ParamUse, Role
 
 _MAX_FOUND = 500
 _MAX_NODES = 32
 _MAX_FRAMES = 100
 _LONGEST_FRAME = 200
+_PLAIN, _UNDER_CONDITION = Evidence("source"), Evidence("source").but("condition")
 _NO_FRAME = re.compile(r"\s")
 
 
@@ -79,6 +80,11 @@ class Collector:
         """Whether nothing is known of that was left out: every name is computed, and nobody else was given the node."""
         return not self._missed
 
+    @property
+    def _evidence(self) -> Evidence:
+        """Of what is found at the place that is looked at."""
+        return _UNDER_CONDITION if self.branches.speculative else _PLAIN
+
     def miss(self) -> None:
         """There may be more than was found."""
         self._missed = True
@@ -105,9 +111,9 @@ class Collector:
         if is_name(endpoint.name) and len(self._endpoints) < _MAX_FOUND:
             before = self._endpoints.get(key)
             if before is None:
-                self._endpoints[key] = replace(endpoint, conditional=self.branches.speculative)
-            elif before.conditional and not self.branches.speculative:
-                self._endpoints[key] = replace(before, conditional=False)
+                self._endpoints[key] = replace(endpoint, evidence=self._evidence)
+            elif before.evidence.doubts and not self.branches.speculative:
+                self._endpoints[key] = replace(before, evidence=self._evidence)
         else:
             self._unnamed[endpoint.role, endpoint.type] = None
             self.miss()
@@ -125,9 +131,9 @@ class Collector:
             key = (use.name, use.access, use.has_default)
             before = self._uses.get(key)
             if before is None:
-                self._uses[key] = replace(use, conditional=self.branches.speculative)
-            elif before.conditional and not self.branches.speculative:
-                self._uses[key] = replace(before, conditional=False)
+                self._uses[key] = replace(use, evidence=self._evidence)
+            elif before.evidence.doubts and not self.branches.speculative:
+                self._uses[key] = replace(before, evidence=self._evidence)
         else:
             self.miss()
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.exact import exact
@@ -48,9 +48,74 @@ _OF_LOGGER = "log4cxx:"
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]*(Error|Exception|Interrupt|Exit|Warning|Fault|NotFound)\b(: .*)?\Z")
 _THROWN = re.compile(r"terminate called after throwing an instance of '([\w:]*?)(\w+)'\Z")
 _WHAT = re.compile(r"\s*what\(\):\s*(\S.*)")
-Source = Literal["trace", "annotation", "settings", "nodl", "source", "similar", "catalogue", "none"]
+Source = Literal["trace", "annotation", "settings", "nodl", "configuration", "source", "similar", "catalogue", "none"]
+SOURCES: tuple[Source, ...] = get_args(Source)
+"""From where something is known, what is surer first. `configuration`: arguments and files that name what the node
+makes of them."""
 DECLARED: tuple[Source, ...] = ("annotation", "settings", "nodl")
 """Where somebody has written down what a node does."""
+
+
+Unsure = Literal["made-up answer", "on demand", "stand-in", "computed names", "condition", "other distribution"]
+"""Why the real node may not do what is known of it.
+
+`made-up answer`: it was seen after one. `on demand`: it was made once somebody was at the other end of another topic of
+the node. `stand-in`: it was seen in a run without some of the modules that the node imports, which others stood in for.
+`computed names`: the source of the node makes others of the role and type, of whose names is not known how they are
+computed. `condition`: in the source, only a condition that is not known leads there, or a callback. `other
+distribution`: the catalogue knows it of another one than is used."""
+_ASSUMED: frozenset[Unsure] = frozenset({"condition", "other distribution"})
+_UNCERTAIN: frozenset[Unsure] = _ASSUMED | {"made-up answer", "on demand"}
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """How something is known of a node: from which source, which one of the catalogue or of what is known of packages
+    that is (`said_by`, in words), and why the real node may not do it."""
+
+    source: Source = "trace"
+    said_by: str = ""
+    doubts: tuple[Unsure, ...] = ()
+    """Sorted."""
+
+    def but(self, *doubts: Unsure) -> Evidence:
+        """The same with more doubts."""
+        return replace(self, doubts=tuple(sorted({*self.doubts, *doubts})))
+
+    def without(self, *doubts: Unsure) -> Evidence:
+        """The same without some doubts."""
+        return replace(self, doubts=tuple(each for each in self.doubts if each not in doubts))
+
+    @property
+    def inferred(self) -> bool:
+        """Whether a source says so, here or when the catalogue was made, and no run."""
+        return self.source in ("source", "catalogue")
+
+    @property
+    def of_catalogue(self) -> bool:
+        """Whether the catalogue says so, or what is known of a package."""
+        return self.source == "catalogue"
+
+    @property
+    def assumed(self) -> bool:
+        """Whether no run of this node, no word of the user and no plain line of its source says so."""
+        return self.source == "similar" or not _ASSUMED.isdisjoint(self.doubts)
+
+    @property
+    def uncertain(self) -> bool:
+        """Whether it is assumed, or the node was seen to do it where the real one may not come to it."""
+        return self.source == "similar" or not _UNCERTAIN.isdisjoint(self.doubts)
+
+
+SEEN = Evidence()
+"""A run of the node showed it."""
+
+
+def together(some: Iterable[Evidence]) -> Evidence:
+    """How a whole is known of which these are the parts: by the least sure source, with all doubts."""
+    parts = tuple(some)
+    least = max(parts, key=lambda each: SOURCES.index(each.source))
+    return least.but(*(doubt for each in parts for doubt in each.doubts))
 
 
 class NamedBy(NamedTuple):
@@ -88,36 +153,14 @@ class Endpoint:
     source_line: int | None = None
     builtin: bool = False
     """What every node of the client library has (`/rosout`, `~get_loggers`, ...)."""
-    speculative: bool = False
-    """Found after a made-up answer."""
-    inferred: bool = False
-    """Read from the source code, not seen in a run."""
-    conditional: bool = False
-    """In the source, only a condition that is not known leads there, or a callback."""
-    similar: bool = False
-    """Seen in a run of the same executable under another configuration, not in one of this node."""
-    on_demand: bool = False
-    """Made once somebody was at the other end of another topic of the node."""
-    stood_in: bool = False
-    """Made in a run without some of the modules that the node imports, which others stood in for."""
-    beside_unnamed: bool = False
-    """The source of its node makes others of the role and type, of whose names is not known how they are computed."""
+    evidence: Evidence = SEEN
     node: str | None = None
     """ROS 2, of a process that makes several nodes: the full name that the one had which made it. None for the node of
     the launch file."""
-    catalogued: str = ""
-    """Of what the catalogue says: which one, with the commit that it was read at."""
-    of_other_distribution: bool = False
-    """Of what the catalogue says: whether it knows that of another distribution than is used."""
     named_by: NamedBy | None = field(default=None, metadata={TRANSIENT: True})
     """The parameter of the launch that gives the name; no run tells it."""
     typed_by: TypedBy | None = field(default=None, metadata={TRANSIENT: True})
     """The parameter that decides the type; no run tells it."""
-
-    @property
-    def assumed(self) -> bool:
-        """Whether no run of this node, no word of the user and no plain line of its source says that it makes it."""
-        return self.similar or (self.inferred and self.conditional) or self.of_other_distribution
 
     @property
     def displayed(self) -> bool:
@@ -127,7 +170,7 @@ class Endpoint:
     @property
     def uncertain(self) -> bool:
         """Whether the real node may well not make it."""
-        return self.speculative or self.on_demand or self.assumed or self.displayed
+        return self.evidence.uncertain or self.displayed
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,12 +201,7 @@ class ParamUse:
     source_file: str | None = None
     source_line: int | None = None
     builtin: bool = False
-    inferred: bool = False
-    """Read from the source code, not seen in a run."""
-    conditional: bool = False
-    """In the source, only a condition that is not known leads there, or a callback."""
-    similar: bool = False
-    """Seen in a run of the same executable under another configuration, not in one of this node."""
+    evidence: Evidence = SEEN
     type: str | None = None
     """ROS 2: `bool`, `integer`, `double`, `string`, or one of these with ` array`; None where it is not known."""
     dynamic: bool = False
@@ -175,15 +213,6 @@ class ParamUse:
     """As of an endpoint."""
     refused: str | None = None
     """ROS 2: what the node said of the value, or of there being none, when it ended for that."""
-    catalogued: str = ""
-    """As of an endpoint."""
-    of_other_distribution: bool = False
-    """Of what the catalogue says: whether it knows that of another distribution than is used."""
-
-    @property
-    def assumed(self) -> bool:
-        """Whether no run of this node, no word of the user and no plain line of its source says that it asks for it."""
-        return self.similar or (self.inferred and self.conditional) or self.of_other_distribution
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -328,7 +357,7 @@ class Interface:
     stand_ins: tuple[str, ...] = ()
     """Python modules that it imports and this machine does not have, sorted: others stood in for them."""
     elsewhere: Elsewhere | None = None
-    """Where what is `similar` was seen."""
+    """Where the run of a similar one was made."""
     unnamed: tuple[Endpoint, ...] = ()
     """What it was seen to make under names that it makes up in each run, at random: the name of each is that of one
     run, and none of the others. They are not among the endpoints."""
@@ -379,8 +408,9 @@ class Interface:
     @property
     def decided(self) -> bool:
         """Whether a condition that is not known, or a plugin, decides what it does."""
-        of_params = any(use.conditional or use.access == "list" for use in self.params)
-        return of_params or any(end.conditional for end in self.endpoints)
+        known = (*(use.evidence for use in self.params), *(end.evidence for end in self.endpoints))
+        lists = any(use.access == "list" for use in self.params)
+        return lists or any("condition" in each.doubts for each in known)
 
     @property
     def likely_complete(self) -> bool:

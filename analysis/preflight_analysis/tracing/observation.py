@@ -11,7 +11,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.tracing import nodelets, stand_ins
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
-from preflight_analysis.tracing.interface import Endpoint, Interface, MadeNode, Outcome, ParamUse, Role
+from preflight_analysis.tracing.interface import SEEN, Endpoint, Interface, MadeNode, Outcome, ParamUse, Role
 from preflight_analysis.tracing.loaded import outcome_of_component
 from preflight_analysis.tracing.outcome import NOT_LOADED, outcome_of, seconds_of, stderr_tail
 from preflight_analysis.tracing.recipe import Recipe
@@ -107,7 +107,7 @@ def observe(raw: RawRun, recipe: Recipe, request: TraceRequest) -> Observation:
     interface = Interface(
         "trace",
         stand_ins.explained(outcome, found, request.executable),
-        tuple(replace(end, stood_in=True) for end in endpoints) if found.stand_ins else endpoints,
+        tuple(replace(e, evidence=e.evidence.but("stand-in")) for e in endpoints) if found.stand_ins else endpoints,
         params,
         notes=_notes(found),
         frames=tuple(sorted(found.frames)),
@@ -140,7 +140,9 @@ def _endpoints(found: Gathered, node: str, remaps: Mapping[str, str], process: s
     waited_for = {names.resolve(name, node, remaps) for kind, name, _, _ in found.waits if kind == "service"}
     endpoints = [
         # Waiting for a service is calling it, whatever the answer.
-        replace(endpoint, speculative=False) if endpoint.role == "client" and full in waited_for else endpoint
+        replace(endpoint, evidence=endpoint.evidence.without("made-up answer"))
+        if endpoint.role == "client" and full in waited_for
+        else endpoint
         for endpoint, full in found.endpoints.values()
     ]
     known: set[tuple[str, str]] = {
@@ -155,7 +157,8 @@ def _endpoints(found: Gathered, node: str, remaps: Mapping[str, str], process: s
             endpoints.append(Endpoint("service", "~" + private, _logger_type(private), builtin=True))
         else:
             builtin = (role, name) in (("publisher", "/rosout"), ("subscriber", "/clock"))
-            endpoints.append(Endpoint(cast(Role, role), name, kind, builtin=builtin, on_demand=on_demand))
+            evidence = SEEN.but("on demand") if on_demand else SEEN
+            endpoints.append(Endpoint(cast(Role, role), name, kind, builtin=builtin, evidence=evidence))
     for kind, name, file, line in found.waits:
         full = names.resolve(name, node, remaps)
         if kind == "service" and ("client", full) not in known:

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from typing import Any, TypeGuard, cast
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.tracing.agents.fake_publisher import ANY_TYPE
-from preflight_analysis.tracing.interface import Endpoint, Frame, MadeNode, ParamUse, Range, Role
+from preflight_analysis.tracing.interface import SEEN, Endpoint, Frame, MadeNode, ParamUse, Range, Role, Unsure
 
 MAX_ENDPOINTS = 2_000
 MAX_PARAMS = 5_000
@@ -273,15 +273,21 @@ def _take_endpoint(record: Mapping[str, Any], found: Gathered) -> bool:
         file,
         line,
         builtin=record.get("builtin") is True,
-        speculative=record.get("speculative") is True,
-        on_demand=found.probed,
+        evidence=SEEN.but(*_doubts(record, found)),
         node=checked_text(record.get("node"), _FULL_NAME),
     )
     # One that it made before as well is sure.
-    key = repr(replace(endpoint, speculative=False, on_demand=False))
+    key = repr(replace(endpoint, evidence=SEEN))
     found.waited = found.waited or (bool(found.fed) and key not in found.endpoints)
     found.endpoints.setdefault(key, (endpoint, checked_text(record.get("resolved"), NAME)))
     return True
+
+
+def _doubts(record: Mapping[str, Any], found: Gathered) -> Iterator[Unsure]:
+    if record.get("speculative") is True:
+        yield "made-up answer"
+    if found.probed:
+        yield "on demand"
 
 
 def _qos(given: object) -> dict[str, Any]:

@@ -82,7 +82,7 @@ class SimilarTraces:
 
     def each(self, nodes: Sequence[Asked], params: Mapping[str, Any]) -> list[Interface | None]:
         """What the executable of each node did in the most similar run; None where none is known. `params` is the
-        parameter server of the launch. The names are as the node would give them, everything is marked `similar`.
+        parameter server of the launch. The names are as the node would give them.
 
         The disk is asked once for each executable, and again by `look`.
         """
@@ -187,11 +187,11 @@ def _as_of(kept: Kept, request: TraceRequest, unsaid: Iterable[str]) -> Interfac
     """The trace as one of this node, without names that came with the texts `unsaid`."""
     strange = [f"/{text}/" for text in unsaid]
     endpoints = tuple(
-        replace(endpoint, name=_private(endpoint.name, kept, request), similar=True)
+        replace(endpoint, name=_private(endpoint.name, kept, request))
         for endpoint in kept.interface.endpoints
         if not any(text in f"/{endpoint.name.strip('/~')}/" for text in strange)
     )
-    params = tuple(replace(use, name=_private(use.name, kept, request), similar=True) for use in kept.interface.params)
+    params = tuple(replace(use, name=_private(use.name, kept, request)) for use in kept.interface.params)
     return replace(kept.interface, source="similar", endpoints=endpoints, params=params)
 
 

@@ -52,8 +52,8 @@ def _endpoint(endpoint: Endpoint) -> dict[str, Any]:
         "md5": endpoint.md5,
         "qos": json_value(endpoint.qos),
         "builtin": endpoint.builtin,
-        "speculative": endpoint.speculative,
-        "on_demand": endpoint.on_demand,
+        "speculative": "made-up answer" in endpoint.evidence.doubts,
+        "on_demand": "on demand" in endpoint.evidence.doubts,
         **({"node": endpoint.node} if endpoint.node is not None else {}),
         **_made_at(endpoint),
     }

@@ -61,8 +61,8 @@ def _lines(node: LaunchNode, interface: Interface) -> Iterator[str]:
         yield from (f"  | {line}" for line in outcome.stderr_tail)
     for endpoint in interface.endpoints:
         if not endpoint.builtin:
-            made_up = "  (after a made-up answer)" if endpoint.speculative else ""
-            made_up += "  (on demand)" if endpoint.on_demand else ""
+            made_up = "  (after a made-up answer)" if "made-up answer" in endpoint.evidence.doubts else ""
+            made_up += "  (on demand)" if "on demand" in endpoint.evidence.doubts else ""
             made_at = _at(endpoint.source_file, endpoint.source_line)
             what = f"{endpoint.role} {endpoint.name}  {endpoint.type or 'type not known'}"
             yield f"  {what}{_of(endpoint.node)}{made_at}{made_up}"

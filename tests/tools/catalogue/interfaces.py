@@ -384,7 +384,7 @@ def _facts(said: SourceInterface | Interface) -> dict[str, Any]:
                 "name": _below_its_own(e.name),
                 **({"type": e.type} if e.type else {}),
                 **({"qos": dict(e.qos)} if e.qos else {}),
-                **({"conditional": True} if e.conditional else {}),
+                **({"conditional": True} if "condition" in e.evidence.doubts else {}),
             }
             for e in ends
         ]
@@ -431,7 +431,7 @@ def _with_one_type(ends: Iterable[Endpoint]) -> list[Endpoint]:
         of_name.setdefault(end.name, []).append(end)
     found: list[Endpoint] = []
     for alike in of_name.values():
-        one_of = len({end.type for end in alike}) > 1 and all(end.conditional for end in alike)
+        one_of = len({end.type for end in alike}) > 1 and all("condition" in end.evidence.doubts for end in alike)
         found += [replace(alike[0], type=None)] if one_of else alike
     return found
 

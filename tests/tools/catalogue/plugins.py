@@ -97,7 +97,7 @@ def _row(end: Endpoint) -> dict[str, Any]:
         "name": name,
         "type": end.type,
         "qos": dict(end.qos) or None,
-        "conditional": True if end.conditional else None,
+        "conditional": True if "condition" in end.evidence.doubts else None,
     }
 
 
