@@ -19,7 +19,7 @@ import pytest
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.dependencies import Dependencies, ParamDependency
 from preflight_analysis.tracing.intact import seal_of
-from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse
+from preflight_analysis.tracing.interface import SEEN, Endpoint, Interface, Outcome, ParamUse
 from preflight_analysis.tracing.node_recipe import make
 from preflight_analysis.tracing.preload import MOST_KEPT, Library
 from preflight_analysis.tracing.request import TraceRequest
@@ -235,7 +235,11 @@ def test_a_folder_that_cannot_be_written_costs_the_cache_alone(tmp_path: Path) -
 INTERFACE = Interface(
     "trace",
     Outcome("crashed", 1, None, ("last", "lines"), "why", 0.5),
-    (Endpoint("publisher", "a", "std_msgs/String", "0" * 32, {"latch": True}, "/x.py", 3, True, True),),
+    (
+        Endpoint(
+            "publisher", "a", "std_msgs/String", "0" * 32, {"latch": True}, "/x.py", 3, True, SEEN.but("made-up answer")
+        ),
+    ),
     (ParamUse("~p", "get", [1, {"k": None}], True, False, "/x.py", 4),),
     notes=("a note",),
 )

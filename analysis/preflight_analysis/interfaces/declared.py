@@ -14,8 +14,8 @@ from preflight_analysis.tracing.interface import Interface
 
 
 def annotated(node: LaunchNode, known: Interface) -> Part | None:
-    """The user's word for all that the node does. The tag of a simulated node is that of what spawns its robot."""
-    annotation = read_annotation(node.action)[0] if not known.complete and node.kind != "simulated" else None
+    """The user's word for all that the node does."""
+    annotation = read_annotation(node.action)[0] if _asks(node, known) else None
     return Part("annotation", annotation.endpoints, annotation.params) if annotation is not None else None
 
 
@@ -26,7 +26,7 @@ def settings_asked(launch: Launch, known: Sequence[Interface]) -> Rows | None:
 
 def of_settings(node: LaunchNode, known: Interface, settings: Sequence[NodeSettings]) -> Part | None:
     """The first that speak of the node."""
-    said = next((each for each in settings if each.speaks_of(node)), None) if not known.complete else None
+    said = next((each for each in settings if each.speaks_of(node)), None) if _asks(node, known) else None
     return Part("settings", said.endpoints, said.params) if said is not None else None
 
 
@@ -38,4 +38,9 @@ def nodl_asked(launch: Launch, known: Sequence[Interface]) -> Rows | None:
 
 def of_nodl(node: LaunchNode, known: Interface, said: Described | None) -> Part | None:
     """The document of the node."""
-    return Part("nodl", said.endpoints, said.params) if said is not None and not known.complete else None
+    return Part("nodl", said.endpoints, said.params) if said is not None and _asks(node, known) else None
+
+
+def _asks(node: LaunchNode, known: Interface) -> bool:
+    """Whether the words of others count. Those of a simulated node would be of what spawns its robot."""
+    return not known.complete and node.kind != "simulated"
