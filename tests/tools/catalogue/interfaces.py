@@ -409,7 +409,8 @@ def _params(uses: Iterable[ParamUse]) -> dict[str, Any]:
             **({"type": use.type} if use.type else {}),
             **({"default_value": use.default} if use.has_default and _is_fact(use.default) else {}),
             **({"has_default": True} if use.has_default and not _is_fact(use.default) else {}),
-            **{flag: True for flag in ("mandatory", "dynamic", "read_only", "conditional") if getattr(use, flag)},
+            **{flag: True for flag in ("mandatory", "dynamic", "read_only") if getattr(use, flag)},
+            **({"conditional": True} if "condition" in use.evidence.doubts else {}),
             **({"range": [use.range.low, use.range.high, use.range.step]} if use.range is not None else {}),
         }
         name = _below_its_own(use.name).replace("~/", "~", 1)
