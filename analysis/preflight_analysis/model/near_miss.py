@@ -28,15 +28,6 @@ class NearMiss:
     """Both types are known and equal."""
     provider_dangles: bool
 
-    def is_that(self, other: NearMiss) -> bool:
-        """Whether both say the same of the very same endpoints."""
-        return (
-            self.consumer is other.consumer
-            and self.provider is other.provider
-            and self.likeness == other.likeness
-            and (self.same_type, self.provider_dangles) == (other.same_type, other.provider_dangles)
-        )
-
     @property
     def site(self) -> Connection:
         """The endpoint at which it is reported: that whose name the launch sets, else the consumer."""

@@ -58,6 +58,12 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
         if connection.node is own:
             return  # it knows that name
     says_enough = alike is not None and (alike[0] == "typo" or _says_enough(consumer.name, channel.name, mine or ""))
+    short_name, long_name = sorted((consumer.name, channel.name), key=len)
+    how_far = len(long_name) - len(short_name)
+    may_be_slash = below and long_name.endswith(short_name)
+    has_level = below and extra_level(short_name, long_name) is not None
+    if not (may_be_slash or has_level or says_enough):
+        return
     for number, provider in enumerate(channel.providers):
         if provider.endpoint.builtin or provider.node is own:
             # What a node takes in and what it gives out have like names on purpose (`points`, `points_filtered`).
@@ -66,15 +72,14 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
         known = mine is not None and theirs is not None
         if (known and mine != theirs) or not (known or lone):
             continue
-        if known and below:
+        if known and may_be_slash:
             short, long = (consumer, provider) if len(consumer.name) <= len(provider.name) else (provider, consumer)
-            how_far = len(long.name) - len(short.name)
             if _is_slash(short, long):
                 yield number, "slash", how_far
                 continue
-            if extra_level(short.name, long.name) is not None:
-                yield number, "level", how_far
-                continue
+        if known and has_level:
+            yield number, "level", how_far
+            continue
         if alike is not None and says_enough and (alike[0] == "typo" or (known and lone)):
             yield number, *alike
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from operator import itemgetter
+from typing import NamedTuple
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection
@@ -15,8 +17,11 @@ from preflight_analysis.model.channels import channels_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import GENERIC_PACKAGES, all_dangling_consumers
 from preflight_analysis.model.near_miss import NearMiss
-from preflight_analysis.model.near_miss_evidence import best_rank, known_type, near_miss
+from preflight_analysis.model.near_miss_evidence import Rank, best_rank, known_type, near_miss
 from preflight_analysis.model.nearest import share_words
+
+_FEW = 16
+"""Channels that are others than before: where there are more, all consumers are looked at again."""
 
 
 @derived
@@ -30,57 +35,108 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
         return ()
     # Of one name in several domains the first one.
     channels = tuple(each for each in channels_of(context)[kind] if not (graph.domains.by_node and each.domain))
-    near = context.whole(_near_misses, kind, tuple(consumers), channels, graph.blind > 0)
+    near = tuple(context.whole(_found, kind, tuple(consumers), channels, graph.blind > 0).near.values())
     if not graph.domains.by_node:
         return near
     return tuple(each for each in near if graph.domains.apart(each.consumer.node, each.provider.node) is None)
 
 
-def _near_misses(
-    before: Before[tuple[NearMiss, ...]] | None,
-    consumers: tuple[Connection, ...],
-    channels: tuple[Channel, ...],
-    blind: bool,
-) -> tuple[NearMiss, ...]:
-    offered, found = _Offered(channels), list[NearMiss]()
-    was = {id(each.consumer): each for each in (before[1] if before is not None else ())}
+class _Choice(NamedTuple):
+    """The channel that a consumer was most likely meant for, and how well it fits; None where none does."""
+
+    consumer: Connection
+    best: tuple[Channel, Rank] | None
+
+    @property
+    def near(self) -> NearMiss | None:
+        """What that says."""
+        return near_miss(self.consumer, *self.best) if self.best is not None else None
+
+
+class _Found(NamedTuple):
+    """By the ids of the consumers."""
+
+    choices: Mapping[int, _Choice]
+    near: Mapping[int, NearMiss]
+
+
+def _found(
+    before: Before[_Found] | None, consumers: tuple[Connection, ...], channels: tuple[Channel, ...], blind: bool
+) -> _Found:
+    """What a consumer was meant for is what it was, unless that channel went or one that came fits better."""
+    (_, last, _), was = before if before is not None else (((), (), False), _Found({}, {}))
+    gone = {*map(id, last)}
+    new = [each for each in channels if id(each) not in gone]
+    gone.difference_update(map(id, channels))
+    offered, came = _Offered(channels), _Offered(new)
+    known = was.choices if len(new) <= _FEW else {}
+    choices: dict[int, _Choice] = {}
     for consumer in consumers:
-        near = offered.meant_for(consumer)
-        if near is not None and not (blind and not near.strong) and not offered.is_ambiguous(near):
-            known = was.get(id(consumer))
-            # What was made of it is found again.
-            found.append(known if known is not None and known.is_that(near) else near)
-    return tuple(found)
+        choice = known.get(id(consumer))
+        if choice is None or choice.consumer is not consumer or (choice.best and id(choice.best[0]) in gone):
+            choice = _Choice(consumer, offered.best(consumer))
+        else:
+            better = came.best(consumer) if new else None
+            if better is not None and (choice.best is None or better[1] < choice.best[1]):
+                choice = _Choice(consumer, better)
+        choices[id(consumer)] = choice
+    near: dict[int, NearMiss] = {}
+    for key, choice in choices.items():
+        said = was.near.get(key) if known.get(key) is choice else None
+        said = said or choice.near
+        if said is not None and not (blind and not said.strong) and not offered.is_ambiguous(said):
+            near[key] = said
+    return _Found(choices, near)
 
 
 class _Offered:
     """What is offered, by what it may be taken for."""
 
     def __init__(self, channels: Sequence[Channel]) -> None:
-        pairs = [(type_, each) for each in channels for type_ in {known_type(end) for end in each.providers}]
-        self._of_type = {
-            type_: Names((name, each) for of, each in pairs if of == type_ for name in _names(each, type_))
-            for type_ in {type_ for type_, _ in pairs}
-        }
-        self._kinds = Counter((type_, names.leaf(each.name)) for type_, each in pairs if type_ is not None)
-        self._lone = Counter(
+        self._channels = channels
+        self._pairs: dict[str | None, list[Channel]] = {}
+        for each in channels:
+            for type_ in {known_type(end) for end in each.providers}:
+                self._pairs.setdefault(type_, []).append(each)
+        self._pools: dict[str | None, Names[Channel]] = {}
+
+    def _pool(self, type_: str | None) -> Names[Channel]:
+        if type_ not in self._pools:
+            self._pools[type_] = Names(
+                (name, each) for each in self._pairs.get(type_, ()) for name in _names(each, type_)
+            )
+        return self._pools[type_]
+
+    def _like(self, consumer: Connection) -> Mapping[str, Channel]:
+        """The channels that a consumer may be meant for, by their names."""
+        type_ = known_type(consumer)
+        if type_ is None:
+            every = (self._pool(each).typos(consumer.name) for each in self._pairs)
+            return {name: channel for found in every for name, channel in found.items()}
+        pools = [self._pool(each) for each in (type_, None) if each in self._pairs]
+        return {channel.name: channel for pool in pools for channel in _like(pool, consumer)}
+
+    def best(self, consumer: Connection) -> tuple[Channel, Rank] | None:
+        """The best of those that are like it, and how well it fits."""
+        among = self._like(consumer).values()
+        ranks = ((each, best_rank(consumer, each, consumer.node)) for each in among)
+        return min(((each, rank) for each, rank in ranks if rank is not None), key=itemgetter(1), default=None)
+
+    @cached_property
+    def _kinds(self) -> Counter[tuple[str, str]]:
+        return Counter(
+            (type_, names.leaf(each.name)) for type_, some in self._pairs.items() if type_ is not None for each in some
+        )
+
+    @cached_property
+    def _lone(self) -> Counter[tuple[str, str, str]]:
+        return Counter(
             (side, end.endpoint.type or "", names.leaf(each.name))
-            for each in channels
+            for each in self._channels
             if not each.providers or not each.consumers
             for side, ends in (("providers", each.providers), ("consumers", each.consumers))
             for end in ends
         )
-
-    def meant_for(self, consumer: Connection) -> NearMiss | None:
-        """The best of those that are like it."""
-        type_ = known_type(consumer)
-        pools = [self._of_type[each] for each in (type_, None) if each in self._of_type]
-        among = {channel.name: channel for pool in pools for channel in _like(pool, consumer)}
-        if type_ is None:
-            among = {name: each for pool in self._of_type.values() for name, each in pool.typos(consumer.name).items()}
-        ranks = ((each, best_rank(consumer, each, consumer.node)) for each in among.values())
-        found = min(((each, rank) for each, rank in ranks if rank is not None), key=itemgetter(1), default=None)
-        return near_miss(consumer, *found) if found is not None else None
 
     def is_ambiguous(self, near: NearMiss) -> bool:
         """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
