@@ -768,3 +768,19 @@ def test_a_node_finds_files_where_the_build_installs_them(tmp_path: Path, build_
         ("publisher", "scan", "std_msgs/msg/String"),
         ("publisher", "all_there", "std_msgs/msg/String"),
     }
+
+
+@pytest.mark.parametrize(("attribute", "is_own"), [("count", True), ("get_parametr", True), ("executor.none", False)])
+def test_an_object_of_an_own_class_lacks_what_no_library_gives_it(tmp_path: Path, attribute: str, is_own: bool) -> None:
+    text = (
+        "import rclpy\nfrom rclpy.node import Node\n\n\nclass Sensor(Node):\n    def __init__(self):\n"
+        f"        super().__init__('sensor')\n        self.total = self.{attribute}\n\n\n"
+        "def main():\n    rclpy.init()\n    rclpy.spin(Sensor())\n"
+    )
+    harness = Ros2Harness(tmp_path, n=text)
+    launch = harness.write("launch/a.launch.xml", "<launch><node pkg='pkg' exec='n'/></launch>")
+    graph = checked(launch, without_rclpy(harness), None).graph
+    assert graph is not None
+    outcome = graph.processes[0].outcome
+    assert "AttributeError" in (outcome.reason or "")
+    assert (outcome.lacks is None) == is_own

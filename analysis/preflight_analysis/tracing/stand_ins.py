@@ -6,6 +6,7 @@ means for the node's end.
 
 from __future__ import annotations
 
+import ast
 import json
 import re
 from collections.abc import Iterator, Set
@@ -21,6 +22,33 @@ _FILE = f"{recipes.ROS_HOME}/stand_ins.json"
 _MOST_NAMED = 3
 _OURS = re.compile(r"(Attribute|Type|Import|ModuleNotFound|NotImplemented|Recursion)Error\b")
 """What a stand-in that is not like the real thing would make a node end for."""
+
+_NO_ATTRIBUTE = re.compile(r"AttributeError: '(\w+)' object has no attribute '(\w+)'")
+_FRAME = re.compile(r'  File "(/[^"]+\.?[^"/]*)", line \d+, in ')
+_LONGEST = 1_000_000
+"""Characters of a program that is looked into."""
+_BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
+_DIR = """
+PARAM_REL_TOL ParameterInput add_managed_entity add_on_set_parameters_callback add_post_set_parameters_callback
+add_pre_set_parameters_callback add_waitable clients context count_clients count_publishers count_services
+count_subscribers create_client create_guard_condition create_lifecycle_publisher create_publisher create_rate
+create_service create_subscription create_timer declare_parameter declare_parameters default_callback_group
+describe_parameter describe_parameters destroy_client destroy_guard_condition destroy_lifecycle_publisher
+destroy_node destroy_publisher destroy_rate destroy_service destroy_subscription destroy_timer executor
+get_client_names_and_types_by_node get_clock get_fully_qualified_name get_fully_qualified_node_names get_logger
+get_name get_namespace get_node_names get_node_names_and_namespaces get_node_names_and_namespaces_with_enclaves
+get_parameter get_parameter_or get_parameter_type get_parameter_types get_parameters get_parameters_by_prefix
+get_publisher_names_and_types_by_node get_publishers_info_by_topic get_service_names_and_types
+get_service_names_and_types_by_node get_subscriber_names_and_types_by_node get_subscriptions_info_by_topic
+get_topic_names_and_types guards handle has_parameter list_parameters on_activate on_cleanup on_configure
+on_deactivate on_error on_shutdown publishers remove_on_set_parameters_callback remove_post_set_parameters_callback
+remove_pre_set_parameters_callback remove_waitable resolve_service_name resolve_topic_name services set_descriptor
+set_parameters set_parameters_atomically subscriptions timers trigger_activate trigger_cleanup trigger_configure
+trigger_deactivate trigger_shutdown undeclare_parameter wait_for_node waitables
+"""
+"""`dir()` of rclpy's `Node` and `LifecycleNode` (Kilted)."""
+_OF_NODES = frozenset(_DIR.split())
+"""What a node in Python has of its library, whatever stands in for that."""
 
 _CONFIG = "dynamic_reconfigure"
 """What a build makes of its files is not here: which keys there are."""
@@ -58,7 +86,7 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     if outcome.status == "exited" and found.unknown and not _has_endpoints(found):
         # What it would have done is in the module that is missing.
         outcome, failed = replace(outcome, status="crashed"), True
-    ours = found.unknown or _OURS.search(outcome.reason or "") is not None
+    ours = found.unknown or (_OURS.search(outcome.reason or "") is not None and not _is_of_own_class(outcome))
     modules = sorted(found.stand_ins) if ours else []
     if not modules and _CONFIG in found.stand_ins and _lacks_key(outcome, found):
         modules = [_CONFIG]
@@ -69,6 +97,24 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     more = f" and {len(modules) - _MOST_NAMED} more" if len(modules) > _MOST_NAMED else ""
     plural = "s" if len(modules) > 1 else ""
     return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")
+
+
+def _is_of_own_class(outcome: Outcome) -> bool:
+    """Whether a node ended for what an object of a class of its own does not have, and no library would give it."""
+    missing = _NO_ATTRIBUTE.search(outcome.reason or "")
+    frames = [found[1] for line in outcome.stderr_tail if (found := _FRAME.match(line)) is not None]
+    if missing is None or missing[2] in _OF_NODES or missing[2].startswith("_") or not frames:
+        return False
+    try:
+        with open(frames[-1], encoding="utf-8") as stream:
+            tree = ast.parse(stream.read(_LONGEST))
+    except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
+        return False
+    own = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef) and node.name == missing[1]]
+    bases = {
+        base.attr if isinstance(base, ast.Attribute) else getattr(base, "id", "") for each in own for base in each.bases
+    }
+    return len(own) == 1 and not own[0].keywords and bases <= _BASES
 
 
 def _said_of_modules(outcome: Outcome, lacked: Set[str]) -> Iterator[str]:
