@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 from support.editor_harness import Harness
+from support.packaging import PYTHON, lay_out
+from support.unbuilt_packages import manifest
 
 pytestmark = pytest.mark.ros
 Run = Callable[..., Any]
@@ -246,3 +248,15 @@ def test_the_cache_folder_can_be_one_that_a_ci_keeps(harness: Harness, preflight
     moved = kept.rename(harness.home / "restored")
     again = preflight("check", harness.launch_file, "--cache-dir", moved)
     assert (again.out, harness.sandbox_starts()) == (done.out, starts), "not even the probe"
+
+
+def test_packages_that_no_launch_has_to_do_with(tmp_path: Path, preflight: Run) -> None:
+    lay_out(tmp_path, {**PYTHON, "setup.cfg": None, "launch/arm.launch.xml": None})
+    done = preflight("check", "--no-run", "--format", "json", cwd=tmp_path)
+    assert (done.code, rules(done.json), done.json["files"]) == (1, [("PKG011", "setup.py")], 0)
+    leg = lay_out(
+        tmp_path / "src/more", {"package.xml": manifest("leg", "ament_python"), "leg.launch.xml": "<launch/>"}
+    )
+    done = preflight("check", "--no-run", "--format", "json", cwd=tmp_path)
+    assert (rules(done.json), done.json["files"]) == ([("PKG011", "setup.py")], 1)
+    assert rules(preflight("check", "--no-run", "--format", "json", leg).json) == []

@@ -376,3 +376,25 @@ def test_a_package_that_has_the_file_alone(tmp_path: Path) -> None:
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     findings = workspace.static(str(launch), {}).findings
     assert [f.severity for f in findings if f.rule == "PKG001"] == ["info"]
+
+
+@pytest.mark.parametrize(
+    ("name", "severity"),
+    [
+        ("<your_package>", "error"),
+        ("{{package}}", "error"),
+        ("your_package", "warning"),
+        ("my_package", "warning"),
+        ("my_robot_pkg", "warning"),
+        ("package_name", "warning"),
+        ("TODO", "warning"),
+        ("my_robot", "info"),
+        ("packages", "info"),
+    ],
+)
+def test_the_placeholder_of_an_example(tmp_path: Path, name: str, severity: str) -> None:
+    launch = tmp_path / "a.launch.yaml"
+    launch.write_text(f"launch:\n- node: {{pkg: '{name}', exec: driver}}\n")
+    workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
+    (finding,) = (f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001")
+    assert (finding.severity, "placeholder" in finding.message) == (severity, severity != "info")

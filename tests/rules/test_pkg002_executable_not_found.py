@@ -10,6 +10,7 @@ from preflight_analysis.workspace.workspace import Workspace
 from support.check import findings_of
 from support.demo_package import judge
 from support.package_elsewhere import analysed
+from support.packaging import CMAKE, findings
 
 
 @pytest.mark.parametrize(
@@ -281,3 +282,33 @@ def test_a_program_that_a_build_file_names_in_a_way_that_is_not_followed(tmp_pat
     findings = Workspace(environment, Sources(), str(tmp_path)).static(str(launch)).findings
     found = [(f.severity, f.message.partition("; ")[2]) for f in findings if f.rule == "PKG002"]
     assert [severity for severity, _ in found] == ["info", "error"]
+
+
+IN_BIN = "error CMakeLists.txt of package 'arm' builds it and installs it in bin, not in lib/arm"
+
+
+@pytest.mark.parametrize(
+    ("installs", "said"),
+    [
+        ("", ["error CMakeLists.txt of package 'arm' builds it and does not install it"]),
+        (
+            "install(TARGETS driver DESTINATION bin)",
+            ["error CMakeLists.txt of package 'arm' builds it and installs it in bin, not in lib/arm"],
+        ),
+        (
+            "install(TARGETS driver)",
+            ["error CMakeLists.txt of package 'arm' builds it and installs it in bin, not in lib/arm"],
+        ),
+        ("install(TARGETS driver RUNTIME DESTINATION lib/${PROJECT_NAME})", ["hint"]),
+        ("install(TARGETS driver LIBRARY DESTINATION lib RUNTIME DESTINATION lib/arm)", ["hint"]),
+        ("install_all_of_it()", ["hint"]),
+    ],
+)
+def test_a_target_that_is_built_and_not_installed(tmp_path: Path, installs: str, said: list[str]) -> None:
+    lists = f"project(arm)\nadd_executable(driver src/driver.cpp)\n{installs}\nament_package()\n"
+    launch = '<launch><node pkg="arm" exec="driver"/></launch>'
+    found = findings(tmp_path, {**CMAKE, "CMakeLists.txt": lists, "launch/arm.launch.xml": launch}, "PKG002")
+    assert len(found) == len(said)
+    for finding, expected in zip(found, said, strict=True):
+        severity, _, message = expected.partition(" ")
+        assert (finding.severity, finding.message.endswith(message)) == (severity, True)

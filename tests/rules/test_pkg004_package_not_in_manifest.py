@@ -9,6 +9,7 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import apply, check
+from support.packaging import PYTHON, said
 
 MANIFEST = """
         //- /robot/package.xml
@@ -32,7 +33,7 @@ def test_a_package_that_the_manifest_does_not_name() -> None:
           <node pkg="camera" type="driver" name="driver"/>
           <node pkg="robot" type="base" name="base"/>
           <node pkg="rviz" type="rviz" name="rviz" args="$(find rviz)"/>
-                     ^^^^ hint[PKG004] package 'rviz' is not a dependency in package.xml of 'robot'
+                     ^^^^ info[PKG004] package 'rviz' is not a dependency in package.xml of 'robot'
         </launch>"""
         + MANIFEST
     )
@@ -53,7 +54,7 @@ def test_the_first_dependency_of_a_manifest(file: str, head: str, line: str) -> 
     text = f"""
         //- {file}
         <launch><param name="a" value="$(find rviz)"/></launch>
-                                              ^^^^ hint[PKG004]
+                                              ^^^^ info[PKG004]
         //- /robot/package.xml
         {head}
           <name>robot</name>
@@ -81,11 +82,11 @@ def test_paths_packages_and_remaps_as_in_ros1() -> None:
         launch:
           - node:
               pkg: camera
-                   ^^^^^^ hint[PKG004] package 'camera' is not a dependency in package.xml of 'p'
+                   ^^^^^^ info[PKG004] package 'camera' is not a dependency in package.xml of 'p'
               exec: driver
               name: $(find-pkg-share lidar)
                     ^^^^^^^^^^^^^^^^^^^^^^^ error[LCH009]
-                                     ^^^^^ hint[PKG004] package 'lidar' is not a dependency in package.xml of 'p'
+                                     ^^^^^ info[PKG004] package 'lidar' is not a dependency in package.xml of 'p'
               remap:
                 - {from: scan, to: scan}
         //- /p/package.xml
@@ -135,3 +136,23 @@ def generate_launch_description():
     (found,) = (finding for finding in findings if finding.rule == "PKG004")
     assert "'camera'" in found.message
     assert text[found.location.span.start : found.location.span.end] == "camera"
+
+
+IMPORTS = "import rclpy\nfrom std_msgs.msg import String\nimport numpy\nfrom arm.planner import main\n"
+
+
+def test_what_modules_import(tmp_path: Path) -> None:
+    files = {
+        **PYTHON,
+        "arm/driver.py": IMPORTS,
+        "arm/planner.py": "def main():\n    import sensor_msgs\nimport std_msgs\n",
+    }
+    assert said(tmp_path, files, "PKG004") == [
+        "arm/driver.py:2 info package 'std_msgs' is not a dependency in package.xml of 'arm'"
+    ]
+
+
+@pytest.mark.silent
+def test_imports_of_tests_and_launch_files(tmp_path: Path) -> None:
+    files = {**PYTHON, "test/test_arm.py": IMPORTS, "launch/b.launch.py": "import launch_ros\n"}
+    assert said(tmp_path, files, "PKG004") == []

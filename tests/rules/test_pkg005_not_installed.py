@@ -8,6 +8,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support.packaging import CMAKE, LISTS, said
 from support.unbuilt_packages import SETUP, findings, manifest
 
 
@@ -126,3 +127,46 @@ def test_a_copy_of_a_launch_file_that_was_put_aside(workspace: Path) -> None:
     environment = detect_environment(str(workspace), {}, root=str(workspace / "nothing"))
     found = Workspace(environment, Sources()).static(str(launch)).findings
     assert [(f.rule, f.severity) for f in found if f.rule == "PKG005"] == [("PKG005", "info")]
+
+
+RVIZ = """<launch>
+  <node pkg="rviz2" exec="rviz2" args="-d $(find-pkg-share arm)/rviz/arm.rviz"/>
+  <node pkg="arm" exec="driver"><param name="map" value="$(find-pkg-share arm)/maps/hall.yaml"/></node>
+</launch>
+"""
+URDF = """<robot name="arm"><link name="base"><visual><geometry>
+  <mesh filename="package://arm/meshes/base.stl"/>
+  <mesh filename="package://arm/meshes/${side}.stl"/>
+</geometry></visual></link></robot>
+"""
+OPENED = {
+    "rviz/arm.rviz": "",
+    "maps/hall.yaml": "",
+    "meshes/base.stl": "",
+    "urdf/arm.urdf": URDF,
+    "launch/arm.launch.xml": RVIZ,
+}
+
+
+def test_what_nodes_and_descriptions_open(tmp_path: Path) -> None:
+    lacks = "is not installed in the share folder: CMakeLists.txt of 'arm' does not list it"
+    assert said(tmp_path, {**CMAKE, **OPENED}, "PKG005") == [
+        f"launch/arm.launch.xml:2 warning file 'rviz/arm.rviz' {lacks}",
+        f"launch/arm.launch.xml:3 warning file 'maps/hall.yaml' {lacks}",
+        f"urdf/arm.urdf:2 warning file 'meshes/base.stl' {lacks}",
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "lists",
+    [
+        LISTS.replace("DIRECTORY launch", "DIRECTORY launch maps meshes rviz"),
+        LISTS.replace("DIRECTORY launch", "DIRECTORY launch maps rviz").replace(
+            "ament_p", "install(FILES meshes/base.stl DESTINATION share/arm/meshes)\nament_p"
+        ),
+        LISTS.replace("ament_p", "install_the_rest()\nament_p"),
+    ],
+)
+def test_what_is_opened_and_installed(tmp_path: Path, lists: str) -> None:
+    assert said(tmp_path, {**CMAKE, **OPENED, "CMakeLists.txt": lists}, "PKG005") == []

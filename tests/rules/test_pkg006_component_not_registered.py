@@ -10,6 +10,7 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.package_elsewhere import analysed
+from support.packaging import CMAKE, LISTS, said
 from support.unbuilt_packages import manifest
 
 MANIFEST = "<package><name>p</name><export><build_type>ament_cmake</build_type></export></package>"
@@ -136,3 +137,42 @@ def test_a_component_that_another_version_may_have(tmp_path: Path) -> None:
     for plugin in ("image_proc::RectifyNode", "image_proc::UndistortNode"):
         text = LAUNCH.format(package="image_proc", plugin=plugin)
         assert not [f for f in analysed(tmp_path, text, "a.launch.xml", "jazzy").findings if f.rule == "PKG006"]
+
+
+REGISTERS = LISTS.replace(
+    "install(T",
+    'add_library(vision SHARED src/vision.cpp)\nrclcpp_components_register_nodes(vision "arm::Detector")\ninstall(T',
+)
+CLASS = "namespace arm { class Detector : public rclcpp::Node {}; }\n"
+MACRO = "RCLCPP_COMPONENTS_REGISTER_NODE({})\n"
+
+
+@pytest.mark.parametrize(
+    ("source", "hint"),
+    [
+        (CLASS, ""),
+        (f"{CLASS}// {MACRO.format('arm::Detector')}", ""),
+        (CLASS + MACRO.format("arm::Detektor"), "; did you mean 'arm::Detektor'?"),
+    ],
+)
+def test_a_source_without_the_macro(tmp_path: Path, source: str, hint: str) -> None:
+    assert said(tmp_path, {**CMAKE, "CMakeLists.txt": REGISTERS, "src/vision.cpp": source}, "PKG006") == [
+        "CMakeLists.txt:6 error no RCLCPP_COMPONENTS_REGISTER_NODE(arm::Detector) in the sources of 'vision' "
+        f"(src/vision.cpp): no container can load it{hint}"
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "files",
+    [
+        {"src/vision.cpp": CLASS + MACRO.format("arm::Detector")},
+        {"src/vision.cpp": f"{CLASS}namespace arm {{ {MACRO.format('Detector')} }}"},
+        {"src/vision.cpp": CLASS, "include/arm/vision.hpp": MACRO.format("arm::Detector")},
+        {"src/vision.cpp": f"{CLASS}CLASS_LOADER_REGISTER_CLASS(arm::Detector, rclcpp_components::NodeFactory)"},
+        {"src/vision.cpp": "int unrelated;"},
+        {},
+    ],
+)
+def test_a_source_that_registers_or_is_not_known(tmp_path: Path, files: dict[str, str]) -> None:
+    assert said(tmp_path, {**CMAKE, "CMakeLists.txt": REGISTERS, **files}, "PKG006") == []

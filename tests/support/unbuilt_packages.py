@@ -61,6 +61,8 @@ def create_unbuilt_packages(folder: Path) -> Path:
     files = {
         "robot/package.xml": manifest("robot", "ament_python"),
         "robot/setup.py": SETUP,
+        "robot/setup.cfg": "[install]\ninstall_scripts=$base/lib/robot\n",
+        "robot/resource/robot": "",
         "robot/robot/__init__.py": "",
         "robot/robot/driver.py": "def main():\n    pass\n",
         "robot/config/driver.yaml": "/driver:\n  ros__parameters:\n    rate: 10\n",

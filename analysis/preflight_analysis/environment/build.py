@@ -16,6 +16,16 @@ MADE = "<build>"
 
 
 @dataclass(frozen=True, slots=True)
+class Said:
+    """Where a build file says something: the command at an offset."""
+
+    file: str
+    at: int
+    sure: bool
+    """Whether it is said under no condition."""
+
+
+@dataclass(frozen=True, slots=True)
 class Target:
     """An executable or a library. `output` is the name of its file, of a library without `lib` and ending."""
 
@@ -33,6 +43,7 @@ class Program:
 
     path: str
     relayed: bool
+    said: Said | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +54,20 @@ class Installed:
     destination: str
     name: str
     """What it is called there; "" where only what is in the folder is installed."""
+    said: Said | None = None
+    optional: bool = False
+    """Whether it need not be there."""
+    runs: bool = False
+    """Whether it may be executed once it is installed."""
+
+
+@dataclass(frozen=True, slots=True)
+class InstalledTarget:
+    """A target that is installed, and the folder below the prefix in which programs then are."""
+
+    name: str
+    destination: str
+    said: Said
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +90,11 @@ class Build:
     """Files and folders other than programs and targets."""
     components: Mapping[str, str] = field(default_factory=dict)
     """Library by the class of each rclcpp component that it registers."""
+    components_said: Mapping[str, Said] = field(default_factory=dict)
+    """Where each class is registered."""
+    installed_targets: tuple[InstalledTarget, ...] = ()
+    targets_said: Mapping[str, Said] = field(default_factory=dict)
+    """Where each executable is made, without those of tests."""
     parameter_libraries: Mapping[str, str] = field(default_factory=dict)
     """The YAML file of each library of generate_parameter_library, by the name that its header has."""
     component_programs: Mapping[str, str] = field(default_factory=dict)

@@ -17,7 +17,16 @@ from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.environment.build import LISTS, MADE, Build, Installed, Program, Target
+from preflight_analysis.environment.build import (
+    LISTS,
+    MADE,
+    Build,
+    Installed,
+    InstalledTarget,
+    Program,
+    Said,
+    Target,
+)
 from preflight_analysis.environment.cmake_strings import items_of, texts_made
 from preflight_analysis.environment.cmake_syntax import MAX_DEPTH, Command, Word, commands
 from preflight_analysis.environment.cmake_values import (
@@ -63,7 +72,10 @@ _AT_BUILD = re.compile(r"\A\$<BUILD_INTERFACE:([^<>]*)>\Z")
 """A folder that only counts where the package is built, not where it is installed."""
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
 _MAY_EXECUTE = frozenset(("OWNER_EXECUTE", "GROUP_EXECUTE", "WORLD_EXECUTE"))
+_RUNS = _MAY_EXECUTE | {"USE_SOURCE_PERMISSIONS", "FILE_PERMISSIONS", "PERMISSIONS"}
 _SCRIPTS = (".py", ".sh", ".bash")
+_KINDS = frozenset(re.findall(r"\w+", "ARCHIVE BUNDLE EXPORT FRAMEWORK INCLUDES LIBRARY OBJECTS PUBLIC_HEADER RUNTIME"))
+"""Of what `install(TARGETS)` installs."""
 _PLACES = frozenset(
     re.findall(
         r"\w+",
@@ -111,6 +123,14 @@ class _Lists:
         self._programs: dict[str, Program] = {}
         self._installed: list[Installed] = []
         self._components: dict[str, str] = {}
+        self._components_said: dict[str, Said] = {}
+        self._installed_targets: list[InstalledTarget] = []
+        self._targets_said: dict[str, Said] = {}
+        self._said = Said("", 0, True)
+        self._file = ""
+        self._calls = 0
+        self._conditions = 0
+        """How many macros and conditions are around what is read."""
         self._component_programs: dict[str, str] = {}
         self._parameter_libraries: dict[str, str] = {}
         self._plugin_files: dict[str, None] = {}
@@ -131,6 +151,9 @@ class _Lists:
             self._programs,
             tuple(self._installed),
             self._components,
+            self._components_said,
+            tuple(self._installed_targets),
+            self._targets_said,
             self._parameter_libraries,
             self._component_programs,
             tuple(self._plugin_files),
@@ -149,7 +172,9 @@ class _Lists:
         made = os.path.join(self._top, MADE)
         here["CMAKE_CURRENT_BINARY_DIR"] = os.path.normpath(os.path.join(made, os.path.relpath(folder, self._top)))
         above |= {"CMAKE_BINARY_DIR": made, "PROJECT_BINARY_DIR": made}
+        before, self._file = self._file, os.path.join(folder, LISTS)
         self._block(commands(text), {**above, **here}, depth + 1)
+        self._file = before
         return True
 
     def _block(self, block: Sequence[Command], variables: dict[str, str], depth: int) -> None:
@@ -157,6 +182,8 @@ class _Lists:
             self._left -= 1
             if self._left < 0:
                 raise _TooLargeError
+            if not self._calls:
+                self._said = Said(self._file, command.at, not self._conditions)
             if command.name == "foreach":
                 self._foreach(command, variables, depth)
             elif command.name == "if":
@@ -170,6 +197,7 @@ class _Lists:
                     continue
                 if command.name == "install" and any(map(is_only_known_to_cmake(variables), command.words)):
                     self.complete = False
+                    self._said = replace(self._said, sure=False)
                 self._command(command.name, words_of(command.words, variables), variables, depth)
 
     def _if(self, command: Command, variables: dict[str, str], depth: int) -> None:
@@ -181,7 +209,9 @@ class _Lists:
                 continue
             known = known_condition(condition, self._generation)
             if known is not False:
+                self._conditions += known is None
                 self._block(branch, variables, depth + 1)
+                self._conditions -= known is None
             if known or each is None:
                 break
             condition, branch = each.words if each.name == "elseif" else (), []
@@ -243,6 +273,8 @@ class _Lists:
                 self._target(target, "executable", rest, folder)
             case ("add_executable" | "add_library") as kind, [target, *rest]:
                 self._target(target, "executable" if kind == "add_executable" else "library", rest, folder)
+                if name == "add_executable" and "IMPORTED" not in rest and "ALIAS" not in rest:
+                    self._targets_said.setdefault(target, self._said)
             case "google_binary", [target, *rest]:  # cartographer's, which links the library of the project
                 self._target(target, "executable", rest, folder)
                 self._targets[target].links.append(variables.get("PROJECT_NAME", ""))
@@ -265,7 +297,9 @@ class _Lists:
                 self._programs_of(rest, folder, f"lib/{variables['PROJECT_NAME']}")
                 if not _MAY_EXECUTE.isdisjoint(rest):
                     self._made_executable(rest, folder)
-            case "install", ["TARGETS" | "EXPORT", *_]:
+            case "install", ["TARGETS", *rest]:
+                self._install_targets(rest)
+            case "install", ["EXPORT", *_]:
                 pass
             case "package", [*_] if "INSTALL_TO_SHARE" in words:  # ament_auto_package
                 folders = words[words.index("INSTALL_TO_SHARE") + 1 :]
@@ -277,6 +311,7 @@ class _Lists:
                     at = plugins.index("RESOURCE_INDEX")
                     plugins = [*plugins[:at], *plugins[at + 2 :]]
                 self._components.update(dict.fromkeys(plugins, target))
+                self._components_said.update(dict.fromkeys(plugins, self._said))
             case "pluginlib_export_plugin_description_file", [_, file, *_]:
                 self._plugin_files[os.path.normpath(os.path.join(folder, file))] = None
             case "ament_python_install_package", [package, *rest]:
@@ -297,10 +332,10 @@ class _Lists:
         if text is None:
             self.complete = False
             return
-        before = variables["CMAKE_CURRENT_LIST_DIR"]
-        variables["CMAKE_CURRENT_LIST_DIR"] = os.path.dirname(path)
+        before = variables["CMAKE_CURRENT_LIST_DIR"], self._file
+        variables["CMAKE_CURRENT_LIST_DIR"], self._file = os.path.dirname(path), path
         self._block(commands(text), variables, depth + 1)
-        variables["CMAKE_CURRENT_LIST_DIR"] = before
+        variables["CMAKE_CURRENT_LIST_DIR"], self._file = before
 
     def _called(self, macro: Command, words: list[str], variables: dict[str, str], depth: int) -> None:
         if depth >= MAX_DEPTH:
@@ -310,7 +345,9 @@ class _Lists:
         given |= {"ARGN": joined(words[len(names) :]), "ARGV": joined(words)}
         given |= {f"ARGV{index}": word for index, word in enumerate(words)}
         scope = {**variables, **given}
+        self._calls += 1
         self._block(macro.inner, scope, depth + 1)
+        self._calls -= 1
         if macro.name == "macro":
             variables.update({name: value for name, value in scope.items() if name not in given})
 
@@ -341,12 +378,24 @@ class _Lists:
         """A component that has an executable of its own as well."""
         plugin = words[words.index("PLUGIN") + 1]
         self._components[plugin] = target
+        self._components_said[plugin] = self._said
         if "EXECUTABLE" in words[:-1] and target in self._targets:
             name = words[words.index("EXECUTABLE") + 1]
             self._component_programs[name] = plugin
             self._targets.setdefault(name, _Making(name, "executable", list(self._targets[target].sources), [target]))
 
-    def _data(self, words: Sequence[str], folder: str, *, whole: bool) -> None:
+    def _install_targets(self, words: Sequence[str]) -> None:
+        """Programs are what is RUNTIME; a destination without a kind is that of all kinds."""
+        end = next((index for index, word in enumerate(words) if word in _PLACES or word in _KINDS), len(words))
+        rest = list(words[end:])
+        of_runtime = rest[rest.index("RUNTIME") :] if "RUNTIME" in rest else []
+        of_all = list(itertools.takewhile(lambda word: word not in _KINDS, rest))
+        given = (each[each.index("DESTINATION") + 1] for each in (of_runtime, of_all) if "DESTINATION" in each[:-1])
+        where = next(given, "bin")
+        where = os.path.normpath(where).lstrip("/")
+        self._installed_targets += [InstalledTarget(name, where, self._said) for name in words[:end]]
+
+    def _data(self, words: Sequence[str], folder: str, *, whole: bool, runs: bool = False) -> None:
         destination = words[words.index("DESTINATION") + 1]
         end = next((index for index, word in enumerate(words) if word in _PLACES), len(words))
         renamed = words[words.index("RENAME") + 1] if "RENAME" in words[:-1] else None
@@ -354,7 +403,8 @@ class _Lists:
             path = os.path.normpath(os.path.join(folder, word))
             # A folder with a slash at its end stands for what is in it.
             name = "" if whole and word.endswith("/") else renamed or os.path.basename(path)
-            self._installed.append(Installed(path, destination, name))
+            optional, may_run = "OPTIONAL" in words, runs or not _RUNS.isdisjoint(words)
+            self._installed.append(Installed(path, destination, name, self._said, optional, may_run))
 
     def _programs_of(self, words: Sequence[str], folder: str, where: str) -> None:
         """The programs among the files, or below the folders, that are installed at `where` or below: `ros2 run` looks
@@ -391,7 +441,7 @@ class _Lists:
         files, rest = words[:end], list(words[end:])
         renamed = rest[rest.index("RENAME") + 1] if "RENAME" in rest[:-1] else None
         if "DESTINATION" in rest[:-1]:  # launch files that are programs are installed like others
-            self._data(words, folder, whole=False)
+            self._data(words, folder, whole=False, runs=True)
         for file in files:
             path = os.path.normpath(os.path.join(folder, file))
-            self._programs.setdefault(renamed or os.path.basename(path), Program(path, relayed))
+            self._programs.setdefault(renamed or os.path.basename(path), Program(path, relayed, self._said))

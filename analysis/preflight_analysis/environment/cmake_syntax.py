@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import field
 
 from preflight_analysis.dataclass import dataclass
 
@@ -38,6 +39,8 @@ class Command:
     words: tuple[Word, ...]
     inner: tuple[Command, ...] = ()
     """What stands between an `if`, `foreach`, `macro` or `function` and its end."""
+    at: int = field(default=0, compare=False)
+    """Where its name stands in the text."""
 
 
 def commands(text: str) -> tuple[Command, ...]:
@@ -49,7 +52,7 @@ def commands(text: str) -> tuple[Command, ...]:
 def _flat(text: str) -> Iterator[Command]:
     name: str | None = None
     words: list[Word] = []
-    depth = 0
+    depth, at = 0, 0
     for token in _TOKEN.finditer(text):
         paren, word = token["paren"], token["word"]
         if paren == "(":
@@ -57,10 +60,10 @@ def _flat(text: str) -> Iterator[Command]:
         elif paren == ")":
             depth = max(depth - 1, 0)
             if not depth and name is not None:
-                yield Command(name, tuple(words))
+                yield Command(name, tuple(words), at=at)
                 name, words = None, []
         elif word is not None and not depth:
-            name, words = word.lower(), []
+            name, words, at = word.lower(), [], token.start()
         elif word is not None:
             words.append(Word(word))
         elif token["quoted"] is not None:
@@ -76,7 +79,7 @@ def _nested(flat: Iterator[Command], end: str | None, depth: int) -> tuple[Comma
             break
         if command.name in _ENDS and depth < MAX_DEPTH:
             inner = _nested(flat, _ENDS[command.name], depth + 1)
-            found.append(Command(command.name, command.words, inner))
+            found.append(Command(command.name, command.words, inner, command.at))
         else:
             found.append(command)
     return tuple(found)

@@ -14,13 +14,15 @@ import importlib
 import os
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 
+_SCRIPTS_TO = {"install": "install_scripts", "develop": "script_dir"}
+"""The option of each command of setuptools that says where scripts go."""
 _TOML = "tomllib" if sys.version_info >= (3, 11) else "tomli"
 
 _MAX_TEXT = 200_000
@@ -54,6 +56,36 @@ class EntryPoint:
 
 
 @dataclass(frozen=True, slots=True)
+class Copied:
+    """A file that `data_files` names, as it is written, the folder below the prefix that it goes to, and where
+    `setup.py` says so (counted from 0)."""
+
+    destination: str
+    source: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Called:
+    """What `setup()` is given, as far as it is known."""
+
+    line: int
+    """Of the call, counted from 0."""
+    name: str | None = None
+    entries: tuple[tuple[str, int], ...] = ()
+    """The texts of `console_scripts`, and the line of each, counted from 0."""
+    copied: tuple[Copied, ...] = ()
+    modules: frozenset[str] | None = None
+    """The packages and top modules that are installed, by their dotted names; None where they are not known."""
+    finds: bool = False
+    """Whether `find_packages` has looked for them."""
+    scripts_to: Mapping[str, str] = field(default_factory=dict)
+    """The folder of scripts below the prefix, by the command of setuptools: `install` or `develop`."""
+    all_known: bool = True
+    """Whether no keyword is given that cannot be read."""
+
+
+@dataclass(frozen=True, slots=True)
 class PythonBuild:
     """`scripts` are the executables that entry points make, by name, `programs` the files of those that are installed
     as they are. `data` maps what is installed below `share/<package>/` (relative paths)
@@ -67,6 +99,8 @@ class PythonBuild:
     complete: bool = False
     file: str | None = None
     """The file that says so, where a fix goes."""
+    called: Called | None = None
+    """None without a call of `setup()`."""
 
 
 def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
@@ -99,19 +133,25 @@ def read_python_build(folder: str, package: str, disk: Disk) -> PythonBuild:
                 data[os.path.join(below, os.path.basename(source))] = os.path.normpath(os.path.join(folder, source))
     paths = (os.path.normpath(os.path.join(folder, program)) for program in programs[:_MAX_FILES])
     by_name = {os.path.basename(path): path for path in paths if disk.is_file(path)}
-    return PythonBuild(scripts, by_name, data, found is None or found.all_programs, complete, file)
+    called = found.called(_folders_from_cfg(disk.content(os.path.join(folder, "setup.cfg")))) if found else None
+    return PythonBuild(scripts, by_name, data, found is None or found.all_programs, complete, file, called)
 
 
 def _entry_point(folder: str, name: str, target: str, line: int, disk: Disk) -> EntryPoint:
     module, _, function = target.partition(":")
     module, function = module.strip(), function.split("[")[0].strip()
+    return EntryPoint(name, module, function, module_file(folder, module, disk), line)
+
+
+def module_file(folder: str, module: str, disk: Disk) -> str | None:
+    """The source of a module of the package in a folder; None if it is not there."""
     relative = module.replace(".", os.sep)
     for root in ("", "src"):
         for candidate in (f"{relative}.py", os.path.join(relative, "__init__.py")):
             path = os.path.join(folder, root, candidate)
             if disk.is_file(path):
-                return EntryPoint(name, module, function, path, line)
-    return EntryPoint(name, module, function, None, line)
+                return path
+    return None
 
 
 def _from_cfg(text: str) -> dict[str, str]:
@@ -122,6 +162,27 @@ def _from_cfg(text: str) -> dict[str, str]:
     except configparser.Error:
         return {}
     return dict(_scripts(lines.splitlines()))
+
+
+def _folders_from_cfg(text: str | None) -> dict[str, str] | None:
+    """Where scripts go, by command; None where that cannot be read."""
+    parser = configparser.ConfigParser(interpolation=None, strict=False)
+    try:
+        parser.read_string(text or "")
+        found: dict[str, str] = {}
+        for command, option in _SCRIPTS_TO.items():
+            section = (
+                {key.replace("-", "_"): value for key, value in parser.items(command)} if command in parser else {}
+            )
+            if option in section:
+                found[command] = _below_prefix(section[option])
+    except configparser.Error:
+        return None
+    return found
+
+
+def _below_prefix(folder: str) -> str:
+    return os.path.normpath(folder.strip().removeprefix("$base").lstrip("/"))
 
 
 def _from_toml(text: str) -> dict[str, str]:
@@ -161,6 +222,12 @@ class _Setup:
         self.scripts: dict[str, tuple[str, int]] = {}
         self.data_files: list[tuple[str, list[str]]] = []
         self.programs: list[str] = []
+        self._entries: list[tuple[str, int]] = []
+        self._copied: list[Copied] = []
+        self._modules: dict[str, list[str] | None] = {}
+        self._given: dict[str, Any] = {}
+        self._finds = False
+        self._line: int | None = None
         self.all_programs = True
         self.complete = True
         self._steps = 0
@@ -223,8 +290,13 @@ class _Setup:
             self._append(call, name)
         if name != "setup":
             return
+        self._line = call.lineno - 1
         for keyword in call.keywords:
-            if keyword.arg == "entry_points":
+            if keyword.arg in ("packages", "py_modules"):
+                self._modules[keyword.arg] = self._names_of(keyword.value)
+            elif keyword.arg in ("name", "options"):
+                self._given[keyword.arg] = self._known(keyword.value)
+            elif keyword.arg == "entry_points":
                 self._entry_points(keyword.value)
             elif keyword.arg == "scripts":
                 self._programs(keyword.value)
@@ -232,6 +304,42 @@ class _Setup:
                 self._data_files(keyword.value)
             elif keyword.arg is None:
                 self.complete = self.all_programs = False
+
+    def called(self, scripts_to: Mapping[str, str] | None) -> Called | None:
+        """What `setup()` was called with; `scripts_to` is what `setup.cfg` says."""
+        if self._line is None:
+            return None
+        given, name = self._given.get("options", {}), self._given.get("name")
+        known = scripts_to is not None and isinstance(given, dict)
+        folders = dict(scripts_to or {})
+        for command, option in _SCRIPTS_TO.items() if isinstance(given, dict) else ():
+            options = given.get(command)
+            if isinstance(options, dict) and isinstance(options.get(option), str):
+                folders[command] = _below_prefix(options[option])
+        modules = frozenset[str]() if "packages" in self._modules else None
+        for names in self._modules.values():
+            modules = modules | frozenset(names) if modules is not None and names is not None else None
+        return Called(
+            self._line,
+            name if isinstance(name, str) else None,
+            tuple(self._entries),
+            tuple(self._copied),
+            modules,
+            self._finds,
+            folders,
+            known and self.all_programs,
+        )
+
+    def _known(self, node: ast.expr) -> Any:
+        try:
+            return self._value(node)
+        except (_Unknown, RecursionError):
+            return None
+
+    def _names_of(self, node: ast.expr) -> list[str] | None:
+        value = self._known(node)
+        whole = isinstance(value, (list, tuple)) and all(isinstance(each, str) for each in value)
+        return list(value) if whole else None
 
     def _programs(self, node: ast.expr) -> None:
         try:
@@ -269,6 +377,7 @@ class _Setup:
                     self.all_programs = False
                     continue
                 lines = [v for v in value if isinstance(v, str)] if isinstance(value, list) else str(value).splitlines()
+                self._entries += [(line, item.lineno - 1) for line in lines if line.strip()]
                 for name, target in _scripts(lines):
                     self.scripts[name] = (target, item.lineno - 1)
 
@@ -283,10 +392,15 @@ class _Setup:
                     items.append(self._value(element))
                 except (_Unknown, RecursionError):
                     continue
-        for item in items:
+        elements = getattr(node, "elts", [])
+        lines = (
+            [each.lineno - 1 for each in elements] if len(elements) == len(items) else [node.lineno - 1] * len(items)
+        )
+        for item, line in zip(items, lines, strict=True):
             if isinstance(item, (tuple, list)) and len(item) == 2 and isinstance(item[0], str):
-                sources = item[1] if isinstance(item[1], (list, tuple)) else []
-                self.data_files.append((item[0], [s for s in sources if isinstance(s, str)]))
+                sources = [s for s in item[1] if isinstance(s, str)] if isinstance(item[1], (list, tuple)) else []
+                self.data_files.append((item[0], sources))
+                self._copied += [Copied(os.path.normpath(item[0]), source, line) for source in sources[:_MAX_FILES]]
             else:
                 self.complete = False
 
@@ -317,6 +431,10 @@ class _Setup:
                 return "".join(str(self._value(p.value if isinstance(p, ast.FormattedValue) else p)) for p in parts)
             case ast.List(elts=elements):
                 return [self._value(element) for element in elements]
+            case ast.Dict(keys=keys, values=values):
+                if not all(isinstance(key, ast.Constant) for key in keys):
+                    raise _Unknown
+                return {self._value(k): self._value(v) for k, v in zip(keys, values, strict=True) if k is not None}
             case ast.Tuple(elts=elements):
                 return tuple(self._value(element) for element in elements)
             case ast.BinOp(left=left, op=ast.Add(), right=right):
@@ -366,6 +484,8 @@ class _Setup:
     def _called(self, name: str, args: list[ast.expr], call: ast.Call) -> Any:
         if (variable := _variable(ast.unparse(call))) is not None:
             return variable
+        if name.rpartition(".")[2] == "find_packages":
+            return self._found_packages(args, call)
         values = [self._value(arg) for arg in args]
         texts = [value for value in values if isinstance(value, str)]
         if name in ("os.path.join", "join", "path.join") and texts and len(texts) == len(values):
@@ -380,6 +500,30 @@ class _Setup:
         if name in ("list", "sorted") and len(values) == 1 and isinstance(values[0], (list, tuple)):
             return list(values[0])
         raise _Unknown
+
+    def _found_packages(self, args: list[ast.expr], call: ast.Call) -> list[str]:
+        """What setuptools' `find_packages(where, exclude, include)` gives."""
+        given = dict(zip(("where", "exclude", "include"), args, strict=False))
+        given |= {keyword.arg or "": keyword.value for keyword in call.keywords}
+        values = {name: self._value(value) for name, value in given.items()}
+        where = values.pop("where", ".")
+        if not isinstance(where, str) or not {*values} <= {"exclude", "include"} or ".." in where.split("/"):
+            raise _Unknown
+        self._finds = True
+        include, exclude = values.get("include", ("*",)), values.get("exclude", ())
+        for patterns in (include, exclude):
+            if not isinstance(patterns, (list, tuple)) or not all(isinstance(each, str) for each in patterns):
+                raise _Unknown
+        found, pending = list[str](), [(os.path.normpath(os.path.join(self._folder, where)), "")]
+        while pending:
+            folder, package = pending.pop()
+            for name, is_folder in self._listed(folder):
+                path, full = os.path.join(folder, name), f"{package}.{name}".lstrip(".")
+                if is_folder and "." not in name and self._disk.is_file(os.path.join(path, "__init__.py")):
+                    pending.append((path, full))
+                    if _matches(full, include) and not _matches(full, exclude):
+                        found.append(full)
+        return found
 
     def _glob(self, pattern: str, recursive: bool) -> list[str]:
         if os.path.isabs(pattern) or ".." in pattern.split("/"):
@@ -429,3 +573,7 @@ class _Setup:
         if self._looked_at > _MAX_ENTRIES:
             raise _Unknown
         return [(name, self._disk.is_folder(os.path.join(folder, name))) for name in names]
+
+
+def _matches(name: str, patterns: Iterable[str]) -> bool:
+    return any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)

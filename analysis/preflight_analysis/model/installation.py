@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from typing import Literal, NamedTuple
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import (
@@ -16,7 +17,7 @@ from preflight_analysis.environment.installed_paths import (
     made_by_build,
     package_around,
 )
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.model.context import Context
@@ -54,7 +55,12 @@ class Installation(NamedTuple):
 
 def installation(context: Context, path: str) -> Installation | None:
     """What comes of a file; None where it is in the source of no package."""
-    disk, package = context.disk, package_around(context.environment, path)
+    return installation_in(context.disk, context.environment, path)
+
+
+def installation_in(disk: Disk, environment: Environment, path: str) -> Installation | None:
+    """Likewise without a launch."""
+    package = package_around(environment, path)
     if package is None or not package.is_ament or not path.startswith(package.share + os.sep):
         return None
     if any(disk.is_file(os.path.join(folder, MANIFEST)) for folder in _between(package.share, path)):
@@ -72,7 +78,7 @@ def installation(context: Context, path: str) -> Installation | None:
 def named_installation(context: Context, use: Use) -> Installation | None:
     """What comes of the file that a value names by its share folder: what stands at that path in the source is taken
     for what is there once it is installed. None for what is named in other ways, such as beside the launch file."""
-    if use.kind not in ("include", "file") or use.target is None or not _is_by_share(context, use.location):
+    if use.kind not in ("include", "file") or use.target is None or not is_by_share(context, use.location):
         return None
     return installation(context, os.path.normpath(use.name))
 
@@ -102,7 +108,8 @@ def _between(share: str, path: str) -> Iterator[str]:
         folder = os.path.dirname(folder)
 
 
-def _is_by_share(context: Context, location: Location) -> bool:
+def is_by_share(context: Context, location: Location) -> bool:
+    """Whether a path is that of a share folder: what is named beside the launch file is found in the source too."""
     document = context.documents.get(location.file)
     if document is None:
         return False

@@ -160,7 +160,7 @@ class _Imports:
             self._seen.add(file)
             if not isinstance(document, Document) or not (file.endswith(".py") or _PYTHON.match(document.text)):
                 continue
-            for name, node in _imported(document.text):
+            for name, node in imported(document.text):
                 found = self.find(name, file)
                 line = document.location(document.lines.line_span(node.lineno - 1))
                 if isinstance(found, tuple):
@@ -248,7 +248,7 @@ class _Imports:
         return False
 
 
-def _imported(text: str) -> Iterator[tuple[str, ast.stmt]]:
+def imported(text: str) -> Iterator[tuple[str, ast.stmt]]:
     """The modules that a program imports whenever it is loaded, by their full names; of a name that may be one as well
     as something else in a module `module:name`."""
     try:

@@ -23,6 +23,7 @@ CONTROLLER_MANAGER = (
     "(https://control.ros.org/master/doc/ros2_control/controller_manager/doc/userdoc.html)"
 )
 DOMAINS = f"[ROS 2: The ROS_DOMAIN_ID]({_DOCS}/Concepts/Intermediate/About-Domain-ID.html)"
+ENTRY_POINTS = "[setuptools: Entry points](https://setuptools.pypa.io/en/latest/userguide/entry_point.html)"
 FILE_SYSTEM = f"[REP 122: Filesystem hierarchy layout]({_REP}/rep-0122.html)"
 FORMATS = (
     f"[ROS 2: Using XML, YAML, and Python for launch files]({_DOCS}/How-To-Guides/Launch-file-different-formats.html)"
@@ -67,6 +68,7 @@ PARAMETERS_DESIGN = f"[ROS 2 design: Parameters]({_DESIGN}/ros_parameters.html)"
 PARAMETER_SERVER = f"[ROS 1: Parameter server]({_WIKI}/Parameter%20Server)"
 PLUGINLIB = f"[ROS 1: pluginlib]({_WIKI}/pluginlib)"
 PLUGINS = f"[ROS 2: Creating and using plugins]({_DOCS}/Tutorials/Beginner-Client-Libraries/Pluginlib.html)"
+PYTHON_PACKAGES = f"[ROS 2: Developing a ROS 2 package]({_DOCS}/How-To-Guides/Developing-a-ROS-2-Package.html)"
 QOS = (
     f"[ROS 2: About quality of service settings]({_DOCS}/Concepts/Intermediate/About-Quality-of-Service-Settings.html)"
 )

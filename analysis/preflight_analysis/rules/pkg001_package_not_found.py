@@ -1,6 +1,7 @@
 """PKG001: a package that is not there."""
 
 import os
+import re
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.catalogue.released import distributions_with
@@ -37,6 +38,12 @@ _GENERIC = frozenset(
 )  # fmt: skip
 """Words that packages of all kinds have in their names, and those of drivers of all makes."""
 
+_NO_NAME = re.compile(r"[<>{}\s]")
+_PLACEHOLDER = re.compile(
+    r"(?i)\A(?:<.*>|\{\{.*\}\}|(?:your|my)[_-](?:\w+[_-])?(?:package|pkg)(?:[_-]name)?|(?:package|pkg)[_-]name|todo\w*|fixme"
+    r"|xxx+)\Z"
+)
+"""Names that stand in examples for that of a package, of which some could be no name."""
 _ROLES = frozenset(
     ("bringup", "config", "control", "description", "descriptions", "gazebo", "launch", "moveit", "msgs", "navigation",
      "sim", "simulation", "teleop", "viz")
@@ -105,7 +112,7 @@ def _not_here(
     having = distributions_with(name, context.tree.generation)
     lack: Lack | None = lack_of_package(context, name)
     meant: str | None = None
-    is_sure = True
+    is_sure, is_placeholder = True, False
     text = f"package '{name}' is neither installed nor in the workspace"
     if having:
         package = debian_package_of(context, name)
@@ -113,6 +120,9 @@ def _not_here(
         text = f"package '{name}' is not installed{which}"
     elif name in _named_by_manifests(context):
         text += " nor released for any distribution"
+    elif _PLACEHOLDER.search(name):
+        text = f"'{name}' is the placeholder of an example, no package; write the name of the package"
+        lack, is_placeholder = None, True
     elif (having_it := has_what_is_asked_of(context, location.file, name)) is not None:
         other, path = having_it
         text += f" nor released for any distribution; package '{other.name}' has '{path}'{did_you_mean(other.name)}"
@@ -134,9 +144,9 @@ def _not_here(
         text,
         location,
         subject=Subject("package", name),
-        kind="absent" if meant is None else "near",
+        kind="invalid" if is_placeholder else "absent" if meant is None else "near",
         effect="stops-launch" if stops else None,
-        doubts=doubts(UNSEEN=not having, ON_ROBOT=not is_sure),
+        doubts=doubts(UNSEEN=not having and not _NO_NAME.search(name), ON_ROBOT=not is_sure),
         candidates=(meant,),
         related=related,
         fixes=rename(context, location, name, meant, preferred=False) if meant is not None else (),

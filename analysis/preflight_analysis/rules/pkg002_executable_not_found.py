@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from preflight_analysis.environment.build import LISTS, Made
 from preflight_analysis.environment.git_ignored import is_ignored
+from preflight_analysis.environment.installed_paths import cmake_build
 from preflight_analysis.environment.model import Package
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
@@ -68,6 +69,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             yield rule.claim(
                 message, location, subject=no_program, kind="invalid", doubts=doubts(UNSEEN=installed), related=chain
             )
+            continue
+        if is_build_target and (what := _not_installed(context, *wanted)) is not None:
+            yield rule.claim(what, location, subject=about, kind="unreachable", related=chain)
             continue
         if is_build_target:
             message = _unbuilt(node.executable, node.package, made_of, found.package_path)
@@ -161,6 +165,24 @@ def _other_package(context: Context, executables: ExecutableNames, node: LaunchN
     wanted = {other.package for other in context.tree.nodes} | packages[node.package].dependencies
     own = {name for name in wanted - {node.package} if name in packages and _is_own(context, packages[name])}
     return next((name for name in sorted(own) if node.executable in executables.names(name)), None)
+
+
+def _not_installed(context: Context, package: str, name: str) -> str | None:
+    """What is said of an executable that is built and that `CMakeLists.txt` does not install in `lib` (ROS 2)."""
+    known = context.environment.packages.get(package)
+    if known is None or not known.is_ament or not _is_own(context, known):
+        return None
+    build = cmake_build(context.disk, known)
+    target = build.executable(name)
+    said = build.targets_said.get(target.name) if target is not None else None
+    if target is None or said is None or not said.sure or not build.complete:
+        return None
+    wanted = f"lib/{package}"
+    places = [each.destination for each in build.installed_targets if each.name == target.name]
+    if any(place == wanted for place in places):
+        return None
+    where = f"installs it in {places[0]}, not in {wanted}" if places else "does not install it"
+    return f"executable '{name}' is not found: CMakeLists.txt of package '{package}' builds it and {where}"
 
 
 def _unbuilt(name: str, package: str, made_of: Made | None, folder: str) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from preflight_analysis.catalogue.released import distributions_with
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import Span
@@ -12,6 +13,7 @@ from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.findings.claim import Subject
@@ -20,14 +22,47 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix
+from preflight_analysis.model.python_imports import imported
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
+from preflight_analysis.rules.packages import check_packages
 from preflight_analysis.rules.rule import Rule
 
 _FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
+_NOT_NODES = frozenset((*_TEST_FOLDERS, "launch", "build", "install", "log", "doc", "docs", "examples"))
+_MOST_FILES = 500
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _of_launch_files(rule, context)
+    yield from check_packages(of_package)(rule, context)
+
+
+def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
+    """The packages that the Python modules of a package import and its manifest does not name, each once."""
+    said = {package.name, *package.dependencies}
+    manifest = disk.text(package.manifest)
+    for path in files_in(disk, package.share, deep=True)[:_MOST_FILES]:
+        folders = os.path.relpath(path, package.share).split(os.sep)
+        document = disk.text(path) if path.endswith(".py") and folders != ["setup.py"] else None
+        if not isinstance(document, Document) or not _NOT_NODES.isdisjoint(folders[:-1]) or path.endswith("launch.py"):
+            continue
+        for name, statement in imported(document.text):
+            top = re.split("[.:]", name)[0]
+            if not top or top in said or not (top in environment.packages or distributions_with(top, 2)):
+                continue
+            said.add(top)
+            line = document.lines.line_span(statement.lineno - 1)
+            at = document.text.find(top, line.start)
+            yield rule.claim(
+                f"package '{top}' is not a dependency in {os.path.basename(package.manifest)} of '{package.name}'",
+                document.location(Span(at, at + len(top)) if at >= 0 else line),
+                subject=Subject("package", top),
+                fixes=_fixes(manifest, package, top, path),
+            )
+
+
+def _of_launch_files(rule: Rule, context: Context) -> Iterator[Finding]:
     files = tuple(context.launch_files.values())
     manifests: dict[str, Document | Unreadable] = {}
     for launch_file, found in zip(files, context.each(_missing, files, context.environment), strict=True):
@@ -121,10 +156,11 @@ def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str
 RULE = Rule(
     id="PKG004",
     name="package-not-in-manifest",
-    effect="style",
+    effect="note",
     kind="absent",
-    what="Checks for a package that a launch file uses and the `package.xml` of its own package does not name as any "
-    "kind of dependency. Each package is reported once in a file.",
+    what="Checks for a package that a launch file uses, or in ROS 2 a Python module imports, and that the "
+    "`package.xml` of its own package does not name as any kind of dependency. Each package is reported once in a "
+    "launch file, and once for all modules.",
     why="`rosdep` and binary packages install only declared dependencies. The launch file fails where no other "
     "package needs the missing one. In ROS 1 `roslaunch_add_file_check` reports the same.",
     example='<!-- of a package whose package.xml does not name rviz -->\n<node pkg="rviz" type="rviz" name="rviz"/>',
@@ -135,4 +171,5 @@ RULE = Rule(
         ROSDEP,
     ),
     check=_check,
+    of_package=of_package,
 )

@@ -15,7 +15,7 @@ from preflight_analysis.environment.installed_paths import located
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
-from preflight_analysis.evaluation.tree import CommandValue, LaunchNode, LaunchTree, Param, Use
+from preflight_analysis.evaluation.tree import CommandValue, Include, LaunchNode, LaunchTree, Param, Use
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
@@ -83,7 +83,7 @@ class _Named:
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     values: Mapping[Location, list[Use]] | None = None
-    for named in chain(_in_params(context), _in_arguments(context), _apart_from_folder(context)):
+    for named in chain(_in_params(context), _in_arguments(context), _in_includes(context), _apart_from_folder(context)):
         for path in _missing(named.text, context):
             values = _argument_uses(context.tree) if values is None else values
             given = named.location()
@@ -195,6 +195,27 @@ def _texts_of_arguments(node: LaunchNode) -> tuple[str, ...]:
         if option not in ("-o", "-O") and not _made_when_run(option):
             found.append(value)
     return tuple(found)
+
+
+def _in_includes(context: Context) -> Iterator[_Named]:
+    """What is passed to files that cannot be read: nobody sees what they do with it."""
+    for include in context.tree.includes:
+        if include.path is not None and include.path in context.launch_files:
+            continue
+        for name, value in include.args.items():
+            if value is not None and "/" in value and not any(map(_made_when_run, (name, os.path.basename(value)))):
+                place = partial(_passed_at, context, include, name)
+                yield _Named(value, f"argument '{name}' of an include", place, include.origin)
+
+
+def _passed_at(context: Context, include: Include, name: str) -> Location:
+    launch_file = context.launch_files.get(include.file_location.file)
+    action = action_at(launch_file, include.origin[-1].span.start + 1) if launch_file is not None else None
+    for child in action.children if action is not None else ():
+        named, value = child.value("name"), child.value("value")
+        if named is not None and value is not None and named.text == name:
+            return context.location(include.file_location.file, value.span)
+    return include.file_location
 
 
 def _apart_from_folder(context: Context) -> Iterator[_Named]:

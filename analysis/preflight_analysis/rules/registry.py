@@ -16,8 +16,10 @@ from types import ModuleType
 
 import preflight_analysis.rules as package
 from preflight_analysis.catalogue.launches import catalogued_file
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
@@ -103,6 +105,14 @@ def found_in_loose_files(context: Context) -> Iterator[Finding]:
     """What is wrong with parameter files of the package that no node of the launch gets. To read them takes time: it is
     no part of what is found at a keystroke."""
     yield from findings_of_loose_files(context)
+
+
+def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[Package]) -> Iterator[Finding]:
+    """What is wrong with how packages are built and installed, whatever launch starts their nodes."""
+    for each in packages:
+        for rule in all_rules():
+            if rule.of_package is not None:
+                yield from rule.of_package(rule, disk, environment, each)
 
 
 def _of_branches(needs_graph: bool, pause: Callable[[], object]) -> Iterator[Rule]:

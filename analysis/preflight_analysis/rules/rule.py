@@ -7,7 +7,9 @@ from dataclasses import field, replace
 from typing import TypeVar
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.claim import Effect, Kind, Subject, Text, as_text
 from preflight_analysis.findings.clipping import SHORT, clipped
 from preflight_analysis.findings.doubt import Doubt, Reason
@@ -23,6 +25,7 @@ T = TypeVar("T")
 
 
 Check = Callable[["Rule", Context], Iterable[Finding]]
+OfPackage = Callable[["Rule", Disk, Environment, Package], Iterable[Finding]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +39,7 @@ class Rule(RuleDescription):
     says counts where it is grave and of a parameter that only the branch sets.
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
+    `of_package`: what it says of one package of the workspace, whatever launch starts its nodes.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
     `of_robot`: it speaks of what a robot description has and lacks as a whole: where that has parts from the catalogue
     it is not certain.
@@ -45,6 +49,7 @@ class Rule(RuleDescription):
     """
 
     check: Check = field(repr=False)
+    of_package: OfPackage | None = field(default=None, repr=False)
     problems: tuple[type[ProblemKind], ...] = ()
     needs_graph: bool = False
     every_root: bool = False

@@ -45,7 +45,7 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.behavior_trees import trees_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.robot.sources import documents_of
-from preflight_analysis.rules.registry import found_in_branch, found_in_loose_files, run_rules
+from preflight_analysis.rules.registry import found_in_branch, found_in_loose_files, found_in_packages, run_rules
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.tracing import preload
 from preflight_analysis.tracing.interface import Interface
@@ -370,6 +370,13 @@ class Workspace:
         found = branches_of(analysis.tree, analysis.launch_files, dict(analysis.args), ask, ask_params)
         found = found.with_others(found_in_loose_files(analysis.context), self.sources)
         return replace(found, failures=tuple(failures))
+
+    def findings_of_packages(self, packages: Iterable[Package]) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
+        """What is wrong with how packages are built that no launch has to do with, and the texts of the files."""
+        found = tuple(found_in_packages(self.sources, self.environment, packages))
+        texts = {path: self.sources.text(path) for path in {each.location.file for each in found}}
+        documents = {path: text for path, text in texts.items() if isinstance(text, Document)}
+        return with_offered_fixes(found, self.sources.content), documents
 
     def with_interfaces(
         self,

@@ -23,6 +23,7 @@ from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, relative, to_json, to_text
+from preflight_analysis.rules.packages import packages_of
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
@@ -161,6 +162,9 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     changed = {each.home: changed_since(args.changed_since, each.home) for each in chosen} if args.changed_since else {}
     progress = Progress(sum(len(each.roots) for each in chosen))
     found: list[_Launched] = []
+    reached: set[str] = set()
+    of_packages: list[Finding] = []
+    documents: dict[str, Document] = {}
     failed: list[Failure] = []
     done = 0
     try:
@@ -175,6 +179,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                     done += 1
                     with _noted(failed, root):
                         project = launch.workspace.analysed(root.path, dict(root.args))
+                        reached.update(each.share for each in packages_of(project.analysis.context))
                         if not changed or touched(project.analysis, changed[launch.home], settings):
                             branches = launch.workspace.branches(project.analysis)
                             launch.workspace.workspace.set_branches(project.analysis.launch, branches)
@@ -187,9 +192,14 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                         found.append(_Launched.of(root, project.with_results(), untried))
     finally:
         progress.end()
+    for launch in chosen if not changed else ():
+        rest = [package for package in launch.packages if package.share not in reached]
+        more, texts = launch.workspace.workspace.findings_of_packages(rest)
+        of_packages += more
+        documents |= texts
     kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))
     files = tuple(dict.fromkeys(file for each in kept for file in each.files))
-    documents = {path: document for each in kept for path, document in each.documents.items()}
+    documents |= {path: document for each in kept for path, document in each.documents.items()}
     left_out = frozenset[str]().union(*(each.left_out for each in kept))
     nodes = [node for each in kept for node in each.nodes]
     coverage = Coverage(
@@ -202,7 +212,7 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     )
     problems = dict.fromkeys(problem for each in kept for problem in each.problems)
     failed += [failure for each in kept for failure in each.failures]
-    return Report.of(_merged(kept), documents, coverage, problems, failed), files
+    return Report.of((*_merged(kept), *of_packages), documents, coverage, problems, failed), files
 
 
 @contextmanager

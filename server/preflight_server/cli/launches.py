@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import workspace_of
+from preflight_analysis.environment.model import Package
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.project_settings import read_project_settings
 
@@ -26,6 +27,8 @@ class Launches:
     roots: tuple[Root, ...]
     asked: frozenset[Root]
     """Those that the command or the settings name: launched even if another one includes them."""
+    packages: tuple[Package, ...] = ()
+    """Those of ROS 2 in the folders that are named."""
 
 
 def launches(args: argparse.Namespace) -> list[Launches]:
@@ -33,7 +36,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
 
     A file is launched as it is, with the arguments `name:=value`. Of a folder each file that nothing includes is, and
     what the settings name, once with each of their profiles of arguments. Raises `CannotDoError` for a path that does
-    not exist, and for a folder without launch files.
+    not exist, and for a folder without launch files and packages.
     """
     values = [each for each in args.launch_args if ":=" in each]
     paths = [each for each in args.launch_args if ":=" not in each]
@@ -41,6 +44,7 @@ def launches(args: argparse.Namespace) -> list[Launches]:
         raise CannotDoError("name:=value is for a launch file, and none is named")
     wanted: dict[str, list[Root]] = {}
     asked: dict[str, set[Root]] = {}
+    packages: dict[str, dict[str, Package]] = {}
     opened: dict[str, OpenWorkspace] = {}
     for given in paths or ["."]:
         path = require(given)
@@ -52,12 +56,17 @@ def launches(args: argparse.Namespace) -> list[Launches]:
             raise CannotDoError(f"{given} is a folder; arguments for its launch files stand in .ros-preflight.yaml")
         named = _named_below(path, home) if folder else [Root.of(path, options.launch_args(values, path))]
         found = _roots_below(path, named, opened[home]) if folder else named
-        if not found:
+        own = opened[home].workspace.environment.own_packages if folder else ()
+        below = {each.share: each for each in own if each.is_ament and _below(each.share, path)}
+        if not found and not below:
             raise CannotDoError(f"there are no launch files in {given}")
+        packages.setdefault(home, {}).update(below)
         wanted.setdefault(home, []).extend(found)
         asked.setdefault(home, set()).update(named)
     return [
-        Launches(home, opened[home], tuple(dict.fromkeys(roots)), frozenset(asked[home]))
+        Launches(
+            home, opened[home], tuple(dict.fromkeys(roots)), frozenset(asked[home]), tuple(packages[home].values())
+        )
         for home, roots in wanted.items()
     ]
 

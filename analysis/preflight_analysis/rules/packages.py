@@ -1,0 +1,59 @@
+"""Claims about how a package is built and installed, whatever launch starts its nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.build import Said
+from preflight_analysis.environment.installed_paths import package_around
+from preflight_analysis.environment.model import Package
+from preflight_analysis.findings.finding import Finding
+from preflight_analysis.model.context import Context
+from preflight_analysis.rules.rule import Check, OfPackage, Rule
+
+
+def check_packages(of_package: OfPackage) -> Check:
+    """The check of a rule about packages: those that the launch files are in and those of the nodes."""
+
+    def check(rule: Rule, context: Context) -> Iterator[Finding]:
+        for package in packages_of(context):
+            yield from of_package(rule, context.disk, context.environment, package)
+
+    return check
+
+
+def packages_of(context: Context) -> tuple[Package, ...]:
+    """The packages of the workspace that a launch has to do with."""
+    environment = context.environment
+    found = {package.name: package for file in context.launch_files if (package := package_around(environment, file))}
+    named = {node.package for node in context.tree.nodes} & environment.packages.keys()
+    found |= {name: environment.packages[name] for name in sorted(named)}
+    return tuple(package for package in found.values() if package.is_ament and not environment.is_installed(package))
+
+
+def line_of(document: Document, line: int, part: str = "") -> Location:
+    """A part of a line, counted from 0; all of it where the part is not there."""
+    whole = document.lines.line_span(line)
+    text = document.text[whole.start : whole.end]
+    at = text.find(part) if part else -1
+    if at >= 0:
+        return document.location(Span(whole.start + at, whole.start + at + len(part)))
+    stripped = text.strip()
+    start = whole.start + (text.index(stripped) if stripped else 0)
+    return document.location(Span(start, start + len(stripped)))
+
+
+def said_at(disk: Disk, said: Said, part: str = "") -> Location | None:
+    """Where a command of `CMakeLists.txt` has a part; where it starts if that is not written so."""
+    document = disk.text(said.file)
+    if not isinstance(document, Document):
+        return None
+    opened = document.text.find("(", said.at)
+    end = document.text.find(")", said.at) if opened >= 0 else -1
+    at = document.text.find(part, opened, end) if part and end >= 0 else -1
+    if at >= 0:
+        return document.location(Span(at, at + len(part)))
+    return document.location(Span(said.at, opened if opened >= 0 else said.at))
