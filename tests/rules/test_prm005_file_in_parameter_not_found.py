@@ -3,11 +3,13 @@
 from pathlib import Path
 
 import pytest
+from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import check
+from support.packaging import PYTHON, lay_out
 
 
 def test_a_file_that_comes_to_be_is_there_without_an_edit(tmp_path: Path) -> None:
@@ -313,3 +315,39 @@ def test_one_that_git_ignores_and_another_folder_has() -> None:
         //- /p/map/simulation/hall.yaml
         a: 1
     """)
+
+
+def test_what_an_include_passes_that_nobody_can_read(tmp_path: Path) -> None:
+    files = {
+        **PYTHON,
+        "maps/hall.yaml": "",
+        "launch/arm.launch.py": """import os
+from ament_index_python.packages import get_package_share_directory as share
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        IncludeLaunchDescription(
+            os.path.join(share('not_here'), 'launch', 'a.launch.py'),
+            launch_arguments={
+                'map': os.path.join(share('arm'), 'maps', 'hal.yaml'),
+                'there': os.path.join(share('arm'), 'maps', 'hall.yaml'),
+                'log_file': os.path.join(share('arm'), 'maps', 'a.txt'),
+            }.items(),
+        ),
+    ])
+""",
+    }
+    package = lay_out(tmp_path, files)
+    environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
+    workspace = Workspace(environment, Sources(), str(tmp_path))
+    found = workspace.static(str(package / "launch/arm.launch.py")).findings
+    assert [(f.severity, f.message) for f in found if f.rule == "PRM005"] == [
+        (
+            "warning",
+            "file 'arm/maps/hal.yaml' in argument 'map' of an include does not exist; did you mean "
+            "'arm/maps/hall.yaml'?",
+        )
+    ]

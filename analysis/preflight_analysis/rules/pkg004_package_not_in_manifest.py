@@ -1,6 +1,7 @@
 """PKG004: a package that a launch file needs and the package.xml above it does not name."""
 
 import os
+import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
