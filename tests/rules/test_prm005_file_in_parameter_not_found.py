@@ -321,29 +321,20 @@ def test_what_an_include_passes_that_nobody_can_read(tmp_path: Path) -> None:
     files = {
         **PYTHON,
         "maps/hall.yaml": "",
-        "launch/arm.launch.py": """import os
-from ament_index_python.packages import get_package_share_directory as share
-from launch import LaunchDescription
-from launch.actions import IncludeLaunchDescription
-
-
-def generate_launch_description():
-    return LaunchDescription([
-        IncludeLaunchDescription(
-            os.path.join(share('not_here'), 'launch', 'a.launch.py'),
-            launch_arguments={
-                'map': os.path.join(share('arm'), 'maps', 'hal.yaml'),
-                'there': os.path.join(share('arm'), 'maps', 'hall.yaml'),
-                'log_file': os.path.join(share('arm'), 'maps', 'a.txt'),
-            }.items(),
-        ),
-    ])
+        "launch/arm.launch.xml": """<launch>
+          <arg name="maps" default="$(find-pkg-share arm)/maps"/>
+          <include file="$(find-pkg-share not_here)/launch/a.launch.xml">
+            <arg name="map" value="$(var maps)/hal.yaml"/>
+            <arg name="there" value="$(var maps)/hall.yaml"/>
+            <arg name="log_file" value="$(var maps)/a.txt"/>
+          </include>
+        </launch>
 """,
     }
     package = lay_out(tmp_path, files)
     environment = detect_environment(str(tmp_path), {}, root=str(tmp_path / "nothing"))
     workspace = Workspace(environment, Sources(), str(tmp_path))
-    found = workspace.static(str(package / "launch/arm.launch.py")).findings
+    found = workspace.static(str(package / "launch/arm.launch.xml")).findings
     assert [(f.severity, f.message) for f in found if f.rule == "PRM005"] == [
         (
             "warning",
