@@ -29,3 +29,14 @@ def _files_in(db: Database, folder: str, deep: bool) -> tuple[str, ...]:
             below = (os.path.join(place, name) for name in reversed(inner) if not name.startswith("."))
             pending += (path for path in below if not disk.is_link(path))
     return tuple(found[:_MOST_ENTRIES])
+
+
+def module_file(folder: str, module: str, disk: Disk) -> str | None:
+    """The source of a module of the package in a folder; None if it is not there."""
+    relative = module.replace(".", os.sep)
+    for root in ("", "src"):
+        for candidate in (f"{relative}.py", os.path.join(relative, "__init__.py")):
+            path = os.path.join(folder, root, candidate)
+            if disk.is_file(path):
+                return path
+    return None

@@ -20,6 +20,7 @@ from typing import Any
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.package_files import module_file
 
 _SCRIPTS_TO = {"install": "install_scripts", "develop": "script_dir"}
 """The option of each command of setuptools that says where scripts go."""
@@ -141,17 +142,6 @@ def _entry_point(folder: str, name: str, target: str, line: int, disk: Disk) -> 
     module, _, function = target.partition(":")
     module, function = module.strip(), function.split("[")[0].strip()
     return EntryPoint(name, module, function, module_file(folder, module, disk), line)
-
-
-def module_file(folder: str, module: str, disk: Disk) -> str | None:
-    """The source of a module of the package in a folder; None if it is not there."""
-    relative = module.replace(".", os.sep)
-    for root in ("", "src"):
-        for candidate in (f"{relative}.py", os.path.join(relative, "__init__.py")):
-            path = os.path.join(folder, root, candidate)
-            if disk.is_file(path):
-                return path
-    return None
 
 
 def _from_cfg(text: str) -> dict[str, str]:

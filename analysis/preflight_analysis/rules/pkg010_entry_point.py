@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
@@ -13,8 +14,7 @@ from preflight_analysis.edits.python import PythonWriter
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.installed_paths import python_build
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.package_files import files_in
-from preflight_analysis.environment.setup_py import Called, module_file
+from preflight_analysis.environment.package_files import files_in, module_file
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
@@ -24,6 +24,9 @@ from preflight_analysis.model.python_definitions import names_of_module, runs_wh
 from preflight_analysis.rules.further_reading import ENTRY_POINTS, PYTHON_PACKAGES
 from preflight_analysis.rules.packages import check_packages, line_of
 from preflight_analysis.rules.rule import Rule
+
+if TYPE_CHECKING:
+    from preflight_analysis.environment.setup_py import Called
 
 _ENTRY = re.compile(r"\s*(?P<name>[^=]+?)\s*=\s*(?P<module>[\w.]+)\s*(?::\s*(?P<function>[\w.]+)\s*)?(?:\[.*\]\s*)?\Z")
 """As setuptools reads one."""

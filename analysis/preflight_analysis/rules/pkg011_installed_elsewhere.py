@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build, Installed
 from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Environment, Package
-from preflight_analysis.environment.setup_py import Called
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
@@ -18,6 +18,9 @@ from preflight_analysis.launch.recognize import LAUNCH_SUFFIXES
 from preflight_analysis.rules.further_reading import FILE_SYSTEM, PYTHON_PACKAGES
 from preflight_analysis.rules.packages import check_packages, line_of, said_at
 from preflight_analysis.rules.rule import Rule
+
+if TYPE_CHECKING:
+    from preflight_analysis.environment.setup_py import Called
 
 _OF_ROS2_LAUNCH = (*LAUNCH_SUFFIXES, ".launch.py", "_launch.py", ".launch.xml", ".launch.yaml")
 _MANIFEST = "package.xml"
