@@ -195,3 +195,175 @@ def test_a_namespace_that_is_a_slip_of_one_in_several_files(tmp_path: Path, file
         "section '/seond_robot/ihm' applies to no node; did you mean '/second_robot/ihm'? 2 parameter files nearby "
         "have that namespace"
     ] * said
+
+
+def test_a_section_that_is_called_as_the_executable_or_by_the_code_of_a_node_that_was_renamed() -> None:
+    """The sections for the costmap, which is within the process, do not make it right."""
+    found = findings_of("""
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="nav2_controller" exec="controller_server" name="nav2_controller"><param from="/p.yaml"/></node>
+          <node pkg="nav2_planner" exec="planner_server" name="planner_server"><param from="/p.yaml"/></node>
+          <node_container pkg="rclcpp_components" exec="component_container" name="box" namespace="">
+            <composable_node pkg="nav2_smoother" plugin="nav2_smoother::SmootherServer" name="path_filter">
+              <param from="/p.yaml"/>
+            </composable_node>
+          </node_container>
+        </launch>
+        //- /p.yaml
+        controller_server:
+          ros__parameters: {controller_frequency: 20.0}
+        local_costmap:
+          local_costmap:
+            ros__parameters: {global_frame: odom}
+        smoother_server:
+          ros__parameters: {smoother_plugins: [a]}
+        planner_server:
+          ros__parameters: {expected_planner_frequency: 20.0}
+        bt_navigator:
+          ros__parameters: {bt_loop_duration: 10}
+    """)
+    assert [(f.message, f.severity) for f in found if f.rule == "PRM011" and f.location.file == "/p.yaml"] == [
+        (
+            "section '/controller_server' applies to no node that gets this file; did you mean '/nav2_controller'?",
+            "warning",
+        ),
+        ("section '/smoother_server' applies to no node that gets this file (only /path_filter)", "warning"),
+    ]
+
+
+_IN_NAMESPACE = """
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="nav2_controller" exec="controller_server" namespace="r1"><param from="/p.yaml"/></node>
+          <node pkg="p" exec="pilot" namespace="r1"><param from="/p.yaml"/></node>
+        </launch>
+        //- /p.yaml
+        {}
+    """
+
+
+def test_no_name_of_its_own_takes_a_node_out_of_the_namespace_of_its_launch_file() -> None:
+    """`__ns` is for all nodes of a process, whatever its code calls them."""
+    text = _IN_NAMESPACE.format(
+        "controller_server: {ros__parameters: {a: 1}}\n        pilot: {ros__parameters: {b: 1}}"
+    )
+    assert {f.message for f in findings_of(text) if (f.rule, f.severity) == ("PRM011", "warning")} >= {
+        "section '/controller_server' applies to no node that gets this file (only /r1/controller_server)",
+        "section '/pilot' applies to no node that gets this file (only /r1/pilot)",
+    }
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "sections",
+    [
+        "/r1/any: {ros__parameters: {a: 1}}\n        pilot: {ros__parameters: {a: 1}}",
+        "/*/pilot: {ros__parameters: {a: 1}}\n        /**/controller_server: {ros__parameters: {a: 1}}",
+        "/**: {ros__parameters: {a: 1}}",
+    ],
+)
+def test_the_code_of_a_node_may_give_it_a_name_in_the_namespace(sections: str) -> None:
+    assert [f for f in findings_of(_IN_NAMESPACE.format(sections)) if f.rule == "PRM011"] == []
+
+
+_ANOTHER = """
+        //- /robot.launch.xml
+        <launch>
+          <node pkg="p" exec="metronome" name="metronome"><param from="/sim.yaml"/></node>
+          <node pkg="p" exec="sensors" name="sensors"{args}>{given}</node>
+        </launch>
+        //- /sim.yaml
+        metronome: {{ros__parameters: {{rate: 2.0}}}}
+        sensors: {{ros__parameters: {{noise: 0.5}}}}
+        //- /extra.yaml
+        metronome: {{ros__parameters: {{bars: 8}}}}
+        //- /own.yaml
+        sensors: {{ros__parameters: {{{own}: 0.1}}}}
+    """
+
+
+@pytest.mark.parametrize(
+    ("given", "severity"),
+    [
+        ('<param from="/extra.yaml"/>', "warning"),
+        ("", "warning"),
+        ('<param name="use_sim_time" value="true"/>', "warning"),
+        ('<param name="port" value="a"/>', "info"),
+    ],
+)
+def test_a_section_for_a_node_that_gets_another_file(given: str, severity: str) -> None:
+    found = findings_of(_ANOTHER.format(given=given, args="", own="noise"))
+    assert [(f.message, f.severity) for f in found if f.location.file == "/sim.yaml"] == [
+        ("section '/sensors' applies to no node: /sensors does not get this file", severity)
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("given", "args"),
+    [
+        ('<param from="/own.yaml"/>', ""),
+        ('<param name="noise" value="0.1"/>', ""),
+        ("", ' args="--config /sim.yaml"'),
+        ('<param from="/sim.yaml"/>', ""),
+    ],
+)
+def test_a_node_that_gets_what_a_section_for_it_sets_in_another_way(given: str, args: str) -> None:
+    found = findings_of(_ANOTHER.format(given=given, args=args, own="noise"))
+    assert [f for f in found if f.location.file == "/sim.yaml"] == []
+
+
+_SHARED_ARGUMENT = """
+        //- /robot.launch.xml
+        <launch>
+          {let}
+          {first}
+          {second}
+        </launch>
+        //- /base.launch.xml
+        <launch>
+          <arg name="params"/>
+          <node pkg="p" exec="base" name="base"><param from="$(var params)"/></node>
+        </launch>
+        //- /nav.launch.xml
+        <launch>
+          <arg name="params" default="/nav.yaml"/>
+          <node pkg="p" exec="pilot" name="pilot"><param from="$(var params)"/></node>
+        </launch>
+        //- /base.yaml
+        base: {{ros__parameters: {{port: 1}}}}
+        //- /nav.yaml
+        pilot: {{ros__parameters: {{rate: 1}}}}
+    """
+_BASE = '<include file="/base.launch.xml"><arg name="params" value="/base.yaml"/></include>'
+_NAV = '<include file="/nav.launch.xml"/>'
+_LET = '<let name="x" value="1"/>'
+
+
+def test_a_file_that_another_include_was_passed() -> None:
+    found = findings_of(_SHARED_ARGUMENT.format(let=_LET, first=_BASE, second=_NAV))
+    assert [(f.message, f.severity, f.location.file) for f in found if f.rule == "PRM011"] == [
+        (
+            "no section of this file applies to /pilot; it has sections for '/base'; the file is from 'params', which "
+            "another include was passed and which stays set; put that one into a group",
+            "warning",
+            "/nav.launch.xml",
+        )
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("let", "first", "second"),
+    [
+        (_LET, f"<group>{_BASE}</group>", _NAV),
+        (_LET, _NAV, _BASE),
+        (_LET, _BASE, _NAV.replace("/>", '><arg name="params" value="/nav.yaml"/></include>')),
+        (_LET, _BASE, _NAV.replace("/>", '><arg name="params" value="/base.yaml"/></include>')),
+        ('<let name="params" value="/base.yaml"/>', '<include file="/base.launch.xml"/>', _NAV),
+    ],
+)
+def test_a_file_that_an_include_is_meant_to_get(let: str, first: str, second: str) -> None:
+    found = findings_of(_SHARED_ARGUMENT.format(let=let, first=first, second=second))
+    assert [f for f in found if "stays set" in f.message] == []

@@ -30,9 +30,9 @@ from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.section_reader import SectionReader
 from preflight_analysis.tracing.interface import Interface
 
-Why = Literal["namespace", "misspelt", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
+Why = Literal["namespace", "misspelt", "renamed", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
 """Why a section applies to no node. `namespace`: a node that gets the file has its name in another namespace;
-`misspelt`: one has nearly its name; `only`: it is the only section of a node that the file is for; `wildcard`: what it
+`misspelt`: one has nearly its name; `renamed`: it has the name that the node has by itself; `only`: it is the only section of a node that the file is for; `wildcard`: what it
 fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
 the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
 
@@ -65,13 +65,15 @@ class Slip(NamedTuple):
 class SectionUse:
     """A section, and the nodes to which it applies. Where those are none, `why_not` says why, and `candidates` are the
     nodes that it was meant for, or with `elsewhere` and `wildcard` those that it names. `slip` is what its key was
-    meant to be where that is no node of this launch. The answer is open as far as there are `doubts`."""
+    meant to be where that is no node of this launch. `unserved` is the first of those that it names and that do not get
+    all that it sets otherwise. The answer is open as far as there are `doubts`."""
 
     section: Section
     nodes: tuple[Getter, ...]
     why_not: Why | None = None
     candidates: tuple[Getter, ...] = ()
     slip: Slip | None = None
+    unserved: Getter | None = None
     doubts: tuple[Doubt, ...] = ()
 
     @property
@@ -199,16 +201,18 @@ def _files_of(node: LaunchNode) -> tuple[tuple[str, LaunchNode, ParamSource], ..
 
 class _Names(NamedTuple):
     """The names of a launch. `beside` are the other nodes that the processes of nodes were seen to make, or are known
-    to, `controllers` those that spawners ask managers for, `all` are all of both and of the launch file."""
+    to, `usual` what a node is known to be called otherwise, `controllers` those that spawners ask managers for,
+    `all` are all of both and of the launch file."""
 
     beside: Mapping[str, Sequence[str]]
+    usual: Mapping[str, Collection[str]]
     controllers: Mapping[str, Sequence[str]]
     all: frozenset[str]
 
 
 @derived
 def _names(context: Context) -> _Names:
-    beside = _beside(context)
+    beside, usual = _beside(context)
     controllers: dict[str, list[str]] = {}
     for node in context.tree.nodes:
         asked = asked_of(node) if is_spawner(node) else None
@@ -216,16 +220,19 @@ def _names(context: Context) -> _Names:
             space = names.parent(asked.manager)
             controllers.setdefault(asked.manager, []).extend(names.join(space, each) for each in asked.controllers)
     own = (node.name for node in context.tree.nodes_and_simulated)
-    return _Names(beside, controllers, frozenset((*own, *chain(*beside.values(), *controllers.values()))))
+    return _Names(beside, usual, controllers, frozenset((*own, *chain(*beside.values(), *controllers.values()))))
 
 
-def _beside(context: Context) -> dict[str, list[str]]:
-    """What a component makes gets the files of its container."""
+def _beside(context: Context) -> tuple[dict[str, list[str]], dict[str, tuple[str, ...]]]:
+    """What a component makes gets the files of its container; and what nodes are called by their code or program."""
     found: dict[str, list[str]] = {}
+    usual: dict[str, tuple[str, ...]] = {}
     containers: Mapping[str, LaunchNode] | None = None
     tree = context.graph.tree if context.graph is not None else context.tree
     known = known_of_nodes(tree, context.known, context.kept)
     for node, said in zip(tree.nodes_and_simulated, known, strict=True):
+        if said is not None:
+            usual[node.name] = (said.entry.node, *said.entry.names.get("executables", ()))
         if said is not None and said.entry.within and node.kind != "composable":
             made = (names.join(names.parent(node.name), below) for below in said.entry.within)
             found.setdefault(node.name, []).extend(made)
@@ -237,7 +244,7 @@ def _beside(context: Context) -> dict[str, list[str]]:
                 found.setdefault(host.name, []).append(node.name)
         elif node.within is not None:
             found.setdefault(node.within, []).append(node.name)
-    return found
+    return found, usual
 
 
 @derived
@@ -260,7 +267,11 @@ def param_file(context: Context, path: str) -> FileUse | None:
             named.add(getter.name)
     patterns = [reader.patterns(at) for at in range(len(file.sections))]
     unclear = {at for at, each in enumerate(patterns) if not each or any("$(" in p or is_unknown(p) for p in each)}
-    lacking = [] if unclear else [(g, bool(at)) for g, at in getters if g.name not in named and _has_a_name(g, there)]
+    lacking = [
+        (getter, bool(at))
+        for getter, at in getters
+        if not unclear and getter.name not in named and (_has_a_name(getter, there) or _is_outside(getter, patterns))
+    ]
     lost = [
         at
         for at, each in enumerate(patterns)
@@ -270,9 +281,10 @@ def param_file(context: Context, path: str) -> FileUse | None:
     apart = {getter.node.name for getter, _ in getters if not named.isdisjoint(there.beside.get(getter.node.name, ()))}
     by_launch = {id(node) for node, _ in given}
     by_pattern = {pattern: at for at in reversed(lost) for pattern in patterns[at]}
-    search = _Search(context, file.sections, by_pattern, apart, len(given) > 1)
+    search = _Search(context, file.sections, by_pattern, apart, len(given) > 1, there.usual)
     meant = search.meant(getter for getter, _ in lacking) if lost else {}
-    of_file = _doubts(context, path, [getter.node for getter, _ in getters if not getter.beside])
+    nodes = [getter.node for getter, _ in getters if not getter.beside]
+    of_file = _doubts(context, path, nodes)
     uses = []
     for at, section in enumerate(file.sections):
         why: Why | None = None
@@ -289,13 +301,20 @@ def param_file(context: Context, path: str) -> FileUse | None:
             fitting = [getter for getter, _ in getters if section.fits(getter.name)]
             why, candidates = ("wildcard", fitting) if fitting else ("elsewhere", _called(context, patterns[at]))
         said = doubts(
+            NOT_ANALYSED=_may_take(nodes, patterns[at], unclear=at in unclear),
             COMPUTED=at in unclear,
-            ASSUMED=any(each.node.name_inferred for each in candidates),
+            ASSUMED=any(
+                each.node.name_inferred and any(_may_reach(one, each.node.namespace) for one in patterns[at])
+                for each in candidates
+            ),
             CATALOGUE=any(id(each.node) not in by_launch for each in candidates) and why != "elsewhere",
             UNSEEN=slip is not None,
         )
+        unserved = _unserved(path, section, candidates) if why == "elsewhere" else None
+        if unserved is not None:
+            said += doubts(INTENDED=_is_configured(unserved.node), PARTLY_READ=bool(unserved.node.unknowns))
         against = (*of_file, *said) if why else ()
-        uses.append(SectionUse(section, tuple(reaching[at]), why, tuple(candidates), slip, against))
+        uses.append(SectionUse(section, tuple(reaching[at]), why, tuple(candidates), slip, unserved, against))
     of_files = tuple(
         each
         for each in lacking
@@ -366,6 +385,25 @@ def _called(context: Context, patterns: Iterable[str]) -> list[Getter]:
     return [Getter(n.name, n, n.location) for n in nodes if any(each.fits(n.name) for each in sections)]
 
 
+def _unserved(path: str, section: Section, called: Iterable[Getter]) -> Getter | None:
+    """The first of the nodes of a section's name that gets neither the file nor all that the section sets."""
+    wanted = {param.name for param in section.params}
+    return next(
+        (
+            each
+            for each in called
+            if path not in each.node.args and not wanted <= {param.name for param in each.node.params}
+        ),
+        None,
+    )
+
+
+def _is_configured(node: LaunchNode) -> bool:
+    """Whether it gets parameters that are not for each node of its launch file."""
+    own = chain.from_iterable(source.params for source in node.param_sources if not source.pushed)
+    return any(param.name != "use_sim_time" for param in own)
+
+
 def is_for_all(section: Section) -> bool:
     """Whether it is for any node, or for any of a namespace."""
     return names.leaf(section.pattern) in ("*", "**")
@@ -380,16 +418,32 @@ def _has_a_name(getter: Getter, there: _Names) -> bool:
     return node.kind != "simulated" and (node.named or node.name_from_code)
 
 
+def _is_outside(getter: Getter, patterns: Iterable[Iterable[str]]) -> bool:
+    """Whether a node that the launch file does not name, but puts into a namespace, gets nothing of a file whatever its
+    own code calls it."""
+    node = getter.node
+    hidden = not getter.beside and node.kind == "node" and node.namespace != "/" and not is_spawner(node)
+    return hidden and not any(_may_reach(each, node.namespace) for each in chain.from_iterable(patterns))
+
+
+def _may_reach(pattern: str, namespace: str) -> bool:
+    """Whether a section is for some name in a namespace, or below it, but not for all."""
+    is_for_all_in = names.leaf(pattern) in ("*", "**")
+    return not is_for_all_in and ("*" in pattern or pattern.startswith(f"{namespace.rstrip('/')}/"))
+
+
 @dataclass(frozen=True, slots=True)
 class _Search:
     """Which sections that fit no node are meant for one that the file names nowhere. `lost` has their numbers by what
-    they are for, `apart` the nodes of whose processes the file names others, `shared`: several nodes get the file."""
+    they are for, `apart` the nodes of whose processes the file names others, `shared`: several nodes get the file,
+    `usual` is what nodes are called by their code or program."""
 
     context: Context
     sections: Sequence[Section]
     lost: Mapping[str, int]
     apart: Collection[str]
     shared: bool
+    usual: Mapping[str, Collection[str]]
 
     def meant(self, lacking: Iterable[Getter]) -> dict[int, tuple[Why, tuple[Getter, ...]]]:
         """By number: why it does not apply, and the nodes that it is meant for."""
@@ -404,19 +458,25 @@ class _Search:
         return found
 
     def _for(self, getter: Getter, patterns: Sequence[str]) -> tuple[Why, str] | None:
-        """That of the node's name in another namespace, else one with nearly its name, else the only one of a file of
-        its own, or the only one and called as its executable."""
+        """That of the node's name in another namespace, else one with nearly its name, else the one that is called as
+        its own code or its executable, else the only one of a file of its own."""
         name, base = getter.name, names.leaf(getter.name)
         same = [pattern for pattern in patterns if names.leaf(pattern) == base]
         if same:
             return "namespace", nearest(name, same) or same[0]
+        if not (getter.node.named or getter.node.name_from_code):
+            return None
         near = nearest(name, patterns)
         if near is not None and self._may_want(name, self.sections[self.lost[near]]):
             return "misspelt", near
-        alone = not getter.beside and getter.node.name not in self.apart
-        if alone and len(patterns) == 1 and (not self.shared or names.leaf(patterns[0]) == getter.node.executable):
-            return "only", patterns[0]
-        return None
+        if getter.beside:
+            return None
+        own = {*self.usual.get(name, ()), getter.node.executable}
+        called = [pattern for pattern in patterns if names.leaf(pattern) in own]
+        if len(called) == 1:
+            return "renamed", called[0]
+        alone = getter.node.name not in self.apart
+        return ("only", patterns[0]) if alone and len(patterns) == 1 and not self.shared else None
 
     def _may_want(self, name: str, section: Section) -> bool:
         """Whether the node declares one of the parameters of a section, as far as that is known: another one may have a
@@ -447,13 +507,20 @@ def _interfaces(context: Context) -> Mapping[str, Interface]:
 
 
 def _doubts(context: Context, path: str, nodes: Sequence[LaunchNode]) -> tuple[Doubt, ...]:
-    """What speaks against it that a section applies to no node, whichever it is: who else may get the file, and the
-    nodes of which the name is not known."""
+    """What speaks against it that a section applies to no node, whichever it is: who else may get the file, and names
+    that are not known."""
     tree = context.tree
     unknown = (each for each in tree.includes if each.path is None or each.path not in tree.files)
-    unnamed = next((n.name for n in nodes if not (n.named or n.name_from_code) and not is_spawner(n)), "")
     return doubts(
         PARTLY_READ=any(path in each.args.values() for each in unknown),
-        NOT_ANALYSED=unnamed,
         COMPUTED=any(is_unknown(node.name) for node in nodes),
     )
+
+
+def _may_take(nodes: Sequence[LaunchNode], patterns: Collection[str], *, unclear: bool) -> str:
+    """A node whose own code may give it the name that a section is for; "" without one."""
+    for node in nodes:
+        unnamed = not (node.named or node.name_from_code) and not is_spawner(node)
+        if unnamed and (unclear or any(_may_reach(each, node.namespace) for each in patterns)):
+            return node.name
+    return ""

@@ -4,10 +4,12 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import Section
+from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.leaked_arguments import leaked_argument
 from preflight_analysis.model.problems import enumerated, include_chain, quoted, replacement
 from preflight_analysis.model.sections import FileUse, Getter, SectionUse, Slip, param_files
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
@@ -16,6 +18,8 @@ from preflight_analysis.rules.rule import Rule
 _SHOWN = 3
 _OF_OTHERS = "section '{section}' applies to no node that gets this file (only {node}{others})"
 _OF_PROCESS = "section '{section}' applies to no node that gets this file; did you mean '{node}'?"
+_GETS_ANOTHER = "section '{section}' applies to no node: {node} does not get this file"
+_KEPT = "; the file is from '{name}', which another include was passed and which stays set; put that one into a group"
 _NOT_OF_NODE = "no section of this file applies to {node}; it has sections for {sections}{inferred}"
 
 
@@ -29,11 +33,16 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield _about_key(rule, context, used, each)
             elif each.slip is not None:
                 yield _about_namespace(rule, context, used.path, each, each.slip)
+            elif each.unserved is not None and each.section.exact:
+                yield _about_another_file(rule, context, used, each, each.unserved)
         for getter, reached in used.lacking:
             # One file for several nodes, with nothing for this one: that is usual.
             key = used.meant_for(getter)
-            if used.sections and not reached and (len(given) == 1 or key is not None):
-                yield _about_file(rule, context, used, getter, key)
+            if not used.sections or reached:
+                continue
+            kept = leaked_argument(context, getter.node, used.path) if key is None else None
+            if len(given) == 1 or key is not None or kept is not None:
+                yield _about_file(rule, context, used, getter, key, kept)
 
 
 def _about_namespace(rule: Rule, context: Context, path: str, lost: SectionUse, slip: Slip) -> Finding:
@@ -45,6 +54,18 @@ def _about_namespace(rule: Rule, context: Context, path: str, lost: SectionUse, 
         kind="near",
         doubts=lost.doubts,
         candidates=(slip.key,),
+        every_root=True,
+    )
+
+
+def _about_another_file(rule: Rule, context: Context, used: FileUse, lost: SectionUse, node: Getter) -> Finding:
+    section = lost.section
+    return rule.claim(
+        say(_GETS_ANOTHER, section=section.pattern, node=node.name),
+        context.location(used.path, section.spans[-1]),
+        subject=Subject("section", section.pattern),
+        doubts=lost.doubts,
+        related=(Related(f"{node.name} is started here", node.location), used.getters[0].related),
         every_root=True,
     )
 
@@ -72,13 +93,16 @@ def _about_key(rule: Rule, context: Context, used: FileUse, lost: SectionUse) ->
     )
 
 
-def _about_file(rule: Rule, context: Context, used: FileUse, given: Getter, meant: SectionUse | None) -> Finding:
+def _about_file(
+    rule: Rule, context: Context, used: FileUse, given: Getter, meant: SectionUse | None, kept: Use | None
+) -> Finding:
     node, sections = given.node, [each.section for each in used.sections]
     named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
     inferred = "; the name is from its source" if node.name_inferred else ""
     key = meant.section if meant is not None else sections[0]
+    text = say(_NOT_OF_NODE, node=node.name, sections=named, inferred=inferred)
     return rule.claim(
-        say(_NOT_OF_NODE, node=node.name, sections=named, inferred=inferred),
+        text.followed_by(_KEPT, name=kept.name) if kept is not None else text,
         given.location,
         subject=Subject("file", used.path),
         kind="absent" if meant is None else "near",
@@ -88,6 +112,7 @@ def _about_file(rule: Rule, context: Context, used: FileUse, given: Getter, mean
             Related(
                 "the section" if meant is not None else "its first section", context.location(used.path, key.spans[-1])
             ),
+            *([Related("passed here", kept.origin[-1])] if kept is not None else ()),
             *include_chain(node.origin),
         ),
         fixes=_rewrite(context, used.path, key, node.name) if meant is not None else (),
@@ -113,9 +138,10 @@ RULE = Rule(
     name="parameter-file-for-another-node",
     effect="no-effect",
     kind="unreachable",
-    sometimes=(Reason.ASSUMED, Reason.UNSEEN, Reason.NOT_ANALYSED, Reason.COMPUTED),
+    sometimes=(Reason.ASSUMED, Reason.UNSEEN, Reason.NOT_ANALYSED, Reason.COMPUTED, Reason.INTENDED),
     what="Checks for a parameter file in which no section applies to the node that gets it, and for a key that "
-    "matches no node and is close to one. A file that several nodes share may have no section for one of them.",
+    "matches no node and is close to one. A file that several nodes share may have no section for one of them, unless it "
+    "comes from an argument of another include. A section for a node that gets its parameters elsewhere counts, too.",
     why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',
