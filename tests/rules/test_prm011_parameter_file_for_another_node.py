@@ -288,7 +288,7 @@ _ANOTHER = """
     [
         ('<param from="/extra.yaml"/>', "warning"),
         ("", "warning"),
-        ('<param name="use_sim_time" value="true"/>', "warning"),
+        ('<param name="use_sim_time" value="true"/>', "info"),
         ('<param name="port" value="a"/>', "info"),
     ],
 )

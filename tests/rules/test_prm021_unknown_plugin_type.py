@@ -6,7 +6,7 @@ import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import run_rules
 from support import package_elsewhere
-from support.check import check
+from support.check import check, findings_of
 
 FIXTURE = """
     //- /robot.launch.xml
@@ -225,3 +225,52 @@ def test_a_plugin_that_the_distribution_has(tmp_path: Path, distro: str | None, 
 def test_a_package_of_nav2_in_the_workspace(tmp_path: Path) -> None:
     own = {"../nav2_navfn_planner/package.xml": "<package><name>nav2_navfn_planner</name></package>"}
     assert not _of_distribution(tmp_path, "jazzy", "nav2_navfn_planner/NavfnPlanner", **own)
+
+
+_VALUE = """
+    //- /robot.launch.xml
+    <launch>
+      <let name="of_ros2" value="true"/>
+      <node pkg="{}" exec="{}" name="a"><param name="{}" value="{}"/></node>
+    </launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "said"),
+    [
+        (
+            ("nav2_amcl", "amcl", "robot_model_type"),
+            "omnidirectional",
+            "is that of an older distribution; did you mean 'nav2_amcl::OmniMotionModel'?",
+        ),
+        (
+            ("nav2_amcl", "amcl", "robot_model_type"),
+            "nav2_amcl::OmniMotionModle",
+            "names no plugin; did you mean 'nav2_amcl::OmniMotionModel'?",
+        ),
+        (
+            ("mavros", "mavros_node", "plugin_denylist"),
+            "setpoint_velocty",
+            "names no plugin; did you mean 'setpoint_velocity'?",
+        ),
+    ],
+)
+def test_a_value_that_names_no_plugin_of_a_node(place: tuple[str, str, str], value: str, said: str) -> None:
+    found = [f for f in findings_of(_VALUE.format(*place, value)) if f.rule == "PRM021"]
+    assert [f.message.partition(" Source")[0] for f in found] == [f"value '{value}' of '{place[2]}' {said}"]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (("nav2_amcl", "amcl", "robot_model_type"), "nav2_amcl::DifferentialMotionModel"),
+        (("nav2_amcl", "amcl", "robot_model_type"), "own::MotionModel"),
+        (("mavros", "mavros_node", "plugin_allowlist"), "setpoint_*"),
+        (("mavros", "mavros_node", "plugin_allowlist"), "SYS_status"),
+        (("mavros", "mavros_node", "plugin_allowlist"), "our_plugin"),
+    ],
+)
+def test_a_value_that_names_a_plugin_or_may_name_one(place: tuple[str, str, str], value: str) -> None:
+    assert [f for f in findings_of(_VALUE.format(*place, value)) if f.rule == "PRM021"] == []

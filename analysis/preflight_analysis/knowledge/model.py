@@ -18,13 +18,13 @@ ROLES: Mapping[Kind, tuple[str, ...]] = {
     "action": ("server", "client"),
     "frame": ("used", "named"),
     "joint": ("commanded", "read"),
-    "plugin": ("type",),
+    "plugin": ("type", "name"),
     "file": ("yaml", "lua"),
     "node": ("managed", "asked"),
 }
 """What each kind of value is for. A frame that is `used` has to be there, one that is `named` is only written into
-messages. A joint is `commanded` or `read` by a controller. What a file has is parameters below its name. A node
-is `managed` where another one changes the states of its lifecycle, `asked` where it is asked for something. A `value`
+messages. A plugin is loaded by its `type`, or chosen by its `name`, which may have wildcards. A joint is `commanded`
+or `read` by a controller. What a file has is parameters below its name. A node is `managed` where another one changes the states of its lifecycle, `asked` where it is asked for something. A `value`
 is for nothing by itself; its default counts."""
 EntryKind = Literal["executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins"]
 ENTRY_KINDS: tuple[EntryKind, ...] = (
@@ -60,6 +60,10 @@ class Meaning:
     """Whether a relative name is below that of the node."""
     folder: str = ""
     """Of a file: the parameter or argument that has its folder."""
+    names: tuple[str, ...] = ()
+    """Of a plugin: those of the package and of what is released with it."""
+    formerly: Mapping[str, str] = field(default_factory=dict)
+    """Of a plugin: values of distributions before these, which name nothing any more, with what they are now."""
 
 
 @dataclass(frozen=True, slots=True)

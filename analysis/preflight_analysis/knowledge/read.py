@@ -23,6 +23,9 @@ from preflight_analysis.knowledge.model import (
 )
 
 _OF_ENTRIES = ("parameters", "arguments", "options", "broadcasts", "distributions", "node", "within", "whole")
+_OF_MEANINGS = (
+    "type", "default", "when", "qos", "append", "remapped", "private", "folder", "names", "formerly",
+)  # fmt: skip
 _MAX_VALUES = 50_000
 """Of one file; aliases of aliases would otherwise make any number of them."""
 
@@ -126,11 +129,14 @@ class _Reader:
                 given[name.value] = {k.value: self._plain(v) for k, v in self._pairs(value, name.value)}
             elif name.value in ("append", "folder"):
                 given[name.value] = self._text(value, name.value)
+            elif name.value == "names":
+                given["names"] = self._texts(value, "names")
+            elif name.value == "formerly":
+                given["formerly"] = {k.value: self._text(v, k.value) for k, v in self._pairs(value, "formerly")}
             elif name.value in ("remapped", "private"):
                 given[name.value] = self._plain(value) is True
             else:
-                known = (*ROLES, "type", "default", "when", "qos", "append", "remapped", "private", "folder")
-                self._unknown(name, f"'{key.value}'", known)
+                self._unknown(name, f"'{key.value}'", (*ROLES, *_OF_MEANINGS))
         if kind is None and given.keys() == {"default"}:
             kind = "value"
         if kind is None:

@@ -36,6 +36,8 @@ def schema() -> dict[str, Any]:
             "remapped": {"type": "boolean", "description": "Whether a remap of the value changes the name."},
             "private": {"type": "boolean", "description": "Whether a relative name is below that of the node."},
             "folder": {**_TEXT, "description": "Of a file: the parameter or argument with its folder."},
+            "names": {**_TEXTS, "description": "Of a plugin: the names that are known."},
+            "formerly": {**_of_texts(), "description": "Of a plugin: names of older distributions, and the new ones."},
         },
     )
     meaning["anyOf"] = [*({"required": [kind]} for kind in ROLES), {"required": ["default"], "maxProperties": 1}]

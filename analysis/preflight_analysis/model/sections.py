@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Literal, NamedTuple
 
+from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
@@ -32,8 +33,8 @@ from preflight_analysis.tracing.interface import Interface
 
 Why = Literal["namespace", "misspelt", "renamed", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
 """Why a section applies to no node. `namespace`: a node that gets the file has its name in another namespace;
-`misspelt`: one has nearly its name; `renamed`: it has the name that the node has by itself; `only`: it is the only section of a node that the file is for; `wildcard`: what it
-fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
+`misspelt`: one has nearly its name; `renamed`: it has the name that the node has by itself; `only`: it is the only
+section of a node that the file is for; `wildcard`: what it fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
 the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
 
 
@@ -281,7 +282,8 @@ def param_file(context: Context, path: str) -> FileUse | None:
     apart = {getter.node.name for getter, _ in getters if not named.isdisjoint(there.beside.get(getter.node.name, ()))}
     by_launch = {id(node) for node, _ in given}
     by_pattern = {pattern: at for at in reversed(lost) for pattern in patterns[at]}
-    search = _Search(context, file.sections, by_pattern, apart, len(given) > 1, there.usual)
+    shared = sum(not getter.beside for getter, _ in getters) > 1
+    search = _Search(context, file.sections, by_pattern, apart, shared, there.usual)
     meant = search.meant(getter for getter, _ in lacking) if lost else {}
     nodes = [getter.node for getter, _ in getters if not getter.beside]
     of_file = _doubts(context, path, nodes)
@@ -312,7 +314,10 @@ def param_file(context: Context, path: str) -> FileUse | None:
         )
         unserved = _unserved(path, section, candidates) if why == "elsewhere" else None
         if unserved is not None:
-            said += doubts(INTENDED=_is_configured(unserved.node), PARTLY_READ=bool(unserved.node.unknowns))
+            paths = (each.path for each in unserved.node.param_sources if not each.sections)
+            unread = any(each is not None and context.document(each) is None for each in paths)
+            partly = unread or bool(unserved.node.unknowns)
+            said += doubts(INTENDED=_is_configured(unserved.node), PARTLY_READ=partly)
         against = (*of_file, *said) if why else ()
         uses.append(SectionUse(section, tuple(reaching[at]), why, tuple(candidates), slip, unserved, against))
     of_files = tuple(
@@ -386,22 +391,24 @@ def _called(context: Context, patterns: Iterable[str]) -> list[Getter]:
 
 
 def _unserved(path: str, section: Section, called: Iterable[Getter]) -> Getter | None:
-    """The first of the nodes of a section's name that gets neither the file nor all that the section sets."""
+    """The first of the nodes of a section's name that gets neither the file nor all that the section sets. What a
+    launch file of the catalogue gives its nodes may be made of any file."""
     wanted = {param.name for param in section.params}
     return next(
         (
             each
             for each in called
-            if path not in each.node.args and not wanted <= {param.name for param in each.node.params}
+            if path not in each.node.args
+            and catalogued_file(each.location.file) is None
+            and not wanted <= {param.name for param in each.node.params}
         ),
         None,
     )
 
 
 def _is_configured(node: LaunchNode) -> bool:
-    """Whether it gets parameters that are not for each node of its launch file."""
-    own = chain.from_iterable(source.params for source in node.param_sources if not source.pushed)
-    return any(param.name != "use_sim_time" for param in own)
+    """Whether its launch file gives it values, or a file with some for it, and not only as one of a scope."""
+    return any((each.path is None or each.params) and not each.pushed for each in node.param_sources)
 
 
 def is_for_all(section: Section) -> bool:

@@ -28,12 +28,14 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if any("$(" in each.section.pattern for each in used.sections):
             continue  # launch may make any name of a substitution
         given = [each for each in used.getters if not each.beside and each.node.kind != "simulated"]
+        # Said of the file as a whole, at the node.
+        is_said = len(given) == 1 and any(not reached for _, reached in used.lacking)
         for each in used.sections:
             if each.meant:
                 yield _about_key(rule, context, used, each)
             elif each.slip is not None:
                 yield _about_namespace(rule, context, used.path, each, each.slip)
-            elif each.unserved is not None and each.section.exact:
+            elif each.unserved is not None and each.section.exact and not is_said:
                 yield _about_another_file(rule, context, used, each, each.unserved)
         for getter, reached in used.lacking:
             # One file for several nodes, with nothing for this one: that is usual.
@@ -140,8 +142,8 @@ RULE = Rule(
     kind="unreachable",
     sometimes=(Reason.ASSUMED, Reason.UNSEEN, Reason.NOT_ANALYSED, Reason.COMPUTED, Reason.INTENDED),
     what="Checks for a parameter file in which no section applies to the node that gets it, and for a key that "
-    "matches no node and is close to one. A file that several nodes share may have no section for one of them, unless it "
-    "comes from an argument of another include. A section for a node that gets its parameters elsewhere counts, too.",
+    "matches no node and is close to one. A file that several nodes share may have no section for one of them, unless "
+    "it comes from an argument of another include. A section for a node that gets its parameters elsewhere counts, too.",
     why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',

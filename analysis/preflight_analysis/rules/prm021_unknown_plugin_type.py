@@ -7,10 +7,12 @@ https://docs.nav2.org/plugins/
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from preflight_analysis.catalogue.packages import distribution_of
 from preflight_analysis.catalogue.plugin_names import distributions_with, is_known, name_there, names_of
+from preflight_analysis.catalogue.released import DISTRIBUTIONS
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
@@ -19,7 +21,10 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.controllers import place_of
+from preflight_analysis.model.meant import meant_values
 from preflight_analysis.model.nearest import camel_words, did_you_mean, is_slip
+from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import rename
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.rules.further_reading import CONTROLLER_MANAGER, PLUGINLIB, PLUGINS
@@ -43,6 +48,48 @@ class _Named(NamedTuple):
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
+    yield from _of_types(rule, context)
+    yield from _of_values(rule, context)
+
+
+def _of_values(rule: Rule, context: Context) -> Iterator[Finding]:
+    """What parameters name that are known to name plugins."""
+    distro = context.environment.distro
+    for node, values in meant_values(context):
+        for each in values:
+            meaning, value = each.meaning, each.value
+            if each.param is None or not isinstance(value, str):
+                continue
+            if distro in DISTRIBUTIONS[context.tree.generation] and distro not in each.known.entry.distributions:
+                continue
+            formerly = meaning.formerly.get(value)
+            meant = formerly or _slip_of(value, meaning.names)
+            if meant is None:
+                continue
+            place = place_of(context, each.param, value)
+            what = "is that of an older distribution" if formerly else "names no plugin"
+            yield rule.claim(
+                f"value '{value}' of '{each.parameter}' {what}; did you mean '{meant}'? Source: {each.known.evidence}",
+                place,
+                subject=Subject("plugin", value),
+                effect="no-effect" if meaning.role == "name" else None,
+                doubts=doubts(OTHER_VERSION=not each.known.is_used),
+                candidates=(meant,),
+                related=(related_node(node),),
+                fixes=rename(context, place, value, meant),
+            )
+
+
+def _slip_of(value: str, names: Collection[str]) -> str | None:
+    """The only name that a value, which may have wildcards and any case, is a slip of."""
+    if any(fnmatchcase(name.lower(), value.lower()) for name in names):
+        return None
+    near = [name for name in names if is_slip(value, name)]
+    return near[0] if len(near) == 1 else None
+
+
+def _of_types(rule: Rule, context: Context) -> Iterator[Finding]:
+    """The types of controllers and plugins in parameter files."""
     environment = context.environment
     distro = distribution_of(context.tree.generation, environment.distro)
     for path, getter in first_getters(context).items():
@@ -162,7 +209,8 @@ RULE = Rule(
     kind="near",
     always=(Reason.UNSEEN,),
     what="Checks for a type of controller (`NAME.type`) or plugin (`NAME.plugin`) that its package does not have, if "
-    "the package has one of a similar name. The types are those of plugin descriptions or of the catalogue.",
+    "the package has one of a similar name. The types are those of plugin descriptions or of the catalogue. Other "
+    "parameters that choose plugins count, too, such as `robot_model_type` of AMCL and `plugin_allowlist` of MAVROS.",
     why="pluginlib does not find the class. The spawner of the controller exits, or the node does not start.",
     example="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueStateBroadcaster",
     instead="force_torque_sensor_broadcaster:\n  type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
