@@ -6,7 +6,7 @@ import pytest
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.rules.registry import run_rules
 from support import package_elsewhere
-from support.check import check, findings_of
+from support.check import check
 
 FIXTURE = """
     //- /robot.launch.xml
@@ -228,12 +228,15 @@ def test_a_package_of_nav2_in_the_workspace(tmp_path: Path) -> None:
 
 
 _VALUE = """
-    //- /robot.launch.xml
     <launch>
-      <let name="of_ros2" value="true"/>
       <node pkg="{}" exec="{}" name="a"><param name="{}" value="{}"/></node>
     </launch>
 """
+
+
+def _of_value(folder: Path, place: tuple[str, str, str], value: str, distro: str | None) -> list[str]:
+    analysis = package_elsewhere.analysed(folder, _VALUE.format(*place, value), "a.launch.xml", distro)
+    return [f.message.partition(" Source")[0] for f in run_rules(analysis.context) if f.rule == "PRM021"]
 
 
 @pytest.mark.parametrize(
@@ -256,21 +259,25 @@ _VALUE = """
         ),
     ],
 )
-def test_a_value_that_names_no_plugin_of_a_node(place: tuple[str, str, str], value: str, said: str) -> None:
-    found = [f for f in findings_of(_VALUE.format(*place, value)) if f.rule == "PRM021"]
-    assert [f.message.partition(" Source")[0] for f in found] == [f"value '{value}' of '{place[2]}' {said}"]
+def test_a_value_that_names_no_plugin_of_a_node(
+    tmp_path: Path, place: tuple[str, str, str], value: str, said: str
+) -> None:
+    assert _of_value(tmp_path, place, value, "jazzy") == [f"value '{value}' of '{place[2]}' {said}"]
 
 
 @pytest.mark.silent
 @pytest.mark.parametrize(
-    ("place", "value"),
+    ("place", "value", "distro"),
     [
-        (("nav2_amcl", "amcl", "robot_model_type"), "nav2_amcl::DifferentialMotionModel"),
-        (("nav2_amcl", "amcl", "robot_model_type"), "own::MotionModel"),
-        (("mavros", "mavros_node", "plugin_allowlist"), "setpoint_*"),
-        (("mavros", "mavros_node", "plugin_allowlist"), "SYS_status"),
-        (("mavros", "mavros_node", "plugin_allowlist"), "our_plugin"),
+        (("nav2_amcl", "amcl", "robot_model_type"), "differential", "foxy"),
+        (("nav2_amcl", "amcl", "robot_model_type"), "nav2_amcl::DifferentialMotionModel", "humble"),
+        (("nav2_amcl", "amcl", "robot_model_type"), "own::MotionModel", "humble"),
+        (("mavros", "mavros_node", "plugin_allowlist"), "setpoint_*", "humble"),
+        (("mavros", "mavros_node", "plugin_allowlist"), "SYS_status", "humble"),
+        (("mavros", "mavros_node", "plugin_allowlist"), "our_plugin", "humble"),
     ],
 )
-def test_a_value_that_names_a_plugin_or_may_name_one(place: tuple[str, str, str], value: str) -> None:
-    assert [f for f in findings_of(_VALUE.format(*place, value)) if f.rule == "PRM021"] == []
+def test_a_value_that_names_a_plugin_or_may_name_one(
+    tmp_path: Path, place: tuple[str, str, str], value: str, distro: str
+) -> None:
+    assert _of_value(tmp_path, place, value, distro) == []

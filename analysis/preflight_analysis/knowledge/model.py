@@ -24,7 +24,8 @@ ROLES: Mapping[Kind, tuple[str, ...]] = {
 }
 """What each kind of value is for. A frame that is `used` has to be there, one that is `named` is only written into
 messages. A plugin is loaded by its `type`, or chosen by its `name`, which may have wildcards. A joint is `commanded`
-or `read` by a controller. What a file has is parameters below its name. A node is `managed` where another one changes the states of its lifecycle, `asked` where it is asked for something. A `value`
+or `read` by a controller. What a file has is parameters below its name. A node is `managed`
+where another one changes the states of its lifecycle, `asked` where it is asked for something. A `value`
 is for nothing by itself; its default counts."""
 EntryKind = Literal["executables", "components", "nodelets", "controllers", "plugins", "simulator_plugins"]
 ENTRY_KINDS: tuple[EntryKind, ...] = (

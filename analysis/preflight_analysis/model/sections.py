@@ -34,7 +34,8 @@ from preflight_analysis.tracing.interface import Interface
 Why = Literal["namespace", "misspelt", "renamed", "only", "wildcard", "elsewhere", "nowhere", "not-given"]
 """Why a section applies to no node. `namespace`: a node that gets the file has its name in another namespace;
 `misspelt`: one has nearly its name; `renamed`: it has the name that the node has by itself; `only`: it is the only
-section of a node that the file is for; `wildcard`: what it fits is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
+section of a node that the file is for; `wildcard`: what it fits
+is a component, for which launch_ros knows no wildcard but `/**`; `elsewhere`: the node of its name does not get
 the file; `nowhere`: no node has a name like it; `not-given`: no node gets the file."""
 
 

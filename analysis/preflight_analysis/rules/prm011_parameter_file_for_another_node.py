@@ -143,7 +143,7 @@ RULE = Rule(
     sometimes=(Reason.ASSUMED, Reason.UNSEEN, Reason.NOT_ANALYSED, Reason.COMPUTED, Reason.INTENDED),
     what="Checks for a parameter file in which no section applies to the node that gets it, and for a key that "
     "matches no node and is close to one. A file that several nodes share may have no section for one of them, unless "
-    "it comes from an argument of another include. A section for a node that gets its parameters elsewhere counts, too.",
+    "it comes from an argument of another include. A section for a node that gets its parameters elsewhere counts.",
     why="The node starts with its defaults. Neither `ros2 launch` nor the node reports it.",
     example="<!-- params.yaml: 'amcl: {ros__parameters: {max_particles: 800}}' -->\n"
     '<node pkg="localizer" exec="localizer" name="localizer">\n  <param from="params.yaml"/>\n</node>',
