@@ -136,6 +136,44 @@ def test_a_tilde_too_many_at_a_node_that_its_source_tells_in_part(remap: str, to
     assert [each.severity for each in found if each.rule == "TOP004"] == told
 
 
+@pytest.mark.parametrize(
+    ("remap", "meant"),
+    [("scam", "scan"), ("~scan", "scan"), ("mpa_metadata", "map_metadata"), ("scan2", None), ("clouds", None)],
+)
+def test_a_typo_at_a_node_that_the_catalogue_has_in_part(remap: str, meant: str | None) -> None:
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="karto"><remap from="{remap}" to="base_scan"/></node>
+        </launch>
+        //- interfaces
+        {{"/karto": {{"source": "catalogue", "status": "not-run", "params": {{"/": {{"access": "list"}}}},
+          "subscribers": {{"scan": "sensor_msgs/LaserScan"}}, "publishers": {{"map_metadata": "nav_msgs/MapMetaData"}}}}}}
+    """)
+    told = [(each.severity, each.confidence) for each in found if each.rule == "TOP004"]
+    assert told == ([("warning", "possible")] if meant else [])
+    assert all(f"did you mean '{meant}'" in each.message for each in found if each.rule == "TOP004")
+
+
+@pytest.mark.parametrize(
+    ("source", "target", "severity"),
+    [
+        ("/cloud", "/ouster/points", "warning"),
+        ("/cloud", "/ouster/raw", "hint"),
+        ("/pose", "/ouster/points", "hint"),
+    ],
+)
+def test_a_remap_of_what_an_end_carries_to_what_ends_as_its_name(source: str, target: str, severity: str) -> None:
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="t" name="localizer"><remap from="{source}" to="{target}"/></node>
+        </launch>
+        //- interfaces
+        {{"/localizer": {{"subscribers": {{"velodyne_points": "sensor_msgs/PointCloud2"}},
+          "publishers": {{"result": "x/Y"}}}}}}
+    """)
+    assert [each.severity for each in found if each.rule == "TOP004"] == [severity]
+
+
 @pytest.mark.silent
 def test_nothing_is_said_of_a_node_that_is_not_known_to_its_end() -> None:
     launch = """

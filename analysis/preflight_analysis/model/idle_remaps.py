@@ -13,11 +13,13 @@ from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import likeness
+from preflight_analysis.model.nearest import likeness, words_in
 from preflight_analysis.model.well_known import is_transform
 from preflight_analysis.tracing.interface import ENDS, Interface
 
 _TOPIC_ROLES = ("publisher", "subscriber")
+_LETTERS = 4
+"""Of a word that says what a topic carries."""
 BY_SOURCE = "in its source"
 BY_CATALOGUE = "according to the catalogue"
 _BY_RUN = "before its event loop"
@@ -37,7 +39,8 @@ class IdleRemap:
     partner: Connection | None = None
     """An end of another node that stands under the remap's target and that `meant` would fit."""
     sure: bool = True
-    """Whether all names of the nodes are known. If not, `meant` has the very name but for a `~` or a namespace."""
+    """Whether all names of the nodes are known. If not, `meant` has the very name but for a `~` or a namespace, or
+    for a slip at a node that the catalogue has."""
     is_reversed: bool = False
     """Whether the target is a name that the source of each node makes, and another node has the one that the remap is
     for: `from` and `to` are the wrong way around."""
@@ -169,10 +172,13 @@ def _meaning(
         # As it is, the node may get what it is meant to get, unless another one has the other name.
         same = [each for each, source in lone if each.name == wanted and _partner(source, each) is not None]
         return replace(idle, meant=same[0] if len(same) == 1 else None)
-    is_slip = _is_slip if idle.sure else _is_same_leaf
+    # What the catalogue has was read from the whole source of the node.
+    is_slip = _is_slip if idle.sure or idle.known_by == BY_CATALOGUE else _is_same_leaf
     found = [(each, target) for each, target in lone if is_slip(full, each)]
     if len(found) != 1 and idle.sure:
         found = [(each, target) for each, target in lone if _partner(target, each) is not None]
+    if not found and idle.sure and not idle.to_itself:
+        found = [(each, target) for each, target in lone if _is_of_kind(idle.remap, each)]
     if not found and on_purpose:
         found = [(each, target) for each, target in lone if _has_peer(target, each)]
     meant, target = found[0] if len(found) == 1 else (None, None)
@@ -193,8 +199,9 @@ def _reports_names(node: LaunchNode, interface: Interface) -> bool:
 
 
 def _tells_in_part(node: LaunchNode, interface: Interface) -> bool:
-    """Whether the source of a node, or a run to its event loop, tells some names that it uses."""
-    told = interface.source == "source" or (interface.source == "trace" and interface.outcome.status == "spinning")
+    """Whether the source of a node, the catalogue, or a run to its event loop, tells some names that it uses."""
+    spins = interface.source == "trace" and interface.outcome.status == "spinning"
+    told = interface.source in ("source", "catalogue") or spins
     if interface.declared or not told or node.unknowns or node.package == "nodelet":
         return False
     return any(not (e.builtin or "made-up answer" in e.evidence.doubts) for e in interface.endpoints)
@@ -261,6 +268,16 @@ def _is_slip(full: str, connection: Connection) -> bool:
 
 def _is_same_leaf(full: str, connection: Connection) -> bool:
     return names.leaf(full) == names.leaf(connection.name)
+
+
+def _is_of_kind(remap: Remap, connection: Connection) -> bool:
+    """Whether the remap's name is a word of what the end carries, and its target ends as the name of the end: `cloud`
+    to `ouster/points`, of an end `velodyne_points` that takes a `PointCloud2`."""
+    type_ = names.leaf(connection.endpoint.type or "").lower()
+    word, (*_, last) = names.leaf(remap.source).lower(), words_in(names.leaf(remap.target)) or ("",)
+    if min(len(word), len(last)) < _LETTERS:
+        return False
+    return word in type_ and words_in(connection.name)[-1:] == (last,)
 
 
 def _partner(channel: Channel | None, connection: Connection) -> Connection | None:

@@ -83,7 +83,10 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
         remap.source_location,
         subject=Subject("remap", source),
         kind="near",
-        doubts=(*known, *doubts(DEPENDS="" if sure else node)),
+        doubts=(
+            *known,
+            *doubts(DEPENDS="" if sure else node, ASSUMED="other distribution" in meant.endpoint.evidence.doubts),
+        ),
         candidates=(_given(meant),),
         related=(
             *((related_endpoint(idle.partner, _DOES[idle.partner.endpoint.role]),) if idle.partner else ()),
@@ -124,7 +127,7 @@ RULE = Rule(
     effect="no-effect",
     kind="absent",
     always=(Reason.UNSEEN,),
-    sometimes=(Reason.NO_DIFFERENCE, Reason.INTENDED, Reason.IN_USE, Reason.DEPENDS, Reason.FROM_SOURCE),
+    sometimes=(Reason.NO_DIFFERENCE, Reason.INTENDED, Reason.IN_USE, Reason.DEPENDS, Reason.ASSUMED, Reason.FROM_SOURCE),
     what="Checks for a remap whose `from` is not a topic, service or parameter of its nodes. Namespaces of names in "
     "use, and names below one, count as used: actions and image transports create such names.",
     why="A remap of an unused name is ignored without an error, and the node keeps its own name.",
