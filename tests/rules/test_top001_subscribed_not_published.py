@@ -83,6 +83,63 @@ def test_a_near_miss_through_the_publishers_remap_is_shown_there() -> None:
     assert 'to="/robot/chatter"' in apply(text, finding.fixes[0].edits)["/main.launch"]
 
 
+def _of_one_side(monitor: str, type_: str = "x/Level", other: str = "") -> str:
+    said = {
+        "/sensor": {"publishers": {"level": "x/Level"}},
+        f"{monitor}": {"subscribers": {"level": type_}},
+        **({"/other": {"publishers": {"level": "x/Level"}}} if other else {}),
+    }
+    space, _, name = monitor.rpartition("/")
+    return f"""
+        <launch>
+          <node pkg="p" type="t" name="sensor"><remap from="level" to="raw_level"/></node>
+          <node pkg="p" type="t" name="{name}" ns="{space or "/"}"/>
+          {other}
+        </launch>
+        //- interfaces
+        {json.dumps(said)}
+    """
+
+
+def test_a_remap_at_one_of_two_ends_that_have_one_name() -> None:
+    text = _of_one_side("/monitor")
+    (finding,) = findings_of(text)
+    assert (finding.rule, finding.severity) == ("TOP001", "warning")
+    assert finding.message.startswith("'/raw_level', published by /sensor: did you mean '/level'? /monitor subscribes")
+    assert "both have the name '/level' before the remap at /sensor" in finding.message
+    assert [fix.title for fix in finding.fixes] == ["Remap 'level' to 'raw_level' in /monitor"]
+    mended = apply(text, finding.fixes[0].edits)["/main.launch"]
+    assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
+
+
+def test_a_remap_at_the_subscriber_alone() -> None:
+    check("""
+        <launch>
+          <node pkg="p" type="t" name="camera" ns="front"/>
+          <node pkg="p" type="t" name="view" ns="front"><remap from="image" to="/stereo/left"/></node>
+                                                                                ^^^^^^^^^^^^ warning[TOP001] both have
+        </launch>
+        //- interfaces
+        {"/front/camera": {"publishers": {"image": "sensor_msgs/Image"}},
+         "/front/view": {"subscribers": {"image": "sensor_msgs/Image"}}}
+    """)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        _of_one_side("/monitor", "x/Other"),
+        _of_one_side("/tank/monitor"),
+        # Which of the two was meant is not known.
+        _of_one_side("/monitor", other='<node pkg="p" type="t" name="other"><remap from="level" to="oil"/></node>'),
+        # Somebody else has the name.
+        _of_one_side("/monitor", other='<node pkg="p" type="t" name="other"/>'),
+    ],
+)
+def test_a_remap_at_one_end_that_is_apart_from_the_other(text: str) -> None:
+    assert all("before the remap" not in each.message for each in findings_of(text))
+
+
 def test_a_relative_remap_stays_relative_and_works_in_an_included_file() -> None:
     text = """
         <launch>

@@ -11,10 +11,11 @@ from preflight_analysis.graph.model import Connection
 from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.model.nearest import has_all_words, is_word_more
 
-Evidence = Literal["typo", "slash", "level", "words"]
-"""How two names are alike, the strongest first. `typo` and `words` as in `nearest`. `slash`: one end was given an
+Evidence = Literal["typo", "remap", "slash", "level", "words"]
+"""How two names are alike, the strongest first. `typo` and `words` as in `nearest`. `remap`: both ends had one name, and
+the launch remaps one of them alone. `slash`: one end was given an
 absolute name, and the other end's is the same below its node's namespace. `level`: one has a namespace more."""
-EVIDENCE: tuple[Evidence, ...] = ("typo", "slash", "level", "words")
+EVIDENCE: tuple[Evidence, ...] = ("typo", "remap", "slash", "level", "words")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,11 @@ class NearMiss:
         return self.provider if self.site is self.consumer else self.consumer
 
     @property
+    def doubtful(self) -> Connection:
+        """The end whose name may be written on purpose: that which a remap moved away, else the consumer."""
+        return self.site if self.likeness == "remap" else self.consumer
+
+    @property
     def strong(self) -> bool:
         """Whether it speaks for itself, whatever else the launch may hold."""
         return self.likeness == "typo" and self.same_type
@@ -57,6 +63,8 @@ class NearMiss:
     def why(self) -> str:
         """What speaks for it, for a message: `same type x/Y; '/scan' is absolute`."""
         said = f"same type {self.consumer.endpoint.type}" if self.same_type else "type unknown"
+        if self.likeness == "remap":
+            return f"{said}; both have the name '{given_name(self.site)}' before the remap at {self.site.node.name}"
         short, long = sorted((self.consumer.name, self.provider.name), key=len)
         if self.likeness == "slash":
             return f"{said}; '{short}' is absolute, the other name is relative to its node's namespace"
@@ -74,9 +82,9 @@ def doubts_of(near: NearMiss, lacks: str | bool, likely_complete: bool) -> tuple
     `channels.not_all_known`."""
     ends = (near.consumer, near.provider)
     lone = near.provider_dangles and not _of_another_node(near)
-    alike = near.likeness == "typo" or (lone and (likely_complete or is_word_more(*_both_names(near))))
+    alike = near.likeness in ("typo", "remap") or (lone and (likely_complete or is_word_more(*_both_names(near))))
     # Two ends that nobody else has anything to do with speak for each other, be one of them but assumed.
-    both_lone = near.provider_dangles and (near.likeness == "typo" or _same_leaf(near))
+    both_lone = near.provider_dangles and (near.likeness in ("typo", "remap") or _same_leaf(near))
     return (
         *doubts(
             LIKE_NAMES=not (near.same_type and alike),
@@ -85,6 +93,11 @@ def doubts_of(near: NearMiss, lacks: str | bool, likely_complete: bool) -> tuple
         ),
         *doubts_of_ends(*ends, assumed="DEPENDS" if both_lone else "ASSUMED", lacks=lacks),
     )
+
+
+def given_name(end: Connection) -> str:
+    """The full name that it would have without the remap."""
+    return names.resolve(end.endpoint.name, end.node.name)
 
 
 def _same_leaf(near: NearMiss) -> bool:

@@ -8,7 +8,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.model.dangling import GENERIC_PACKAGES
-from preflight_analysis.model.near_miss import EVIDENCE, Evidence, NearMiss, extra_level
+from preflight_analysis.model.near_miss import EVIDENCE, Evidence, NearMiss, extra_level, given_name
 from preflight_analysis.model.nearest import likeness
 
 Rank = tuple[bool, bool, int, int, str, int]
@@ -52,7 +52,8 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
     lone, mine = dangles(channel), known_type(consumer)
     below = mine is not None and lone and consumer.name.endswith(names.leaf(channel.name))
     alike = likeness(consumer.name, channel.name)
-    if alike is None and not below:
+    one_sided = mine is not None and lone and _is_one_sided(consumer, channel)
+    if alike is None and not below and not one_sided:
         return
     for connection in channel.consumers:
         if connection.node is own:
@@ -62,7 +63,7 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
     how_far = len(long_name) - len(short_name)
     may_be_slash = below and long_name.endswith(short_name)
     has_level = below and extra_level(short_name, long_name) is not None
-    if not (may_be_slash or has_level or says_enough):
+    if not (may_be_slash or has_level or says_enough or one_sided):
         return
     for number, provider in enumerate(channel.providers):
         if provider.endpoint.builtin or provider.node is own:
@@ -71,6 +72,9 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
         theirs = known_type(provider)
         known = mine is not None and theirs is not None
         if (known and mine != theirs) or not (known or lone):
+            continue
+        if known and one_sided and not (alike is not None and alike[0] == "typo"):
+            yield number, "remap", 0
             continue
         if known and may_be_slash:
             short, long = (consumer, provider) if len(consumer.name) <= len(provider.name) else (provider, consumer)
@@ -82,6 +86,14 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
             continue
         if alike is not None and says_enough and (alike[0] == "typo" or (known and lone)):
             yield number, *alike
+
+
+def _is_one_sided(consumer: Connection, channel: Channel) -> bool:
+    """Whether a remap at one side alone moved its end, from the name that the other side has."""
+    if consumer.remap is not None:
+        wanted = given_name(consumer)
+        return wanted == channel.name and all(each.remap is None for each in channel.providers)
+    return all(each.remap is not None and given_name(each) == consumer.name for each in channel.providers)
 
 
 def _is_slash(short: Connection, long: Connection) -> bool:

@@ -16,7 +16,7 @@ from preflight_analysis.model.alike import Names
 from preflight_analysis.model.channels import channels_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import GENERIC_PACKAGES, all_dangling_consumers
-from preflight_analysis.model.near_miss import NearMiss
+from preflight_analysis.model.near_miss import NearMiss, given_name
 from preflight_analysis.model.near_miss_evidence import Rank, best_rank, known_type, near_miss
 from preflight_analysis.model.nearest import share_words
 
@@ -114,7 +114,22 @@ class _Offered:
             every = (self._pool(each).typos(consumer.name) for each in self._pairs)
             return {name: channel for found in every for name, channel in found.items()}
         pools = [self._pool(each) for each in (type_, None) if each in self._pairs]
-        return {channel.name: channel for pool in pools for channel in _like(pool, consumer)}
+        found = (*(each for pool in pools for each in _like(pool, consumer)), *self._before_remaps(consumer)[:1])
+        return {channel.name: channel for channel in found}
+
+    def _before_remaps(self, consumer: Connection) -> Sequence[Channel]:
+        """What had the name of the consumer before a remap at one of the two."""
+        return self._given.get((known_type(consumer), given_name(consumer)), ())
+
+    @cached_property
+    def _given(self) -> Mapping[tuple[str | None, str], Sequence[Channel]]:
+        """The channels of each type by the names that their providers have before remaps."""
+        found: dict[tuple[str | None, str], list[Channel]] = {}
+        for type_, some in self._pairs.items():
+            for each in some:
+                for name in {given_name(end) for end in each.providers if known_type(end) == type_}:
+                    found.setdefault((type_, name), []).append(each)
+        return found
 
     def best(self, consumer: Connection) -> tuple[Channel, Rank] | None:
         """The best of those that are like it, and how well it fits."""
@@ -145,6 +160,8 @@ class _Offered:
         if near.likeness == "words" and leaf == names.leaf(near.provider.name):
             spaces = map(names.parent, (near.consumer.name, near.provider.name))
             return self._kinds[type_, leaf] > 1 and not share_words(*spaces)
+        if near.likeness == "remap":
+            return len(self._before_remaps(near.consumer)) != 1
         if near.likeness not in ("slash", "level") or not type_.startswith(GENERIC_PACKAGES):
             return False
         return any(self._lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))

@@ -23,7 +23,7 @@ def fixes(near: NearMiss, consumers: Document | None, providers: Document | None
     site, other = near.site, near.other
     if not near.mendable or _is_guessed(near.consumer) or _is_guessed(near.provider):
         return ()
-    if site.remap is not None:
+    if site.remap is not None and near.likeness != "remap":
         document = consumers if site is near.consumer else providers
         corrected = _correct_remap(document, site, site.remap, other.name)
         if corrected is not None:

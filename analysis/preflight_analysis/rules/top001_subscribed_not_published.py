@@ -37,7 +37,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     found, known = unmet(context, "topics"), seen(context, graph)
-    in_use = in_use_around(context, [pair.consumer for pair in found.near])
+    in_use = in_use_around(context, [pair.doubtful for pair in found.near])
     columns = (found.near, in_use, *documents_of(context, found.near))
     yield from context.each_row(_near, columns, rule, known)
     if known.blind:

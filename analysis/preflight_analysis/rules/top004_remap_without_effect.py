@@ -127,7 +127,14 @@ RULE = Rule(
     effect="no-effect",
     kind="absent",
     always=(Reason.UNSEEN,),
-    sometimes=(Reason.NO_DIFFERENCE, Reason.INTENDED, Reason.IN_USE, Reason.DEPENDS, Reason.ASSUMED, Reason.FROM_SOURCE),
+    sometimes=(
+        Reason.NO_DIFFERENCE,
+        Reason.INTENDED,
+        Reason.IN_USE,
+        Reason.DEPENDS,
+        Reason.ASSUMED,
+        Reason.FROM_SOURCE,
+    ),
     what="Checks for a remap whose `from` is not a topic, service or parameter of its nodes. Namespaces of names in "
     "use, and names below one, count as used: actions and image transports create such names.",
     why="A remap of an unused name is ignored without an error, and the node keeps its own name.",
