@@ -27,6 +27,7 @@ def found_in(folder: Path, row: str, args: str = _FILE, distro: str | None = Non
         ("- {topic_name: a, ros_type_name: std_msgs/msg/String}", "'gz_type_name' is missing", "topic_name"),
         (f"- {{topic_name: a, gz_topic_name: b, {_TYPES}}}", "'gz_topic_name' excludes 'topic_name'", "b"),
         (f"- {{ros_topic: a, {_TYPES}}}", "the entry names no topic", "ros_topic"),
+        (f"- {{topic_name: /arm/0/cmd, {_TYPES}}}", "'/arm/0/cmd' is a topic name that ROS refuses", "/arm/0/cmd"),
         (f"- {{topic_name: my-robot, {_TYPES}}}", "'my-robot' is a topic name that ROS refuses", "my-robot"),
         ("- scan", "an entry of a bridge must have keys", "scan"),
         (f"bridges: [{{topic_name: a, {_TYPES}}}]", "the file of the bridge must be a list", "bridges"),
@@ -73,6 +74,7 @@ def test_old_keys_are_gone_since_jazzy(tmp_path: Path) -> None:
         ("/s@a/srv/B[gz.msgs.C", "separates the types of a service by '[' instead of '@': parameter", "error"),
         ("/s@a/srv/B@gz.msgs.C", "names one type of Gazebo, a service has two: parameter_bridge exits", "error"),
         ("/model//scan@std_msgs/msg/String@gz.msgs.StringMsg", "has a topic name that ROS refuses: param", "info"),
+        ("/arm/0/cmd@std_msgs/msg/String]gz.msgs.StringMsg", "has a topic name that ROS refuses: param", "error"),
         ("my-robot@std_msgs/msg/String@gz.msgs.StringMsg", "has a topic name that ROS refuses: param", "error"),
     ],
 )
@@ -86,7 +88,7 @@ def test_arguments_that_it_refuses(tmp_path: Path, argument: str, said: str, sev
 @pytest.mark.parametrize(
     "args",
     [
-        "/a@std_msgs/msg/String@gz.msgs.StringMsg b@std_msgs/msg/String[gz.msgs.StringMsg",
+        "/a1/b_0@std_msgs/msg/String@gz.msgs.StringMsg b@std_msgs/msg/String[gz.msgs.StringMsg",
         "/s@a/srv/B /t@a/srv/B@gz.msgs.C@gz.msgs.D --ros-args -r a:=b -- c@std_msgs/msg/String]gz.msgs.StringMsg",
         "--ros-args -p config_file:=/nowhere/bridge.yaml",
         "/world/$(var name)/scan@std_msgs/msg/String@gz.msgs.StringMsg /a@std_msgs/msg/String[gz.msgs.StringMsg",

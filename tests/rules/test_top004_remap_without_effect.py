@@ -4,6 +4,8 @@ import json
 from pathlib import Path
 
 import pytest
+from preflight_analysis.rules.registry import run_rules
+from support import package_elsewhere
 from support.check import apply, check, findings_of
 
 
@@ -147,7 +149,8 @@ def test_a_typo_at_a_node_that_the_catalogue_has_in_part(remap: str, meant: str 
         </launch>
         //- interfaces
         {{"/karto": {{"source": "catalogue", "status": "not-run", "params": {{"/": {{"access": "list"}}}},
-          "subscribers": {{"scan": "sensor_msgs/LaserScan"}}, "publishers": {{"map_metadata": "nav_msgs/MapMetaData"}}}}}}
+          "subscribers": {{"scan": "sensor_msgs/LaserScan"}},
+          "publishers": {{"map_metadata": "nav_msgs/MapMetaData"}}}}}}
     """)
     told = [(each.severity, each.confidence) for each in found if each.rule == "TOP004"]
     assert told == ([("warning", "possible")] if meant else [])
@@ -378,3 +381,42 @@ def test_from_and_to_the_wrong_way_around() -> None:
 )
 def test_from_and_to_as_they_are_meant(source: str, target: str, published: str) -> None:
     assert [f for f in findings_of(_SWAPPED.format(source, target, published)) if f.rule == "TOP004"] == []
+
+
+_CONTROLLERS = """
+controller_manager:
+  ros__parameters:
+    base: {type: diff_drive_controller/DiffDriveController}
+base:
+  ros__parameters: {left_wheel_names: [l], right_wheel_names: [r]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("source", "severity", "said"),
+    [
+        ("/base/cmd_vel", "warning", "only asks for /base, which subscribes to '/base/cmd_vel' in the process of /c"),
+        (
+            "~/odom",
+            "warning",
+            "only asks for /base, which publishes '/base/odom' in the process of /controller_manager",
+        ),
+        ("cmd_vel", "info", "/spawn does not use that name according to the catalogue"),
+        ("/controller_manager/list_controllers", None, ""),
+    ],
+)
+def test_a_spawner_hands_no_remap_on_to_its_controllers(
+    tmp_path: Path, source: str, severity: str | None, said: str
+) -> None:
+    text = f"""
+        <launch>
+          <node pkg="controller_manager" exec="ros2_control_node"><param from="$(dirname)/c.yaml"/></node>
+          <node pkg="controller_manager" exec="spawner" name="spawn" args="base">
+            <remap from="{source}" to="/moves"/>
+          </node>
+        </launch>
+    """
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy", **{"c.yaml": _CONTROLLERS})
+    found = [each for each in run_rules(analysis.context) if each.rule == "TOP004"]
+    assert [each.severity for each in found] == ([severity] if severity else [])
+    assert all(said in each.message for each in found)

@@ -23,6 +23,14 @@ def is_legal(name: str) -> bool:
     return not name or (_LEGAL.match(name) is not None and "//" not in name)
 
 
+def is_legal_in_ros2(name: str) -> bool:
+    """Whether ROS 2 takes it for the name of a topic or service, too: no part begins with a digit.
+
+    `rcl_validate_topic_name`; the name that the code gives is checked before it is remapped.
+    """
+    return is_legal(name) and not any(part[:1].isdigit() for part in name.split("/"))
+
+
 def canonicalize(name: str) -> str:
     """Without doubled or trailing slashes."""
     if name == "/" or ("//" not in name and not name.endswith("/")):

@@ -36,7 +36,7 @@ def bridged(node: LaunchNode, config: Document | None, kinds_in_types: bool) -> 
     for name, type_, direction, named_by in (*rows, *_configured(config)):
         package, _, rest = type_.partition("/")
         kind = "msg/" if kinds_in_types else ""
-        for role in _ROLES.get(direction, ()) if names.is_legal(name) else ():
+        for role in _ROLES.get(direction, ()) if names.is_legal_in_ros2(name) else ():
             full = f"{package}/{kind}{rest.removeprefix('msg/')}"
             yield Endpoint(role, name, full, evidence=_EVIDENCE, named_by=named_by)
 

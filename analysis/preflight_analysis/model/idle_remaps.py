@@ -9,6 +9,7 @@ from itertools import chain
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
+from preflight_analysis.evaluation.ros2.spawners import asked_of, is_spawner
 from preflight_analysis.evaluation.tree import LaunchNode, Remap
 from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.incremental.derived import derived
@@ -45,6 +46,11 @@ class IdleRemap:
     """Whether the target is a name that the source of each node makes, and another node has the one that the remap is
     for: `from` and `to` are the wrong way around."""
 
+    manager: str = ""
+    """At a spawner, the node in whose process the controllers live that it asks for, which are `helped`: `meant` is an
+    end of one of them."""
+    helped: tuple[str, ...] = ()
+
     @property
     def to_itself(self) -> bool:
         """Whether it is from a name to the same name, which says nothing unless something else was meant."""
@@ -61,6 +67,8 @@ class _Reached:
     known_by: str
     sure: bool
     is_reversed: bool = False
+    manager: str = ""
+    controllers: tuple[str, ...] = ()
 
 
 @derived
@@ -77,7 +85,12 @@ def idle_remaps(context: Context) -> tuple[IdleRemap, ...]:
         return ()
     own_ends = context.each(_own_ends, chain(graph.topics.values(), graph.services.values()))
     of_nodes = context.grouped(_node, "", chain.from_iterable(own_ends))
-    found = (_with_meaning(context, graph, each, of_nodes.get(id(each.nodes[0]), ())) for each in idle)
+    names_of = {node.name: id(node) for node in graph.tree.nodes}
+    rows = ((each, [id(each.nodes[0]), *(names_of.get(name, 0) for name in each.helped)]) for each in idle)
+    found = (
+        _with_meaning(context, graph, each, tuple(chain.from_iterable(of_nodes.get(node, ()) for node in nodes)))
+        for each, nodes in rows
+    )
     return tuple(
         each for each in found if (each.sure and not (each.to_itself or each.is_reversed)) or each.meant is not None
     )
@@ -89,12 +102,20 @@ def _reached(node: LaunchNode, interface: Interface) -> tuple[_Reached, ...]:
     sure, known = _reports_names(node, interface), _used(node, interface)
     tells = sure or _tells_in_part(node, interface)
     known_by = _KNOWN_BY.get(interface.source, _BY_RUN)
+    asked = asked_of(node) if is_spawner(node) else None
+    manager, helped = "", tuple[str, ...]()
+    if asked is not None:
+        # It calls services of the manager, whatever it was seen to do, and the controllers live there.
+        manager, helped = asked.manager, tuple(names.join(names.parent(asked.manager), c) for c in asked.controllers)
+        sure = tells = True
+        known_by = BY_CATALOGUE
+        known = _Names(known.used | {manager}, known.around | {*names.with_namespaces([manager])})
     found = []
     for remap in node.remaps:
         # One to itself has none whatever the node uses.
         idle = (tells or _is_to_itself(remap, node)) and _has_no_effect(remap, node, known)
         swapped = not idle and tells and interface.source == "source" and _is_reversed(remap, node, known)
-        found.append(_Reached(remap, node, not (idle or swapped), known_by, sure, swapped))
+        found.append(_Reached(remap, node, not (idle or swapped), known_by, sure, swapped, manager, helped))
     return tuple(found)
 
 
@@ -112,8 +133,15 @@ def _idle(reached: tuple[_Reached, ...]) -> IdleRemap | None:
     swapped = {each.is_reversed for each in reached}
     if len(swapped) > 1:
         return None
+    first = reached[0]
     return IdleRemap(
-        reached[0].remap, tuple(each.node for each in reached), known_by, sure=sure, is_reversed=swapped.pop()
+        first.remap,
+        tuple(each.node for each in reached),
+        known_by,
+        sure=sure,
+        is_reversed=swapped.pop(),
+        manager=first.manager,
+        helped=first.controllers,
     )
 
 
@@ -175,6 +203,8 @@ def _meaning(
     # What the catalogue has was read from the whole source of the node.
     is_slip = _is_slip if idle.sure or idle.known_by == BY_CATALOGUE else _is_same_leaf
     found = [(each, target) for each, target in lone if is_slip(full, each)]
+    if idle.helped:
+        found = [(each, target) for each, target in lone if _is_of_helped(idle, each)]
     if len(found) != 1 and idle.sure:
         found = [(each, target) for each, target in lone if _partner(target, each) is not None]
     if not found and idle.sure and not idle.to_itself:
@@ -264,6 +294,15 @@ def _is_slip(full: str, connection: Connection) -> bool:
     """Whether the names are a typo apart, or only their namespaces differ: a missing `~`, a slash too many."""
     alike = likeness(full, connection.name)
     return (alike is not None and alike[0] == "typo") or _is_same_leaf(full, connection)
+
+
+def _is_of_helped(idle: IdleRemap, connection: Connection) -> bool:
+    """Whether the remap of a spawner names that end of its controller, by its full name or as the controller has it."""
+    source, node = idle.remap.source, connection.node.name
+    return node in idle.helped and connection.name in (
+        names.resolve(source, idle.nodes[0].name),
+        names.resolve(source, node),
+    )
 
 
 def _is_same_leaf(full: str, connection: Connection) -> bool:

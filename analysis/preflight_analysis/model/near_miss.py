@@ -12,8 +12,8 @@ from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends
 from preflight_analysis.model.nearest import has_all_words, is_word_more
 
 Evidence = Literal["typo", "remap", "slash", "level", "words"]
-"""How two names are alike, the strongest first. `typo` and `words` as in `nearest`. `remap`: both ends had one name, and
-the launch remaps one of them alone. `slash`: one end was given an
+"""How two names are alike, the strongest first. `typo` and `words` as in `nearest`. `remap`: both ends had one name,
+and the launch remaps one of them alone. `slash`: one end was given an
 absolute name, and the other end's is the same below its node's namespace. `level`: one has a namespace more."""
 EVIDENCE: tuple[Evidence, ...] = ("typo", "remap", "slash", "level", "words")
 

@@ -66,7 +66,7 @@ def _of_arguments(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in context.tree.nodes:
         for given in arguments_of(node):
             wrong = given.refused
-            if not wrong and not given.is_service and not names.is_legal(given.topic):
+            if not wrong and not given.is_service and not names.is_legal_in_ros2(given.topic):
                 wrong = "has a topic name that ROS refuses"
             if not wrong:
                 continue
@@ -115,7 +115,7 @@ def _refused(entry: Entry) -> Iterator[_Refused]:
     topic = entry.ros_topic
     if topic is None and not any(key in entry.keys for key in ("topic_name", *_OF_ONE_SIDE)):
         yield _Refused("the entry names no topic: the bridge ends", entry.place, ends=True)
-    elif topic is not None and not is_unknown(topic[0]) and not names.is_legal(topic[0]):
+    elif topic is not None and not is_unknown(topic[0]) and not names.is_legal_in_ros2(topic[0]):
         yield _Refused(f"'{topic[0]}' is a topic name that ROS refuses: the bridge ends", topic[1], ends=True)
     for key, place in entry.keys.items():
         near = nearest(key, _KEYS)

@@ -24,6 +24,10 @@ from preflight_analysis.rules.rule import Rule
 _DOES = {"publisher": "publishes", "subscriber": "subscribes to", "service": "serves", "client": "calls"}
 
 _OF_ONE = "remap of '{name}' has no effect: {node} does not use that name"
+_OF_SPAWNER = (
+    "remap of '{name}' has no effect: {node} only asks for {controller}, which {does} '{end}' in the process of "
+    "{manager}; put the remap there"
+)
 _OF_SEVERAL = "remap of '{name}' has no effect: none of its {number} nodes uses that name"
 
 
@@ -69,6 +73,8 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
             related=include_chain(remap.origin),
         )
     evidence = f"did you mean '{_given(meant)}', which it {_DOES[meant.endpoint.role]}"
+    if idle.manager:
+        return _of_spawner(rule, idle, meant, known)
     if idle.is_reversed:
         evidence = f"'from' and 'to' are swapped: it {_DOES[meant.endpoint.role]} '{_given(meant)}'"
     elif idle.partner is not None:
@@ -93,6 +99,20 @@ def _finding(idle: IdleRemap, document: Document | None, written: bool, rule: Ru
             *include_chain(remap.origin),
         ),
         fixes=() if idle.is_reversed else _fix(document, remap.source_location, meant),
+        endpoints=endpoints_of(meant, *((idle.partner,) if idle.partner else ())),
+    )
+
+
+def _of_spawner(rule: Rule, idle: IdleRemap, meant: Connection, known: tuple[Doubt, ...]) -> Finding:
+    remap, node, does = idle.remap, idle.nodes[0].name, _DOES[meant.endpoint.role]
+    source = names.resolve(remap.source, node)
+    named = {"name": source, "node": node, "controller": meant.node.name, "end": meant.name, "manager": idle.manager}
+    return rule.claim(
+        say(_OF_SPAWNER, does=does, **named),
+        remap.source_location,
+        subject=Subject("remap", source),
+        doubts=(*known, *doubts(DEPENDS=node if meant.endpoint.uncertain else "")),
+        related=(related_endpoint(meant, does), *include_chain(remap.origin)),
         endpoints=endpoints_of(meant, *((idle.partner,) if idle.partner else ())),
     )
 
