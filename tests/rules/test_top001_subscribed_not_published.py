@@ -555,3 +555,34 @@ def test_a_node_with_a_random_name_may_publish_anything() -> None:
         {"/sub": {"subscribers": {"topics": "std_msgs/String"}},
          "/pub": {"publishers": {"topic3": "std_msgs/String"}, "unnamed": ["topic3"]}}
     """)
+
+
+_COSTMAP = """
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      plugins: [obstacles]
+      obstacles:
+        plugin: "nav2_costmap_2d::ObstacleLayer"
+        observation_sources: scan
+        scan: {topic: TOPIC, data_type: LaserScan}
+"""
+
+
+@pytest.mark.parametrize(
+    ("topic", "found"),
+    [("front/scan", [("warning", True)]), ("/front/scan", []), ("rear/scan", [("hint", True)])],
+)
+def test_a_name_that_a_costmap_puts_below_its_own(tmp_path: Path, topic: str, found: list[tuple[str, bool]]) -> None:
+    text = """
+        <launch>
+          <node pkg="robot" exec="scanner" name="scanner" namespace="front">
+            <!-- <topics><topic name="scan" type="sensor_msgs/msg/LaserScan" class="pub"/></topics> -->
+          </node>
+          <node pkg="nav2_controller" exec="controller_server"><param from="$(dirname)/nav.yaml"/></node>
+        </launch>
+    """
+    params = _COSTMAP.replace("TOPIC", topic)
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy", **{"nav.yaml": params})
+    told = [each for each in run_rules(analysis.context) if each.rule == "TOP001" and "scan'" in each.message]
+    assert [(each.severity, "did you mean '/front/scan'" in each.message) for each in told] == found

@@ -47,6 +47,16 @@ class NearMiss:
         return self.site if self.likeness == "remap" else self.consumer
 
     @property
+    def made_relative(self) -> bool:
+        """Whether a parameter has the provider's name but for the slash before it, and the node puts a namespace of its
+        own before that, as costmaps do: `front/scan` is `/local_costmap/front/scan`."""
+        end = self.consumer
+        if self.likeness != "level" or end.remap is not None or end.endpoint.named_by is None or end.endpoint.displayed:
+            return False
+        level = extra_level(self.provider.name, end.name)
+        return level is not None and level not in end.node.namespace.split("/") and level != names.leaf(end.node.name)
+
+    @property
     def strong(self) -> bool:
         """Whether it speaks for itself, whatever else the launch may hold."""
         return self.likeness == "typo" and self.same_type
@@ -82,7 +92,11 @@ def doubts_of(near: NearMiss, lacks: str | bool, likely_complete: bool) -> tuple
     `channels.not_all_known`."""
     ends = (near.consumer, near.provider)
     lone = near.provider_dangles and not _of_another_node(near)
-    alike = near.likeness in ("typo", "remap") or (lone and (likely_complete or is_word_more(*_both_names(near))))
+    alike = (
+        near.likeness in ("typo", "remap")
+        or near.made_relative
+        or (lone and (likely_complete or is_word_more(*_both_names(near))))
+    )
     # Two ends that nobody else has anything to do with speak for each other, be one of them but assumed.
     both_lone = near.provider_dangles and (near.likeness in ("typo", "remap") or _same_leaf(near))
     return (
