@@ -44,6 +44,9 @@ def test_a_plugin_of_the_simulator() -> None:
     said = "info[FRM002] frame 'base_link' has two publishers: /rsp (drive) and /ekf"
     spawn = '<node pkg="gazebo_ros" exec="spawn_entity.py" name="spawn"/>'
     check(fixture(f"{driven}\n{spawn}\n{_EKF}\n{_BASE}\n{below(13, 15, said)}", None, _GAZEBO))
+    told = driven.replace("&lt;odometry_frame>", "&lt;publish_odom_tf>true&lt;/publish_odom_tf>&lt;odometry_frame>")
+    said = said.replace("info", "warning")
+    check(fixture(f"{told}\n{spawn}\n{_EKF}\n{_BASE}\n{below(13, 15, said)}", None, _GAZEBO))
     check(fixture(f"{driven}\n{_EKF}\n{_BASE}"))  # on the robot it does nothing
     system = driven.replace("name='drive'", "name='gz::sim::systems::DiffDrive'")
     check(fixture(f"{system}\n{spawn}\n{_EKF}\n{_BASE}", None, _GAZEBO))

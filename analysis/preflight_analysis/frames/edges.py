@@ -29,6 +29,7 @@ _ODOMETRY = ("odometry_frame", "odometryFrame", "odom_frame", "frame_id")
 _BASE = ("robot_base_frame", "robotBaseFrame", "base_frame", "child_frame_id")
 _SAYS_NOT = ("publish_odom_tf", "publishOdomTF", "publishTf", "publish_tf", "broadcastTF")
 _NO = ("false", "0")
+_YES = ("true", "1")
 
 
 def plain(frame: str) -> str:
@@ -175,7 +176,8 @@ def edges_of_robot(
 
 
 def edges_of_plugins(robot: Robot, node: LaunchNode | None, space: str) -> Iterator[Edge]:
-    """The odometry that plugins of a simulator broadcast, which may be another robot's than the description's."""
+    """The odometry that plugins of a simulator broadcast. What their elements say is sure; what they leave to a default
+    differs by version."""
     for plugin in robot.description.plugins:
         if not any(word in plugin.filename for word in _DRIVES):
             continue
@@ -183,9 +185,10 @@ def edges_of_plugins(robot: Robot, node: LaunchNode | None, space: str) -> Itera
             continue
         parent, child = _first(plugin, _ODOMETRY), _first(plugin, _BASE)
         if parent and child:
-            place = robot.param.place
+            said = any(plugin.params.get(name, "").lower() in _YES for name in _SAYS_NOT)
+            place, sure = robot.param.place, said and node is not None
             yield Edge(
-                plain(parent), plain(child), False, "gazebo", node, place, space, False, detail=plugin.name, robot=robot
+                plain(parent), plain(child), False, "gazebo", node, place, space, sure, detail=plugin.name, robot=robot
             )
 
 
