@@ -1,7 +1,7 @@
 """TOP002: a node publishes what nobody subscribes to."""
 
 import pytest
-from support.check import check
+from support.check import check, findings_of
 
 
 def test_a_connected_graph_is_quiet_and_unused_topics_share_a_hint() -> None:
@@ -46,3 +46,32 @@ def test_what_libraries_talk_about_among_themselves_is_no_finding() -> None:
                                 "manager/bond": "bond/Status"},
                 "services": {"~set_parameters": "dynamic_reconfigure/Reconfigure"}}}
     """)
+
+
+def _twins(nodes: str) -> str:
+    return f"""
+        <launch>
+          <node pkg="p" type="sensor" name="sensor" ns="a"/>
+          <node pkg="p" type="sensor" name="sensor" ns="b"/>
+          {nodes}
+        </launch>
+        //- interfaces
+        {{"/a/sensor": {{"publishers": {{"level": "x/L"}}}}, "/b/sensor": {{"publishers": {{"level": "x/L"}}}},
+          "/a/monitor": {{"subscribers": {{"level": "x/L"}}}}, "/b/monitor": {{"subscribers": {{"level": "x/L"}}}}}}
+    """
+
+
+_TO_B = '<node pkg="p" type="monitor" name="monitor" ns="a"><remap from="level" to="/b/level"/></node>'
+
+
+def test_a_remap_to_the_topic_of_the_sibling() -> None:
+    (found,) = findings_of(_twins(f'{_TO_B}<node pkg="p" type="monitor" name="monitor" ns="b"/>'))
+    assert (found.rule, found.severity) == ("TOP002", "info")
+    assert found.message.startswith(
+        "/a/monitor is remapped to '/b/level' of /b/sensor: nobody subscribes to '/a/level'"
+    )
+
+
+def test_a_remap_to_what_nobody_else_of_its_kind_hears() -> None:
+    (found,) = findings_of(_twins(f'{_TO_B}<node pkg="p" type="show" name="monitor" ns="b"/>'))
+    assert (found.rule, found.severity) == ("TOP002", "hint")

@@ -17,7 +17,7 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import by_type, dangling_consumers, dangling_providers
 from preflight_analysis.model.idle_remaps import idle_remaps
 from preflight_analysis.model.moveit import known_to_moveit, unserved
-from preflight_analysis.model.near_miss import NearMiss
+from preflight_analysis.model.near_miss import NearMiss, given_name
 from preflight_analysis.model.near_miss_search import near_misses
 from preflight_analysis.model.nearest import numbers_in, share_words
 from preflight_analysis.model.remaps_elsewhere import Elsewhere, used_elsewhere
@@ -138,6 +138,41 @@ def _offer(
         and numbers_in(offer.name) == numbers_in(client.name)
     ]
     return alike[0] if len(alike) == 1 else None
+
+
+@derived
+def crossed(context: Context) -> Mapping[int, tuple[Connection, Connection]]:
+    """For publishers without a subscriber, by id, the only one that a remap took to a like publisher in another
+    namespace, where its own like listens already, and that publisher."""
+    graph = context.graph
+    lone = unmet(context, "topics").providers if graph is not None else ()
+    names_of_lone = {each.name for each in lone}
+    moved: dict[str, list[tuple[Connection, Channel]]] = {}
+    for channel in graph.topics.values() if graph is not None and lone else ():
+        for end in channel.consumers if channel.providers else ():
+            if end.remap is not None and (name := given_name(end)) in names_of_lone:
+                moved.setdefault(name, []).append((end, channel))
+    found: dict[int, tuple[Connection, Connection]] = {}
+    for each in lone if moved else ():
+        pairs = [pair for end, channel in moved.get(each.name, ()) if (pair := _crossing(each, end, channel))]
+        if len(pairs) == 1:
+            found[id(each)] = pairs[0]
+    return found
+
+
+def _crossing(own: Connection, end: Connection, channel: Channel) -> tuple[Connection, Connection] | None:
+    if end.endpoint.type != own.endpoint.type or own.endpoint.type in (None, "*"):
+        return None
+    other = next((each for each in channel.providers if _are_siblings(each, own)), None)
+    taken = any(_are_siblings(each, end) and each.remap is None for each in channel.consumers)
+    return (end, other) if other is not None and taken else None
+
+
+def _are_siblings(one: Connection, other: Connection) -> bool:
+    """Whether two nodes of one program in two namespaces have the end alike."""
+    a, b = one.node, other.node
+    alike = (a.package, a.executable, a.plugin) == (b.package, b.executable, b.plugin) and a.namespace != b.namespace
+    return alike and (one.endpoint.name, one.endpoint.role) == (other.endpoint.name, other.endpoint.role)
 
 
 def meant_pairs(context: Context, kind: ChannelKind) -> Iterator[tuple[Connection, Connection]]:

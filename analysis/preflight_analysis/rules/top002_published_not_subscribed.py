@@ -9,14 +9,17 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.model.channels import OF_ENDS, doubts_of_ends, not_all_known
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.places import connection_location, endpoints_of
+from preflight_analysis.model.places import connection_location, endpoints_of, related_endpoint
 from preflight_analysis.model.problems import include_chain, quoted
-from preflight_analysis.model.reach import unmet
+from preflight_analysis.model.reach import crossed, unmet
 from preflight_analysis.model.remaps_elsewhere import BY_FILES
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding
 from preflight_analysis.rules.rule import Rule
 
+_CROSSED = (
+    "{node} is remapped to '{theirs}' of {other}: nobody subscribes to '{own}' of {publisher}, its name without that"
+)
 _LONE = "{topics} {have} no subscriber in this launch (publisher: {node})"
 
 
@@ -29,10 +32,29 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if id(each) in found.elsewhere:
             said = say(_LONE, topics=f"'{each.name}'", have="has", node=each.node.name)
             yield elsewhere_finding(rule, context, each, said, found.elsewhere[id(each)])
-    dangling = [each for each in found.providers if id(each) not in found.elsewhere]
+    taken = crossed(context)
+    for each in found.providers:
+        if id(each) in taken and id(each) not in found.elsewhere:
+            yield _crossed(rule, each, *taken[id(each)], lacks=not_all_known(graph))
+    dangling = [each for each in found.providers if id(each) not in found.elsewhere and id(each) not in taken]
     # A sensor's driver publishes a dozen topics of which two are used: one hint for all that stand at one place.
     grouped = context.grouped(_place, rule.id, dangling)
     yield from context.each(_finding, grouped.values(), rule, not_all_known(graph))
+
+
+def _crossed(rule: Rule, own: Connection, end: Connection, other: Connection, *, lacks: str | bool) -> Finding:
+    said = {"node": end.node.name, "theirs": end.name, "other": other.node.name}
+    return rule.claim(
+        say(_CROSSED, own=own.name, publisher=own.node.name, **said),
+        connection_location(end),
+        subject=Subject("topic", own.name),
+        kind="near",
+        effect="misbehaves",
+        doubts=(*doubts(INTENDED=True), *doubts_of_ends(own, end, other, lacks=lacks)),
+        candidates=(own.name,),
+        related=(related_endpoint(own, "publishes"), *include_chain(end.node.origin)),
+        endpoints=endpoints_of(own, end),
+    )
 
 
 def _place(connection: Connection) -> tuple[Location, str]:
@@ -58,8 +80,9 @@ RULE = Rule(
     effect="style",
     kind="unused",
     always=(Reason.UNSEEN,),
-    sometimes=("breaks", Reason.OTHER_LAUNCH, *BY_FILES, *OF_ENDS),
-    what="Checks for published topics without a subscriber in the launch, per node.",
+    sometimes=("breaks", "misbehaves", Reason.OTHER_LAUNCH, Reason.INTENDED, *BY_FILES, *OF_ENDS),
+    what="Checks for published topics without a subscriber in the launch, per node. The finding says where a remap takes "
+    "the subscriber to the same topic of another robot.",
     why="Most of these topics are fine. If a robot does not move, check them first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',
