@@ -41,7 +41,7 @@ def test_completion_has_what_is_installed(analysis: Analysis) -> None:
         written = f"$(find-pkg-share {package}){below}"
         return [(each.label, each.detail) for each in listed(analysis.context, written, folder, (".yaml",))]
 
-    assert [name for name, _ in offered("robot", "")] == ["config/", "launch/", "params/", "robot/"]
+    assert [name for name, _ in offered("robot", "")] == ["config/", "launch/", "params/", "resource/", "robot/"]
     assert offered("robot", "/config") == [("driver.yaml", "not installed"), ("renamed.yaml", "not installed")]
     assert offered("robot", "/params") == [("renamed.yaml", "")]
     assert offered("arm", "/config") == [("arm.yaml", "")]

@@ -81,8 +81,8 @@ RULE = Rule(
     kind="unused",
     always=(Reason.UNSEEN,),
     sometimes=("breaks", "misbehaves", Reason.OTHER_LAUNCH, Reason.INTENDED, *BY_FILES, *OF_ENDS),
-    what="Checks for published topics without a subscriber in the launch, per node. The finding says where a remap takes "
-    "the subscriber to the same topic of another robot.",
+    what="Checks for published topics without a subscriber in the launch, per node. The finding says where a remap "
+    "takes the subscriber to the same topic of another robot.",
     why="Most of these topics are fine. If a robot does not move, check them first.",
     example='<remap from="cmd_vel" to="base/cmd_velocity"/> <!-- the base subscribes to base/cmd_vel -->',
     instead='<remap from="cmd_vel" to="base/cmd_vel"/>',
