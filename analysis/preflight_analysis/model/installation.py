@@ -116,3 +116,12 @@ def is_by_share(context: Context, location: Location) -> bool:
     if is_python(document.path, document.text):
         return "__file__" not in document.text and any(name in document.text for name in _IN_PYTHON)
     return "find-pkg-share" in document.text[location.span.start : location.span.end]
+
+
+def packages_of(context: Context) -> tuple[Package, ...]:
+    """The packages of the workspace that a launch has to do with."""
+    environment = context.environment
+    found = {package.name: package for file in context.launch_files if (package := package_around(environment, file))}
+    named = {node.package for node in context.tree.nodes} & environment.packages.keys()
+    found |= {name: environment.packages[name] for name in sorted(named)}
+    return tuple(package for package in found.values() if package.is_ament and not environment.is_installed(package))

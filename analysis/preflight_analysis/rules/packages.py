@@ -8,10 +8,9 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.build import Said
-from preflight_analysis.environment.installed_paths import package_around
-from preflight_analysis.environment.model import Package
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.installation import packages_of
 from preflight_analysis.rules.rule import Check, OfPackage, Rule
 
 
@@ -23,15 +22,6 @@ def check_packages(of_package: OfPackage) -> Check:
             yield from of_package(rule, context.disk, context.environment, package)
 
     return check
-
-
-def packages_of(context: Context) -> tuple[Package, ...]:
-    """The packages of the workspace that a launch has to do with."""
-    environment = context.environment
-    found = {package.name: package for file in context.launch_files if (package := package_around(environment, file))}
-    named = {node.package for node in context.tree.nodes} & environment.packages.keys()
-    found |= {name: environment.packages[name] for name in sorted(named)}
-    return tuple(package for package in found.values() if package.is_ament and not environment.is_installed(package))
 
 
 def line_of(document: Document, line: int, part: str = "") -> Location:

@@ -42,9 +42,9 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             key = used.meant_for(getter)
             if not used.sections or reached:
                 continue
-            kept = leaked_argument(context, getter.node, used.path) if key is None else None
-            if len(given) == 1 or key is not None or kept is not None:
-                yield _about_file(rule, context, used, getter, key, kept)
+            leaked = leaked_argument(context, getter.node, used.path) if key is None else None
+            if len(given) == 1 or key is not None or leaked is not None:
+                yield _about_file(rule, context, used, getter, key, leaked)
 
 
 def _about_namespace(rule: Rule, context: Context, path: str, lost: SectionUse, slip: Slip) -> Finding:
@@ -96,7 +96,7 @@ def _about_key(rule: Rule, context: Context, used: FileUse, lost: SectionUse) ->
 
 
 def _about_file(
-    rule: Rule, context: Context, used: FileUse, given: Getter, meant: SectionUse | None, kept: Use | None
+    rule: Rule, context: Context, used: FileUse, given: Getter, meant: SectionUse | None, leaked: Use | None
 ) -> Finding:
     node, sections = given.node, [each.section for each in used.sections]
     named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
@@ -104,7 +104,7 @@ def _about_file(
     key = meant.section if meant is not None else sections[0]
     text = say(_NOT_OF_NODE, node=node.name, sections=named, inferred=inferred)
     return rule.claim(
-        text.followed_by(_KEPT, name=kept.name) if kept is not None else text,
+        text.followed_by(_KEPT, name=leaked.name) if leaked is not None else text,
         given.location,
         subject=Subject("file", used.path),
         kind="absent" if meant is None else "near",
@@ -114,7 +114,7 @@ def _about_file(
             Related(
                 "the section" if meant is not None else "its first section", context.location(used.path, key.spans[-1])
             ),
-            *([Related("passed here", kept.origin[-1])] if kept is not None else ()),
+            *([Related("passed here", leaked.origin[-1])] if leaked is not None else ()),
             *include_chain(node.origin),
         ),
         fixes=_rewrite(context, used.path, key, node.name) if meant is not None else (),

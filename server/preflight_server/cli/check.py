@@ -23,7 +23,7 @@ from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import Report, relative, to_json, to_text
-from preflight_analysis.rules.packages import packages_of
+from preflight_analysis.model.installation import packages_of
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
