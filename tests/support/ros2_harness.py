@@ -58,7 +58,10 @@ class Ros2Harness:
         scripts = [f"{name} = pkg.{name}:main" for name in modules]
         self.write("package.xml", "<package format='3'><name>pkg</name><version>0.0.0</version><description>d"
                    "</description><maintainer email='a@b.c'>a</maintainer><license>MIT</license>"
+                   "<exec_depend>rclpy</exec_depend><exec_depend>std_msgs</exec_depend>"
                    "<export><build_type>ament_python</build_type></export></package>")  # fmt: skip
+        scripts_to = "$base/lib/pkg"
+        self.write("setup.cfg", f"[develop]\nscript_dir={scripts_to}\n[install]\ninstall_scripts={scripts_to}\n")
         self.write("setup.py", "from setuptools import setup\nsetup(name='pkg', packages=['pkg'], data_files=[], "
                    f"entry_points={{'console_scripts': {scripts!r}}})\n")  # fmt: skip
         self.write("pkg/__init__.py", "")
