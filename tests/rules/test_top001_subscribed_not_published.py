@@ -112,6 +112,18 @@ def test_a_remap_at_one_of_two_ends_that_have_one_name() -> None:
     assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
 
 
+@pytest.mark.parametrize(("topic", "severity"), [("raw_level", "info"), ("other", "warning")])
+def test_a_multiplexer_that_another_launch_starts_may_have_the_name(tmp_path: Path, topic: str, severity: str) -> None:
+    ends = "<topics><topic name='level' type='x/Level' class='{}'/></topics>"
+    text = (
+        f"<launch><node pkg='p' type='t' name='sensor'>{ends.format('pub')}<remap from='level' to='raw_level'/></node>"
+        f"<node pkg='p' type='t' name='monitor'>{ends.format('sub')}</node></launch>"
+    )
+    mux = f"topics:\n- {{name: tank, topic: {topic}, priority: 10}}\n"
+    analysis = package_elsewhere.analysed(tmp_path, text, **{"config/mux.yaml": mux})
+    assert [each.severity for each in run_rules(analysis.context) if each.rule == "TOP001"] == [severity]
+
+
 def test_a_remap_at_the_subscriber_alone() -> None:
     check("""
         <launch>

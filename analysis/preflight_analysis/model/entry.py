@@ -32,7 +32,8 @@ Kind = Literal[
 ]
 """Of launch files: `argument` (declared, set or passed), `passed` to the included file `of`, `given`: a path below the
 package `type`, to the argument or parameter `of`, `remap`: what one leads to, `value`: a full name that a parameter,
-argument or remap has, `container` that nodes are loaded into, `flag` of a command line, `file` by its base name.
+argument or remap has (in YAML a key about topics), `container` that nodes are loaded into, `flag` of a command line,
+`file` by its base name.
 Of programs: `topic` or service that they make (`role`: offer or use, with the last part of its `type`), `parameter`
 that they ask for below `of`, `name`: any in quotes, `made` at run time, with `*` for what is computed, `library` that
 they speak of; of behaviour trees the nodes that they register, of class `of`, and the ports of a class;

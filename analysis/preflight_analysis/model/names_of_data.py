@@ -45,7 +45,8 @@ def names_of_xml(text: str) -> Iterator[Entry]:
 
 
 def names_of_yaml(text: str) -> Iterator[Entry]:
-    """The keys that have others below them, at the top, and what is called like a joint anywhere."""
+    """The keys that have others below them, at the top, the values of keys about topics, and what is called like a
+    joint anywhere."""
     try:
         root = compose_fast(text)
     except CONSTRUCTION_ERRORS:
@@ -61,6 +62,11 @@ def names_of_yaml(text: str) -> Iterator[Entry]:
         elif isinstance(node, yaml.MappingNode):
             keys = [key for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
             yield from (Entry("name", key.value) for key in keys if is_library)
+            yield from (
+                Entry("value", f"/{value.value.strip('/')}")
+                for key, value in node.value
+                if isinstance(key, yaml.ScalarNode) and "topic" in key.value and isinstance(value, yaml.ScalarNode)
+            )
             pending += [part for pair in node.value for part in pair]
         else:
             pending += node.value

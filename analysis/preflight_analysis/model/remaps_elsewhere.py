@@ -49,6 +49,12 @@ def in_use_around(context: Context, connections: Sequence[Connection]) -> list[b
     ]
 
 
+def named_in_files(context: Context, connection: Connection) -> bool:
+    """Whether a parameter file around names a topic so: a multiplexer's, which another launch starts."""
+    leaf = names.leaf(connection.name)
+    return any(names.leaf(each.text) == leaf for each in around(context, "value", "yaml"))
+
+
 @derived
 def used_elsewhere(context: Context) -> Mapping[int, Elsewhere]:
     """For ends of topics and services without another one, by id, the name that their remaps were most likely to give:

@@ -13,7 +13,7 @@ from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_
 from preflight_analysis.model.nearest import numbers_in
 from preflight_analysis.model.places import Verbs, related_endpoint
 from preflight_analysis.model.reach import Seen, seen, unmet
-from preflight_analysis.model.remaps_elsewhere import BY_FILES, in_use_around
+from preflight_analysis.model.remaps_elsewhere import BY_FILES, in_use_around, named_in_files
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
 from preflight_analysis.rules.remaps_elsewhere import elsewhere_finding
@@ -37,7 +37,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     if graph is None:
         return
     found, known = unmet(context, "topics"), seen(context, graph)
-    in_use = in_use_around(context, [pair.doubtful for pair in found.near])
+    in_use = [
+        is_used or (pair.likeness == "remap" and named_in_files(context, pair.doubtful))
+        for pair, is_used in zip(
+            found.near, in_use_around(context, [pair.doubtful for pair in found.near]), strict=True
+        )
+    ]
     columns = (found.near, in_use, *documents_of(context, found.near))
     yield from context.each_row(_near, columns, rule, known)
     if known.blind:
