@@ -98,3 +98,11 @@ def test_the_fix_names_what_was_meant(tmp_path: Path) -> None:
 )
 def test_what_can_be_loaded(tmp_path: Path, changed: dict[str, str | None]) -> None:
     assert said(tmp_path, {**PYTHON, **changed}, "PKG010") == []
+
+
+@pytest.mark.parametrize("entry", ["a{}b", "a = b{}c"])
+def test_an_entry_of_blanks_is_read_at_once(tmp_path: Path, entry: str) -> None:
+    blanks = " " * 50_000  # to look for the end from each of them took a minute
+    setup = SETUP.replace(DRIVER, f"'{entry.format(blanks)}',")
+    (text,) = said(tmp_path, {**PYTHON, "setup.py": setup}, "PKG010")
+    assert text.startswith("setup.py:15 error entry point 'a")

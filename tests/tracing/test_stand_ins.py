@@ -11,9 +11,11 @@ from pathlib import Path
 
 import pytest
 from preflight_analysis.environment.model import Package, Packages
+from preflight_analysis.tracing import stand_ins
 from preflight_analysis.tracing.agents.stand_ins.finder import LIBRARIES
 from preflight_analysis.tracing.cache import TraceCache
-from preflight_analysis.tracing.interface import KINDS, Interface
+from preflight_analysis.tracing.interface import KINDS, Interface, Outcome
+from preflight_analysis.tracing.records import Gathered
 from preflight_analysis.tracing.trace import Tracer
 from support.internals import shown_internals
 from support.ros2_harness import Ros2Harness, checked, node_of, ros2_prefix
@@ -784,3 +786,16 @@ def test_an_object_of_an_own_class_lacks_what_no_library_gives_it(tmp_path: Path
     outcome = graph.processes[0].outcome
     assert "AttributeError" in (outcome.reason or "")
     assert (outcome.lacks is None) == is_own
+
+
+@pytest.mark.parametrize("place", ["elsewhere/secret.py", "node/pipe.py", "node/../elsewhere/secret.py"])
+def test_what_a_node_says_of_itself_leads_to_no_file_of_others(tmp_path: Path, place: str) -> None:
+    """A path in its last words is believed as far as its own folder goes, and never one that would keep us waiting."""
+    (tmp_path / "node").mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere/secret.py").write_text("class Sensor: pass\n")
+    os.mkfifo(tmp_path / "node/pipe.py")
+    said = "AttributeError: 'Sensor' object has no attribute 'count'"
+    outcome = Outcome("crashed", stderr_tail=(f'  File "{tmp_path}/{place}", line 1, in x', said), reason=said)
+    found = Gathered(stand_ins={"rclpy"})
+    assert stand_ins.explained(outcome, found, str(tmp_path / "node/sensor.py")).lacks == "the Python module rclpy"

@@ -69,3 +69,37 @@ def _reads_of_an_edit(folder: Path, count: int, monkeypatch: pytest.MonkeyPatch)
 def test_reads_grow_little_with_the_nodes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     few, many = (_reads_of_an_edit(tmp_path / str(count), count, monkeypatch) for count in (10, 60))
     assert many - few <= MOST_OF_A_NODE * (60 - 10), (few, many)
+
+
+def test_an_edit_of_a_launch_file_looks_into_no_package_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is said of how a package is built and installed is made of its other files."""
+    package = tmp_path / "src" / "harbour"
+    for name, text in {
+        "package.xml": '<package format="3"><name>harbour</name><export><build_type>ament_python</build_type></export>'
+        "</package>",
+        "setup.py": "from setuptools import setup\nsetup(name='harbour', packages=['harbour'], data_files=[])\n",
+        "harbour/__init__.py": "",
+        "harbour/crane.py": "import rclpy\n",
+        "launch/yard.launch.py": "from launch import LaunchDescription\n\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([])\n",
+    }.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text(text)
+    path, sources = str(package / "launch/yard.launch.py"), Sources()
+    workspace = Workspace(detect(str(tmp_path)), sources, str(tmp_path))
+    text = Path(path).read_text()
+    sources.open(path, text)
+    made: list[str] = []
+    execute = Database._execute
+
+    def noted(self: Database, cell: Any, kind: Any) -> None:
+        made.append(kind.name)
+        execute(self, cell, kind)
+
+    monkeypatch.setattr(Database, "_execute", noted)
+    assert "PKG004" in {finding.rule for finding in workspace.analysed(path).findings}
+    assert "_said_of" in made
+    made.clear()
+    sources.open(path, f"{text}\n")
+    workspace.analysed(path)
+    assert "_analysed" in made and "_said_of" not in made

@@ -12,7 +12,9 @@ from functools import cached_property, lru_cache
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.change import Change
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import ByteOffsets, LineIndex, Span
+from preflight_analysis.incremental.derived import derived
 
 MAX_CHARACTERS = 500_000
 """Of a text that is read as Python."""
@@ -313,3 +315,9 @@ def _brackets(text: str) -> dict[int, tuple[int | None, list[int]]]:
         elif token["comma"] and opened:
             found[opened[-1]][1].append(token.start())
     return found
+
+
+@derived
+def python_source(document: Document) -> PythonSource:
+    """A document as Python, once for all who ask."""
+    return PythonSource(document.text, document.lines)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation.tree import LaunchNode, Use
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
 
 
@@ -12,15 +15,23 @@ def leaked_argument(context: Context, node: LaunchNode, path: str) -> Use | None
     and no include on the way to the node. The origin ends where it was passed."""
     chain = set(node.origin[:-1])
     above = {location.file for location in chain}
-    for use in context.tree.uses:
-        if use.kind != "declaration" or use.location.file != node.location.file or use.value != path or not use.origin:
-            continue
+    for use in _declarations(context).get((node.location.file, path), ()):
         setter = use.origin[-1]
         others = [each for each in context.tree.includes if each.args.get(use.name) == path]
         elsewhere = bool(others) and not any(chain.issuperset(each.origin) for each in others)
         if setter.file in above and elsewhere and _is_passed(context, use.name, setter):
             return use
     return None
+
+
+@derived
+def _declarations(context: Context) -> Mapping[tuple[str, str], list[Use]]:
+    """The declared arguments whose values come from elsewhere, by their files and values."""
+    found: dict[tuple[str, str], list[Use]] = {}
+    for use in context.tree.uses:
+        if use.kind == "declaration" and use.value is not None and use.origin:
+            found.setdefault((use.location.file, use.value), []).append(use)
+    return found
 
 
 def _is_passed(context: Context, name: str, place: Location) -> bool:

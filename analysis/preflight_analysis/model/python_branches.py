@@ -10,7 +10,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import python_source
 
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 _HOLDERS = frozenset({"LaunchDescription", "append", "extend", "add_action"})
@@ -43,7 +43,7 @@ class _Made:
 @derived
 def made_twice(launch_file: LaunchFile) -> tuple[Twice, ...]:
     """The pairs of nodes of which one is made always, and the other one of its name only in a branch."""
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     found: list[Twice] = []
     for function in ast.walk(source.module) if source.module is not None else ():
         if not isinstance(function, ast.FunctionDef):

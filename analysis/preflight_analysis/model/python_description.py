@@ -9,7 +9,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource, last_name
+from preflight_analysis.launch.python_source import PythonSource, last_name, python_source
 
 _MAX_DEPTH = 20
 _NODES = frozenset(
@@ -37,7 +37,7 @@ class SameName:
 @derived
 def always_twice(launch_file: LaunchFile) -> tuple[SameName, ...]:
     """The nodes that are started whatever happens, and have the literal name of one before them."""
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     first: dict[tuple[str, str], ast.Call] = {}
     found: list[SameName] = []
     for item in _Description(source).items():

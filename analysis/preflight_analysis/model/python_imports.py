@@ -21,6 +21,7 @@ from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.installed_paths import cmake_build, package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import folded, is_slip, nearest
@@ -246,6 +247,14 @@ class _Imports:
                 if content is not None and word.search(content):
                     return True
         return False
+
+
+@derived
+def imported_tops(document: Document) -> tuple[tuple[str, int], ...]:
+    """The modules at the top that a program imports whenever it is loaded, without its own by a relative name, and the
+    lines that do so, counted from 0."""
+    found = ((re.split("[.:]", name)[0], node.lineno - 1) for name, node in imported(document.text))
+    return tuple((top, line) for top, line in found if top)
 
 
 def imported(text: str) -> Iterator[tuple[str, ast.stmt]]:

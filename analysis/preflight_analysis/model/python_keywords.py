@@ -9,7 +9,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.tracing.launch_signatures import keywords_of
 
@@ -28,7 +28,7 @@ class UnknownKeyword:
 @derived
 def unknown_keywords(launch_file: LaunchFile) -> tuple[UnknownKeyword, ...]:
     """The first one of each call that is made in any case, and of which all keywords are written out."""
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     return tuple(_unknown(source)) if source.module is not None else ()
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections import Counter
 
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.documents.document import Document
+from preflight_analysis.incremental.derived import derived
+from preflight_analysis.launch.python_source import PythonSource, python_source
 
 SUBSTITUTIONS = frozenset(
     {
@@ -61,3 +63,9 @@ class BoundNames:
         return isinstance(node, ast.Name) and (
             node.id in self._imported or any(name.startswith(f"{node.id}.") for name in self._imported)
         )
+
+
+@derived
+def bound_names(document: Document) -> BoundNames:
+    """Those of a document, once for all who ask."""
+    return BoundNames(python_source(document))

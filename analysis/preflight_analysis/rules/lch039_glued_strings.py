@@ -16,7 +16,7 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.parameters import by_namespace
 from preflight_analysis.model.problems import fix, include_chain, quoted, shortened
@@ -85,7 +85,7 @@ def _is_number(word: str) -> bool:
 @derived
 def _glued(launch_file: LaunchFile) -> tuple[tuple[int, Span, tuple[str, ...]], ...]:
     """Where the comma goes, all that is glued, and the strings of it."""
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     if source.module is None:
         return ()
     return tuple(

@@ -13,10 +13,10 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix, shortened
-from preflight_analysis.model.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames
+from preflight_analysis.model.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames, bound_names
 from preflight_analysis.rules.further_reading import FORMATS, LAUNCH_SUBSTITUTIONS
 from preflight_analysis.rules.rule import Rule
 
@@ -48,10 +48,10 @@ def _fixes(launch_file: LaunchFile, span: Span, instead: _Instead) -> tuple[Fix,
 
 @derived
 def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str, _Instead | None], ...]:
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     if source.module is None:
         return ()
-    found = _Finder(source)
+    found = _Finder(source, bound_names(launch_file.document))
     found.look_at(source.module)
     return tuple(found.found)
 
@@ -59,9 +59,9 @@ def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str, _Instead | None], 
 class _Finder(ast.NodeVisitor):
     """Places where Python decides by an object that stands for a value of later."""
 
-    def __init__(self, source: PythonSource) -> None:
+    def __init__(self, source: PythonSource, names: BoundNames) -> None:
         self._source = source
-        self._names = BoundNames(source)
+        self._names = names
         self.found: list[tuple[Span, str, _Instead | None]] = []
         self._tests = {
             id(node.test) for piece in source.pieces for node in ast.walk(piece) if isinstance(node, _WITH_TEST)

@@ -10,9 +10,9 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import python_source
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.python_names import BoundNames
+from preflight_analysis.model.python_names import bound_names
 from preflight_analysis.rules.further_reading import FORMATS, NODE_ARGUMENTS
 from preflight_analysis.rules.rule import Rule
 
@@ -33,10 +33,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 @derived
 def _no_lists(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     if source.module is None:
         return ()
-    names = BoundNames(source)
+    names = bound_names(launch_file.document)
     found: list[tuple[Span, str]] = []
     for node in ast.walk(source.module):
         made = names.made_by(node) if isinstance(node, ast.Call) else None

@@ -14,9 +14,9 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.python_names import BoundNames
+from preflight_analysis.model.python_names import BoundNames, bound_names
 from preflight_analysis.rules.further_reading import FORMATS
 from preflight_analysis.rules.rule import Rule
 
@@ -68,10 +68,10 @@ def _why(lost: _Lost) -> str:
 
 @derived
 def _lost(launch_file: LaunchFile) -> tuple[_Lost, ...]:
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     if source.module is None:
         return ()
-    names = BoundNames(source)
+    names = bound_names(launch_file.document)
     blocks = [
         node.body
         for node in ast.walk(source.module)

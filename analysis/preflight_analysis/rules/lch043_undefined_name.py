@@ -15,7 +15,7 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import PythonSource
+from preflight_analysis.launch.python_source import python_source
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.problems import fix, problems_of
@@ -52,7 +52,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 @derived
 def _undefined(launch_file: LaunchFile) -> tuple[tuple[str, str | None, Span, bool], ...]:
     """The names, each with what was probably meant, its first place, and whether the file speaks of its function."""
-    source = PythonSource(launch_file.document.text, launch_file.document.lines)
+    source = python_source(launch_file.document)
     if source.module is None:
         return ()
     try:

@@ -8,7 +8,10 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.environment.build import Said
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.findings.finding import Finding
+from preflight_analysis.incremental.database import Database
+from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import packages_of
 from preflight_analysis.rules.rule import Check, OfPackage, Rule
@@ -19,9 +22,17 @@ def check_packages(of_package: OfPackage) -> Check:
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for package in packages_of(context):
-            yield from of_package(rule, context.disk, context.environment, package)
+            yield from _said_of(context.disk.db, of_package, rule, context.environment, package)
 
     return check
+
+
+@query
+def _said_of(
+    db: Database, of_package: OfPackage, rule: Rule, environment: Environment, package: Package
+) -> tuple[Finding, ...]:
+    """What is said of one: it is made again where something that it was read from has changed."""
+    return tuple(of_package(rule, Disk(db), environment, package))
 
 
 def line_of(document: Document, line: int, part: str = "") -> Location:

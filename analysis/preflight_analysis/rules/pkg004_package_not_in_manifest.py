@@ -1,7 +1,6 @@
 """PKG004: a package that a launch file needs and the package.xml above it does not name."""
 
 import os
-import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
@@ -23,7 +22,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action, LaunchFile, Substitution
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix
-from preflight_analysis.model.python_imports import imported
+from preflight_analysis.model.python_imports import imported_tops
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.packages import check_packages
 from preflight_analysis.rules.rule import Rule
@@ -45,15 +44,16 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
     manifest = disk.text(package.manifest)
     for path in files_in(disk, package.share, deep=True)[:_MOST_FILES]:
         folders = os.path.relpath(path, package.share).split(os.sep)
-        document = disk.text(path) if path.endswith(".py") and folders != ["setup.py"] else None
-        if not isinstance(document, Document) or not _NOT_NODES.isdisjoint(folders[:-1]) or path.endswith("launch.py"):
+        if not path.endswith(".py") or path.endswith("launch.py") or folders == ["setup.py"]:
             continue
-        for name, statement in imported(document.text):
-            top = re.split("[.:]", name)[0]
-            if not top or top in said or not (top in environment.packages or distributions_with(top, 2)):
+        document = disk.text(path) if _NOT_NODES.isdisjoint(folders[:-1]) else None
+        if not isinstance(document, Document):
+            continue
+        for top, number in imported_tops(document):
+            if top in said or not (top in environment.packages or distributions_with(top, 2)):
                 continue
             said.add(top)
-            line = document.lines.line_span(statement.lineno - 1)
+            line = document.lines.line_span(number)
             at = document.text.find(top, line.start)
             yield rule.claim(
                 f"package '{top}' is not a dependency in {os.path.basename(package.manifest)} of '{package.name}'",

@@ -28,8 +28,8 @@ from preflight_analysis.rules.rule import Rule
 if TYPE_CHECKING:
     from preflight_analysis.environment.setup_py import Called
 
-_ENTRY = re.compile(r"\s*(?P<name>[^=]+?)\s*=\s*(?P<module>[\w.]+)\s*(?::\s*(?P<function>[\w.]+)\s*)?(?:\[.*\]\s*)?\Z")
-"""As setuptools reads one."""
+_OBJECT = re.compile(r"(?P<module>[\w.]+) ?(?:: ?(?P<function>[\w.]+) ?)?(?:\[[^\[\]]*\])?")
+"""What setuptools takes behind the equals sign, with single blanks."""
 _INIT = "__init__.py"
 
 
@@ -41,13 +41,14 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
         return
     not_installed = set[str]()
     for text, line in build.called.entries:
-        found = _ENTRY.match(text)
+        name, _, given = (part.strip() for part in text.partition("="))
+        found = _OBJECT.fullmatch(" ".join(given.split())) if name else None
         if found is None:
             yield rule.claim(
                 _malformed(text), line_of(document, line), subject=Subject("executable", text.strip()), kind="invalid"
             )
             continue
-        name, module, function = found["name"], found["module"], found["function"]
+        module, function = found["module"], found["function"]
         about, place = Subject("executable", name), line_of(document, line, module)
         file = module_file(package.share, module, disk)
         if file is None:

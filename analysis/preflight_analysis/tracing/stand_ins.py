@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import ast
 import json
+import os
 import re
 from collections.abc import Iterator, Set
 from dataclasses import replace
 
+from preflight_analysis.documents.reading import Text, read_text
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import recipe as recipes
 from preflight_analysis.tracing.agents.variables import STAND_INS
@@ -24,9 +26,7 @@ _OURS = re.compile(r"(Attribute|Type|Import|ModuleNotFound|NotImplemented|Recurs
 """What a stand-in that is not like the real thing would make a node end for."""
 
 _NO_ATTRIBUTE = re.compile(r"AttributeError: '(\w+)' object has no attribute '(\w+)'")
-_FRAME = re.compile(r'  File "(/[^"]+\.?[^"/]*)", line \d+, in ')
-_LONGEST = 1_000_000
-"""Characters of a program that is looked into."""
+_FRAME = re.compile(r'  File "(/[^"]+)", line \d+, in ')
 _BASES = frozenset({"Node", "LifecycleNode", "object", "ABC"})
 _DIR = """
 PARAM_REL_TOL ParameterInput add_managed_entity add_on_set_parameters_callback add_post_set_parameters_callback
@@ -86,7 +86,9 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     if outcome.status == "exited" and found.unknown and not _has_endpoints(found):
         # What it would have done is in the module that is missing.
         outcome, failed = replace(outcome, status="crashed"), True
-    ours = found.unknown or (_OURS.search(outcome.reason or "") is not None and not _is_of_own_class(outcome))
+    ours = found.unknown or (
+        _OURS.search(outcome.reason or "") is not None and not _is_of_own_class(outcome, executable)
+    )
     modules = sorted(found.stand_ins) if ours else []
     if not modules and _CONFIG in found.stand_ins and _lacks_key(outcome, found):
         modules = [_CONFIG]
@@ -99,16 +101,20 @@ def explained(outcome: Outcome, found: Gathered, executable: str) -> Outcome:
     return replace(outcome, lacks=f"the Python module{plural} {', '.join(modules[:_MOST_NAMED])}{more}")
 
 
-def _is_of_own_class(outcome: Outcome) -> bool:
+def _is_of_own_class(outcome: Outcome, executable: str) -> bool:
     """Whether a node ended for what an object of a class of its own does not have, and no library would give it."""
     missing = _NO_ATTRIBUTE.search(outcome.reason or "")
     frames = [found[1] for line in outcome.stderr_tail if (found := _FRAME.match(line)) is not None]
     if missing is None or missing[2] in _OF_NODES or missing[2].startswith("_") or not frames:
         return False
+    # What the node says of itself names the file: no other one than its own is looked into.
+    own_folder = os.path.join(os.path.dirname(os.path.abspath(executable)), "")
+    text = read_text(frames[-1]) if os.path.normpath(frames[-1]).startswith(own_folder) else None
     try:
-        with open(frames[-1], encoding="utf-8") as stream:
-            tree = ast.parse(stream.read(_LONGEST))
-    except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
+        tree = ast.parse(text.text) if isinstance(text, Text) else None
+    except (ValueError, SyntaxError, RecursionError, MemoryError):
+        return False
+    if tree is None:
         return False
     own = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef) and node.name == missing[1]]
     bases = {
