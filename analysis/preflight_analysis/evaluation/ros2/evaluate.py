@@ -119,7 +119,8 @@ def _execute(walk: Walk, path: str, args: Mapping[str, str]) -> None:
     check_required(walk, found, sorted(args), None)
     walk.file(Place(path, found.document.lines, (), run, found.partial), found)
     if (asked_for := walk.names[-1]) is not None:
-        report_undeclared(state, found, args, asked_for | IMPLICIT)
+        given = [name for name in args if not asked_for.may_have(name)]
+        report_undeclared(state, found, given, asked_for.known | IMPLICIT)
     state.args = {name: arg for name, arg in state.args.items() if arg.origin[-1].file == found.path}
     while (upcoming := walk.events.upcoming(sure=not state.unknowns)) is not None:
         walk.deferred = upcoming.deferred

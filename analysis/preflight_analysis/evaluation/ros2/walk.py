@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Hashable, Mapping
-from collections.abc import Set as AbstractSet
 from functools import partial
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -34,7 +33,7 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.ros2.written import is_from_yaml
 from preflight_analysis.evaluation.tree import ANY_CHANGE, Condition, NotTaken
-from preflight_analysis.launch.configurations import configurations_of
+from preflight_analysis.launch.configurations import Names, configurations_of, names_in_code
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
 from preflight_analysis.launch.schema import Tag
@@ -89,7 +88,7 @@ class Record:
     added: Added
     changes: Changes
     events: tuple[Noted, ...]
-    names: frozenset[str] | None
+    names: Names | None
     recorded: Mapping[str, LaunchFile]
     missing_below: tuple[Declared, ...]
 
@@ -102,7 +101,7 @@ class Walk:
         self.events = Events()
         self.deferred = False
         """Whether what is executed now waits for a timer or another event."""
-        self.names: list[set[str] | None] = [set()]
+        self.names: list[Names | None] = [Names()]
         """For each file that is being evaluated the configurations that it and those below it have to do with; None
         where that cannot be told."""
         self.recorded: dict[str, LaunchFile] = {}
@@ -226,7 +225,7 @@ class Walk:
             part.state.added(),
             part.context.changes(),
             part.events.noted,
-            frozenset(names) if names is not None else None,
+            names,
             part.recorded,
             tuple(part.missing_below),
         )
@@ -241,17 +240,17 @@ class Walk:
         self.actions(place, actions)
         self._depth -= 1
 
-    def file_below(self, place: Place, launch_file: LaunchFile) -> set[str] | None:
+    def file_below(self, place: Place, launch_file: LaunchFile) -> Names | None:
         """Execute a file that another one includes; the configurations that it has to do with, if that can be told."""
         self._depth += 1
-        self.names.append(set())
+        self.names.append(Names())
         self.file(place, launch_file)
         below = self.names.pop()
         self._depth -= 1
         self._add_names(below)
         return below
 
-    def _add_names(self, below: AbstractSet[str] | None) -> None:
+    def _add_names(self, below: Names | None) -> None:
         above = self.names[-1]
         self.names[-1] = None if below is None or above is None else above | below
 
@@ -308,11 +307,11 @@ class Walk:
         return False
 
     def _note_names(self, launch_file: LaunchFile) -> None:
-        known = self.names[-1]
         found = configurations_of(launch_file)
         partial = found.computed or launch_file.root is None or bool(launch_file.document.problems)
-        partial = partial or launch_file.partial or calls_own_code(launch_file)
-        self.names[-1] = None if known is None or partial else known | found.declared | found.used
+        in_code = names_in_code(launch_file) if calls_own_code(launch_file) else frozenset()
+        told = not (partial or launch_file.partial or in_code is None)
+        self._add_names(Names(found.declared | found.used, in_code or frozenset()) if told else None)
 
     def _is_extension(self, place: Place, found: LanguageProblem) -> bool:
         """Whether it is a tag that a package defines; what that does is not known."""

@@ -25,7 +25,7 @@ from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Include, Use
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
-from preflight_analysis.launch.configurations import IMPLICIT, configurations_of
+from preflight_analysis.launch.configurations import IMPLICIT, Names, configurations_of, names_in_code
 from preflight_analysis.launch.model import Action, LaunchFile, Value
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.read import read_launch
@@ -103,33 +103,34 @@ def evaluate_inline(walk: Walk, performer: Performer, action: Action) -> None:
         walk.inside(performer.place, action.children)
 
 
-def _report_unused(walk: Walk, place: Place, path: str, passed: list[tuple[str, Action]], names: set[str]) -> None:
+def _report_unused(walk: Walk, place: Place, path: str, passed: list[tuple[str, Action]], names: Names) -> None:
     """An argument that neither the file nor what it includes has to do with: launch accepts it without a word. The
     includer itself may use it later, as what an include sets stays set."""
-    unused = [(name, child) for name, child in passed if name not in names and name not in IMPLICIT]
+    unused = [(name, child) for name, child in passed if not names.may_have(name) and name not in IMPLICIT]
     if not unused:
         return
     own = walk.recorded.get(place.file)
     used = _used(walk.state.files.db, walk.state.files, place.file) if own is None else _used_in(own)
     for name, child in unused:
-        if used is not None and name not in used:
+        if used is not None and not used.may_have(name):
             value = child.value("name")
             span = value.span if value is not None else child.kind_span
-            kind = UnknownIncludeArgument(name, tuple(sorted(names)), path)
+            kind = UnknownIncludeArgument(name, tuple(sorted(names.known)), path)
             walk.state.problem(kind, place.origin(span), fatal=False)
 
 
 @query
-def _used(db: Database, files: Files, path: str) -> frozenset[str] | None:
+def _used(db: Database, files: Files, path: str) -> Names | None:
     """As `_used_in`: an edit of the file leaves it alone mostly."""
     found = files.launch_file(path, 2)
-    return frozenset() if isinstance(found, Unreadable) else _used_in(found)
+    return Names() if isinstance(found, Unreadable) else _used_in(found)
 
 
-def _used_in(launch_file: LaunchFile) -> frozenset[str] | None:
+def _used_in(launch_file: LaunchFile) -> Names | None:
     """The configurations that a file uses, None where that cannot be told."""
-    is_told = not (launch_file.partial or calls_own_code(launch_file))
-    return configurations_of(launch_file).used if is_told else None
+    in_code = names_in_code(launch_file) if calls_own_code(launch_file) else frozenset()
+    is_told = not (launch_file.partial or in_code is None)
+    return Names(configurations_of(launch_file).used, in_code or frozenset()) if is_told else None
 
 
 def _passed(performer: Performer, action: Action) -> list[tuple[str, Action]]:
