@@ -62,6 +62,35 @@ def test_what_is_gone_is_named_with_what_replaces_it() -> None:
     assert 'command="xacro robot.xacro"' in apply(text, in_order.fixes[0].edits)["/main.launch"]
 
 
+def test_a_program_that_is_gone_is_named_with_what_replaces_it() -> None:
+    text = """
+        <launch>
+          <param name="a" command="$(find xacro)/xacro.py '/robot.xacro'"/>
+                                   ^^^^^^^^^^^^^ hint[PKG001] package 'xacro' is not installed
+                                                 ^^^^^^^^ error[LCH027] 'xacro.py' is removed since ROS Noetic
+          <param name="b" command="rosrun xacro xacro.py /robot.xacro"/>
+                                                ^^^^^^^^ error[LCH027] 'xacro.py' is removed since ROS Noetic
+          <param name="c" command="$(find xacro)/xacro /robot.xacro"/>
+                                   ^^^^^^^^^^^^^ hint[PKG001] package 'xacro' is not installed
+        </launch>
+        //- /robot.xacro
+        <robot name="r"/>
+    """
+    first = next(finding for finding in check(text) if finding.rule == "LCH027")
+    assert "$(find xacro)/xacro '/robot" in apply(text, first.fixes[0].edits)["/main.launch"]
+
+
+def test_a_program_that_is_gone_is_told_once_where_its_package_is_here() -> None:
+    check("""
+        <launch>
+          <param name="a" command="$(find xacro)/xacro.py robot.xacro"/>
+                                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[PRM008] program 'xacro/xacro.py' does not
+        </launch>
+        //- /xacro/package.xml
+        <package/>
+    """)
+
+
 def test_what_is_gone_is_told_once(tmp_path: Path) -> None:
     launch = tmp_path / "a.launch"
     launch.write_text('<launch><node pkg="robot_state_publisher" type="state_publisher" name="a"/></launch>')

@@ -1,4 +1,4 @@
-"""Nodes that newer releases of ROS have removed or replaced."""
+"""Nodes and programs that newer releases of ROS have removed or replaced."""
 
 from __future__ import annotations
 
@@ -51,6 +51,15 @@ _NODES = (
         "http://wiki.ros.org/tf2/Migration",
     ),
     Retired(
+        "xacro",
+        "xacro.py",
+        "'xacro.py' is removed since ROS Noetic; use 'xacro'",
+        "https://github.com/ros/xacro/pull/239",
+        instead_executable="xacro",
+        removed=True,
+        still_in=BEFORE_NOETIC,
+    ),
+    Retired(
         "robot_pose_ekf",
         None,
         "package 'robot_pose_ekf' is removed since ROS Melodic; use 'robot_localization'",
@@ -67,9 +76,14 @@ RETIRED_IN = frozenset(_BY_PACKAGE)
 
 def retired(context: Context, node: LaunchNode) -> Iterator[Retired]:
     """What is known of a node of ROS 1 that should be another one. One that was removed is not there either."""
-    for each in _BY_PACKAGE.get(node.package, ()) if context.tree.generation == ROS1.number else ():
-        there = context.environment.distro in each.still_in or node.resolved.path is not None
-        if each.executable in (None, node.executable) and not (each.removed and there):
+    return retired_program(context, node.package, node.executable, is_there=node.resolved.path is not None)
+
+
+def retired_program(context: Context, package: str, executable: str, *, is_there: bool) -> Iterator[Retired]:
+    """The same of a program by its package and name."""
+    for each in _BY_PACKAGE.get(package, ()) if context.tree.generation == ROS1.number else ():
+        there = context.environment.distro in each.still_in or is_there
+        if each.executable in (None, executable) and not (each.removed and there):
             yield each
 
 

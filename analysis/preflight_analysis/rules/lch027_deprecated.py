@@ -18,17 +18,20 @@ from preflight_analysis.model.distributions import BEFORE_MELODIC, BEFORE_NOETIC
 from preflight_analysis.model.installed import has_ros
 from preflight_analysis.model.places import attribute_location
 from preflight_analysis.model.problems import all_of, fix, include_chain, rename, replacement, shown
-from preflight_analysis.model.retired import RETIRED_IN, Retired, retired
+from preflight_analysis.model.retired import RETIRED_IN, Retired, retired, retired_program
 from preflight_analysis.rules.further_reading import ROSLAUNCH, XACRO
 from preflight_analysis.rules.rule import Rule
 
 _PERIOD = re.compile(r"\s+[\d.]+\s*\Z")
 _IN_ORDER = re.compile(r"\s--inorder\b")
+_PROGRAM = re.compile(r"(?:\$\(find\s+(\w+)\)/|\brosrun\s+(\w+)\s+)([\w.]+)(?![\w./])")
+"""One of a package, in a command."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     yield from _includes(rule, context)
     yield from _nodes(rule, context)
+    yield from _commands(rule, context)
     yield from _joint_state_publishers(rule, context)
     for path, launch_file in context.launch_files.items():
         document = launch_file.document
@@ -83,6 +86,31 @@ def _nodes(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
+def _commands(rule: Rule, context: Context) -> Iterator[Finding]:
+    for path, launch_file in context.launch_files.items():
+        text = launch_file.document.text
+        for command in _old_language(launch_file).commands:
+            found = _PROGRAM.search(text, *command.span)
+            package = (found[1] or found[2]) if found is not None else ""
+            # What of a package that is here does not exist is PRM008's.
+            if found is None or package in context.environment.packages:
+                continue
+            place = context.location(path, Span(*found.span(3)))
+            for each in retired_program(context, package, found[3], is_there=False):
+                yield rule.claim(
+                    each.message,
+                    place,
+                    subject=Subject("command", f"{package}/{found[3]}"),
+                    kind="absent" if each.removed else None,
+                    effect="stops-launch" if each.removed else None,
+                    doubts=(
+                        *doubts(UNSEEN=each.removed and not has_ros(context)),
+                        *otherwise_in(context, each.still_in),
+                    ),
+                    fixes=rename(context, place, found[3], each.instead_executable) if each.instead_executable else (),
+                )
+
+
 def _of_retired_package(node: LaunchNode) -> LaunchNode | None:
     return node if node.package in RETIRED_IN else None
 
@@ -133,24 +161,28 @@ def _as_joint_state_publisher(node: LaunchNode) -> LaunchNode | None:
 class _OldLanguage:
     masters: tuple[Action, ...]
     in_order: tuple[Span, ...]
+    commands: tuple[Value, ...]
 
 
 @derived
 def _old_language(launch_file: LaunchFile) -> _OldLanguage:
     root, text = launch_file.root, launch_file.document.text
     if root is None:
-        return _OldLanguage((), ())
-    options = (_IN_ORDER.search(text, *command.span) for command in root.gather(_xacro_commands))
-    return _OldLanguage(tuple(root.gather(_masters)), tuple(Span(*found.span()) for found in options if found))
+        return _OldLanguage((), (), ())
+    commands = tuple(root.gather(_commands_of))
+    options = (_IN_ORDER.search(text, *command.span) for command in commands if "xacro" in command.text)
+    return _OldLanguage(
+        tuple(root.gather(_masters)), tuple(Span(*found.span()) for found in options if found), commands
+    )
 
 
 def _masters(action: Action) -> tuple[Action, ...]:
     return (action,) if action.kind == "master" else ()
 
 
-def _xacro_commands(action: Action) -> tuple[Value, ...]:
+def _commands_of(action: Action) -> tuple[Value, ...]:
     command = action.value("command")
-    return (command,) if action.kind != "master" and command is not None and "xacro" in command.text else ()
+    return (command,) if action.kind != "master" and command is not None else ()
 
 
 RULE = Rule(
@@ -158,9 +190,9 @@ RULE = Rule(
     name="deprecated",
     effect="style",
     kind="invalid",
-    sometimes=("stops-node", "misbehaves", "no-effect", "note", Reason.UNSEEN, Reason.MEANT_FOR_OTHER),
+    sometimes=("stops-launch", "stops-node", "misbehaves", "no-effect", "note", Reason.UNSEEN, Reason.MEANT_FOR_OTHER),
     what="Checks for what is deprecated or removed: files with `<launch deprecated=...>`, `<master>`, and nodes, "
-    "parameters and options of older releases of ROS.",
+    "programs, parameters and options of older releases of ROS.",
     why="A deprecated part disappears with an upgrade. A removed node does not start.",
     example='<node pkg="robot_state_publisher" type="state_publisher" name="state_publisher"/>',
     instead='<node pkg="robot_state_publisher" type="robot_state_publisher" name="state_publisher"/>',
