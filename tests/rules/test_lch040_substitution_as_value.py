@@ -100,3 +100,75 @@ def test_what_launch_evaluates_instead(asked: str, after: str | None) -> None:
     found = [each for each in findings_of(launch) if each.rule == "LCH040"]
     texts = [apply(launch, fix.edits)["/robot.launch.py"] for each in found for fix in each.fixes]
     assert [f"asked = {after}\n" in text for text in texts] == ([True] if after is not None else [])
+
+
+@pytest.mark.parametrize(
+    ("asked", "said", "instead"),
+    [
+        ("not sim.perform(context)", "'not' is always False: argument 'sim'", "sim.perform(context).lower() != 'true'"),
+        ("bool(text)", "condition is always true: argument 'sim'", "text.lower() == 'true'"),
+        ("text == True", "comparison is always False: the value of argument 'sim'", "text.lower() == 'true'"),
+        ("text.lower() != True", "comparison is always True: the value of argument 'sim'", "text.lower() != 'true'"),
+        ("False == text", "comparison is always False: the value of argument 'sim'", "text.lower() != 'true'"),
+        ("not context.launch_configurations['sim']", "'not' is always False: argument 'sim'", None),
+        ("not context.launch_configurations.get('sim')", "'not' is always False: argument 'sim'", None),
+    ],
+)
+def test_the_truth_of_a_text(asked: str, said: str, instead: str | None) -> None:
+    text = f"""
+        {_START}
+        def start(context):
+            sim = LaunchConfiguration("sim")
+            text = sim.perform(context)
+            asked = {asked}
+                    {"^" * len(asked)} warning[LCH040] {said}
+            return []
+
+
+        def generate_launch_description():
+            declared = DeclareLaunchArgument("sim", default_value="False")
+            return LaunchDescription([declared, OpaqueFunction(function=start)])
+    """
+    (found,) = check(text)
+    after = apply(text, found.fixes[0].edits)["/robot.launch.py"]
+    assert instead is None or f"asked = {instead}\n" in after
+
+
+def test_the_truth_of_a_text_in_a_statement() -> None:
+    check(f"""
+        {_START}
+        def start(context):
+            sim = LaunchConfiguration("sim").perform(context)
+            if sim and context.launch_configurations["name"]:
+               ^^^ warning[LCH040] condition is always true: argument 'sim' has the text 'true' or 'false'
+                return []
+            return [None] if sim.lower() else []
+                             ^^^^^^^^^^^ warning[LCH040] condition is always true: argument
+
+
+        def generate_launch_description():
+            declared = DeclareLaunchArgument("sim", default_value="true")
+            return LaunchDescription([declared, OpaqueFunction(function=start)])
+    """)
+
+
+@pytest.mark.silent
+def test_a_text_that_may_be_empty_has_a_truth() -> None:
+    check(f"""
+        {_START}
+        def start(context):
+            name = LaunchConfiguration("name").perform(context)
+            other = LaunchConfiguration("other").perform(context)
+            sim = LaunchConfiguration("sim").perform(context)
+            both = LaunchConfiguration("both").perform(context)
+            if name or not other or both or sim == "true" or sim in ("true", "1") or name == 1:
+                return []
+            return []
+
+
+        def generate_launch_description():
+            names = [DeclareLaunchArgument("name", default_value=""), DeclareLaunchArgument("other")]
+            both = [DeclareLaunchArgument("both", default_value=each) for each in ("true", "")]
+            sim = DeclareLaunchArgument("simulated", default_value="true")
+            return LaunchDescription([*names, *both, sim, OpaqueFunction(function=start)])
+    """)

@@ -46,9 +46,13 @@ class BoundNames:
         self._values = {name: value for name, value in source.assigned.items() if bound[name] == 1}
         self._bound = bound
 
+    def value_of(self, node: ast.expr) -> ast.expr | None:
+        """What a name stands for, None if that may be anything; any other expression is itself."""
+        return self._values.get(node.id) if isinstance(node, ast.Name) else node
+
     def made_by(self, node: ast.expr) -> str | None:
         """The class of `launch` whose call a value is, as it is written or by its name; None for all else."""
-        value = self._values.get(node.id) if isinstance(node, ast.Name) else node
+        value = self.value_of(node)
         if not isinstance(value, ast.Call):
             return None
         called = value.func

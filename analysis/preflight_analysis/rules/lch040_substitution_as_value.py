@@ -1,9 +1,11 @@
-"""LCH040: a substitution or a condition whose value Python is asked for while the file is read (ROS 2)."""
+"""LCH040: a substitution or a condition whose value Python is asked for while the file is read, and the truth of a text
+(ROS 2)."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator
+from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from preflight_analysis.documents.span import Span
@@ -14,6 +16,7 @@ from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource, python_source
+from preflight_analysis.model.arguments import declarations
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix, shortened
 from preflight_analysis.model.python_names import CONDITIONS, SUBSTITUTIONS, BoundNames, bound_names
@@ -24,12 +27,15 @@ _BEFORE = ("foxy", "galactic")
 """The distributions whose launch does not have these substitutions yet."""
 _CONDITIONS_ON = ("IfCondition", "UnlessCondition")
 _WITH_TEST = (ast.If, ast.IfExp, ast.While, ast.Assert)
+_TRUTHS = ("true", "false")
+_SAME_TEXT = ("casefold", "lower", "strip", "title", "upper")
+"""Methods of a text that leave `true` and `false` what they are, but for the case of letters."""
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for path, launch_file in context.launch_files.items():
         for span, message, instead in _asked(launch_file) if launch_file.is_python else ():
-            known = context.environment.distro not in _BEFORE
+            known = instead is not None and not (instead.classes and context.environment.distro in _BEFORE)
             fixes = _fixes(launch_file, span, instead) if instead is not None and known else ()
             yield rule.claim(message, context.location(path, span), subject=Subject("expression", message), fixes=fixes)
 
@@ -43,7 +49,8 @@ class _Instead(NamedTuple):
 
 def _fixes(launch_file: LaunchFile, span: Span, instead: _Instead) -> tuple[Fix, ...]:
     edits = PythonWriter(launch_file.document).write_expression(span, instead.classes, instead.code)
-    return fix(f"Write {instead.classes[0]}(...)", edits, preferred=True)
+    title = f"Write {instead.classes[0]}(...)" if instead.classes else "Compare with 'true'"
+    return fix(title, edits, preferred=True)
 
 
 @derived
@@ -51,17 +58,27 @@ def _asked(launch_file: LaunchFile) -> tuple[tuple[Span, str, _Instead | None], 
     source = python_source(launch_file.document)
     if source.module is None:
         return ()
-    found = _Finder(source, bound_names(launch_file.document))
+    found = _Finder(source, bound_names(launch_file.document), _truths(launch_file))
     found.look_at(source.module)
     return tuple(found.found)
 
 
-class _Finder(ast.NodeVisitor):
-    """Places where Python decides by an object that stands for a value of later."""
+def _truths(launch_file: LaunchFile) -> frozenset[str]:
+    """The arguments that are `true` or `false`, as their defaults are."""
+    return frozenset(
+        name
+        for name, tags in declarations(launch_file).items()
+        if all((default := tag.value("default")) is not None and default.text.lower() in _TRUTHS for tag in tags)
+    )
 
-    def __init__(self, source: PythonSource, names: BoundNames) -> None:
+
+class _Finder(ast.NodeVisitor):
+    """Places where Python decides by an object that stands for a value of later, or by whether a text is empty."""
+
+    def __init__(self, source: PythonSource, names: BoundNames, truths: AbstractSet[str]) -> None:
         self._source = source
         self._names = names
+        self._truths = truths
         self.found: list[tuple[Span, str, _Instead | None]] = []
         self._tests = {
             id(node.test) for piece in source.pieces for node in ast.walk(piece) if isinstance(node, _WITH_TEST)
@@ -86,6 +103,9 @@ class _Finder(ast.NodeVisitor):
         """Children have a turn of their own."""
 
     def visit_BoolOp(self, node: ast.BoolOp) -> None:
+        is_test = id(node) in self._tests
+        for each in node.values if is_test else node.values[:-1]:
+            self._truth(each)
         for at, each in enumerate(node.values[:-1]):
             kind = self._kind(each)
             if kind is not None:
@@ -102,6 +122,8 @@ class _Finder(ast.NodeVisitor):
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> None:
         kind = self._kind(node.operand) if isinstance(node.op, ast.Not) else None
+        if isinstance(node.op, ast.Not):
+            self._truth(node.operand, node)
         if kind is not None:
             self._say(
                 node,
@@ -121,6 +143,13 @@ class _Finder(ast.NodeVisitor):
             return
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
             kind = self._kind(one)
+            name = self._performed_text(one)
+            if name is not None and isinstance(other, ast.Constant) and isinstance(other.value, bool):
+                equal = isinstance(node.ops[0], ast.NotEq)
+                message = (
+                    f"comparison is always {equal}: the value of argument '{name}' is a text; compare it with 'true'"
+                )
+                self._say(node, message, self._compared(one, is_true=other.value != equal))
             if kind is not None and isinstance(other, ast.Constant) and other.value is not None:
                 equal = isinstance(node.ops[0], ast.NotEq)
                 self._say(
@@ -135,13 +164,63 @@ class _Finder(ast.NodeVisitor):
         self._in_text(node, (each.value for each in node.values if isinstance(each, ast.FormattedValue)))
 
     def visit_Call(self, node: ast.Call) -> None:
-        if isinstance(node.func, ast.Name) and node.func.id == "str" and len(node.args) == 1 and not node.keywords:
+        if not (isinstance(node.func, ast.Name) and len(node.args) == 1 and not node.keywords):
+            return
+        if node.func.id == "str":
             self._in_text(node, node.args)
+        elif node.func.id == "bool":
+            self._truth(node.args[0], node)
+
+    def visit_While(self, node: ast.While) -> None:
+        self._test(node.test)
 
     def _test(self, node: ast.expr) -> None:
+        self._truth(node)
         kind = self._kind(node)
         if kind is not None:
             self._say(node, f"{kind} is always true before the launch runs")
+
+    def _truth(self, node: ast.expr, around: ast.expr | None = None) -> None:
+        """What Python takes for the truth of `node`; `around` is its `not` or `bool(...)`."""
+        name = self._performed_text(node)
+        if name not in self._truths:
+            return
+        is_not = isinstance(around, ast.UnaryOp)
+        message = (
+            f"'not' is always False: argument '{name}'" if is_not else f"condition is always true: argument '{name}'"
+        )
+        self._say(
+            around or node,
+            f"{message} has the text 'true' or 'false', and no text but the empty one is false; compare it with 'true'",
+            self._compared(node, is_true=not is_not),
+        )
+
+    def _performed_text(self, node: ast.expr) -> str | None:
+        """The launch configuration whose text an expression is."""
+        value = self._names.value_of(node)
+        while isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute) and value.func.attr in _SAME_TEXT:
+            value = self._names.value_of(value.func.value)
+        match value:
+            case ast.Call(func=ast.Attribute(attr="perform", value=asked)) if self._kind(asked) is not None:
+                made = self._names.value_of(asked)
+                arguments = made.args if isinstance(made, ast.Call) else []
+                is_plain = self._names.made_by(asked) == "LaunchConfiguration" and arguments
+                name = arguments[0] if is_plain else None
+            case ast.Subscript(value=ast.Attribute(attr="launch_configurations"), slice=name):
+                pass
+            case ast.Call(
+                func=ast.Attribute(attr="get", value=ast.Attribute(attr="launch_configurations")), args=[name, *_]
+            ):
+                pass
+            case _:
+                return None
+        return name.value if isinstance(name, ast.Constant) and isinstance(name.value, str) else None
+
+    def _compared(self, node: ast.expr, *, is_true: bool) -> _Instead:
+        """The text compared with `true`."""
+        code = self._code(node)
+        lower = "" if code.endswith(".lower()") else ".lower()"
+        return _Instead(f"{code}{lower} {'==' if is_true else '!='} 'true'", ())
 
     def _in_text(self, text: ast.expr, values: Iterable[ast.expr]) -> None:
         kind = next(filter(None, map(self._kind, values)), None)
@@ -210,9 +289,10 @@ RULE = Rule(
     kind="invalid",
     always=(Reason.FROM_SOURCE,),
     what="Checks for a substitution or condition in a Python launch file whose value Python itself reads, in an "
-    "operator, an `if` or a string.",
+    "operator, an `if` or a string. Checks for `if` and `not` with the text of an argument that is `true` or `false`.",
     why="The value is unresolved while Python reads the file. The object itself is always true, equals no text, and "
-    "prints as a Python object. `IfCondition(a) and UnlessCondition(b)` is `UnlessCondition(b)`.",
+    "prints as a Python object. `IfCondition(a) and UnlessCondition(b)` is `UnlessCondition(b)`. The text `false` is "
+    "true, too.",
     example="condition=IfCondition(use_rviz) and UnlessCondition(headless)",
     instead="condition=IfCondition(AndSubstitution(use_rviz, NotSubstitution(headless)))",
     references=(
