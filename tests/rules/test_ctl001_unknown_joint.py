@@ -113,3 +113,47 @@ def test_a_name_that_no_other_file_has(tmp_path: Path, robot: str, others: int, 
     found = [each.message for each, _ in workspace.branches(static).findings if each.rule == "CTL001"]
     message = "joint 'r_shouler_joint' is in no other file; did you mean 'r_shoulder_joint', as in 2 files nearby?"
     assert found == [message] * said
+
+
+_ARM = """
+    controller_manager:
+      ros__parameters:
+        arm: {type: joint_trajectory_controller/JointTrajectoryController}
+    arm:
+      ros__parameters:
+        joints: [left_wheel, right_wheel]
+        command_interfaces: [velocity]
+        state_interfaces: [velocity]
+        constraints:
+          stopped_velocity_tolerance: 0.01
+          left_wheel: {goal: 0.1}
+"""
+
+
+def test_what_is_set_for_a_joint_of_no_controller_has_no_effect() -> None:
+    params = f"""{_ARM}
+          right_wheell: {{goal: 0.1, trajectory: 0.2}}
+                         ^^^^ warning[CTL001] 'constraints' for joint 'right_wheell' has no effect: 'arm'
+        gains:
+          rear_wheel: {{p: 0.1}}
+                       ^ warning[CTL001] 'gains' for joint 'rear_wheel' has no effect: 'arm' (joint_trajectory_con
+"""
+    check(launch(spawner("arm"), params=params))
+
+
+@pytest.mark.silent
+def test_what_is_set_for_its_joints() -> None:
+    check(launch(spawner("arm"), params=f"{_ARM}\n        gains: {{left_wheel: {{p: 0.1}}}}\n"))
+
+
+def test_what_is_set_for_a_joint_of_no_controller_of_ros1() -> None:
+    base = (
+        "{{type: effort_controllers/JointTrajectoryController, joints: [rear_caster], {}: {{rear_castor: {{p: 1}}}}}}"
+    )
+    of_base = (
+        "'base' (effort_controllers/JointTrajectoryController) does not have this joint; did you mean 'rear_caster'?"
+    )
+    assert _found(_ros1(base.format("gains"))) == [
+        ("warning", f"'gains' for joint 'rear_castor' has no effect: {of_base}"),
+    ]
+    assert _found(_ros1(base.format("gains").replace("castor", "caster"))) == []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from preflight_analysis.documents.span import Location
@@ -37,6 +37,12 @@ GAZEBO_PLUGIN_ROS1 = "gazebo_ros_control"
 _DEFAULT = "DefaultRobotHWSim"
 _JOINTS = ("joint", "joints", "left_wheel", "right_wheel")
 _EXTRA = "extra_joints"
+_BY_JOINT: Mapping[str, tuple[str, ...]] = {
+    "JointTrajectoryController": ("constraints", "gains"),
+    "PidController": ("gains",),
+}
+"""Groups of parameters of which each has the name of a joint of the controller, by the end of its type:
+https://github.com/ros-controls/ros2_controllers and https://github.com/ros-controls/ros_controllers."""
 
 
 class Claim(NamedTuple):
@@ -106,6 +112,26 @@ def joints_of_ros1(tree: LaunchTree, controller: str) -> Iterator[NamedJoint]:
     for each in extra.value if extra is not None and isinstance(extra.value, list) else ():
         if extra is not None and isinstance(each, dict) and isinstance(each.get("name"), str):
             yield NamedJoint(each["name"], extra, is_extra=True)
+
+
+class ForJoint(NamedTuple):
+    """A parameter that a controller reads for one of its joints by the name of that: `constraints.elbow.goal`."""
+
+    joint: str
+    group: str
+    param: Param
+
+
+def set_for_joints(type_: str, params: Iterable[tuple[str, Param]]) -> Iterator[ForJoint]:
+    """The first for each joint that is set below a controller of this type; names have dots between their parts."""
+    groups = next((of_type for end, of_type in _BY_JOINT.items() if type_.endswith(end)), ())
+    seen: set[tuple[str, str]] = set()
+    for name, param in params:
+        group, _, rest = name.partition(".")
+        joint = rest.rpartition(".")[0]
+        if group in groups and joint and (group, joint) not in seen:
+            seen.add((group, joint))
+            yield ForJoint(joint, group, param)
 
 
 def simulated_of_ros1(context: Context) -> Robot | None:

@@ -5,10 +5,11 @@ https://control.ros.org/jazzy/doc/ros2_controllers/doc/controllers_index.html
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from collections.abc import Set as AbstractSet
 
 from preflight_analysis.evaluation.ros1.spawners import loaded_by
-from preflight_analysis.evaluation.tree import LaunchNode
+from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
@@ -19,6 +20,7 @@ from preflight_analysis.model.controllers import (
     joints_of_ros1,
     place_of,
     robot_of,
+    set_for_joints,
     simulated_of_ros1,
 )
 from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest
@@ -62,6 +64,10 @@ def _of_controller_of_ros1(
         return
     named = list(joints_of_ros1(context.tree, controller))
     beside = frozenset(each.joint for each in named)
+    own = frozenset(each.joint for each in named if not each.is_extra)
+    below = ((name, context.tree.params[name]) for name in context.tree.params if name.startswith(f"{controller}/"))
+    params = ((name[len(controller) + 1 :].replace("/", "."), param) for name, param in below)
+    yield from _for_no_joint(rule, context, controller, type_.value, own, params)
     for each in named:
         if each.joint in joints or "$" in each.joint:
             continue
@@ -83,9 +89,35 @@ def _of_controller_of_ros1(
 
 def _of_ros2(rule: Rule, context: Context) -> Iterator[Finding]:
     for each in controllers_of(context):
+        own = frozenset(claim.joint for claim in each.claims)
+        yield from _for_no_joint(rule, context, each.name, each.type, own, ((p.name, p) for p in each.params))
         robot = robot_of(context, each) if each.spawner is not None else None
         if robot is not None and robot.joints:
             yield from _of_controller(rule, context, each, robot)
+
+
+def _for_no_joint(
+    rule: Rule,
+    context: Context,
+    controller: str,
+    type_: str,
+    joints: AbstractSet[str],
+    params: Iterable[tuple[str, Param]],
+) -> Iterator[Finding]:
+    """What is set for a joint that the controller does not have, which it never asks for."""
+    for joint, group, param in set_for_joints(type_, params) if joints else ():
+        if joint in joints or "$" in joint:
+            continue
+        near = nearest(joint, joints)
+        yield rule.claim(
+            f"'{group}' for joint '{joint}' has no effect: '{controller}' ({type_}) does not have this joint"
+            f"{did_you_mean(near)}",
+            param.place,
+            subject=Subject("joint", joint),
+            kind="absent" if near is None else "near",
+            effect="no-effect",
+            candidates=(near,),
+        )
 
 
 def _of_controller(rule: Rule, context: Context, controller: Controller, robot: Description) -> Iterator[Finding]:
@@ -119,9 +151,10 @@ RULE = Rule(
     name="unknown-joint",
     effect="breaks",
     kind="near",
-    sometimes=("misbehaves", Reason.FROM_SOURCE, Reason.OTHER_VERSION, Reason.UNSEEN, Reason.INTENDED),
+    sometimes=("misbehaves", "no-effect", Reason.FROM_SOURCE, Reason.OTHER_VERSION, Reason.UNSEEN, Reason.INTENDED),
     what="Checks for a joint in the parameters of a controller that the launch loads and that the robot description "
-    "does not have. Without a description, a name of no other file is checked that is a typo of one in several files.",
+    "does not have, and for `constraints` and `gains` of a joint that is none of the controller's. Without a "
+    "description, a name of no other file is checked that is a typo of one in several files.",
     why="The controller cannot be configured or activated, because no hardware has interfaces of that joint. The robot "
     "does not move.",
     example="base_controller:\n  ros__parameters:\n    left_wheel_names: [left_whel_joint]",
