@@ -151,7 +151,7 @@ def test_what_is_set_for_a_joint_of_no_controller_of_ros1() -> None:
         "{{type: effort_controllers/JointTrajectoryController, joints: [rear_caster], {}: {{rear_castor: {{p: 1}}}}}}"
     )
     of_base = (
-        "'base' (effort_controllers/JointTrajectoryController) does not have this joint; did you mean 'rear_caster'?"
+        "'/base' (effort_controllers/JointTrajectoryController) does not have this joint; did you mean 'rear_caster'?"
     )
     assert _found(_ros1(base.format("gains"))) == [
         ("warning", f"'gains' for joint 'rear_castor' has no effect: {of_base}"),
