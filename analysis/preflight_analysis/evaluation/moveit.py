@@ -60,6 +60,16 @@ def moveit_params(tree: LaunchTree, node: LaunchNode) -> Mapping[str, Param]:
     return {name.removeprefix(below): param for name, param in tree.params.items() if name.startswith(below)}
 
 
+def params_around(tree: LaunchTree, node: LaunchNode) -> Mapping[str, Param]:
+    """Those of `moveit_params`, in ROS 1 with those of the robot description, which are beside the node in its
+    namespace."""
+    if tree.ros.own_parameters:
+        return moveit_params(tree, node)
+    space = names.parent(node.name)
+    around = {name.removeprefix(space): param for name, param in tree.params.items() if name.startswith(space)}
+    return {**around, **moveit_params(tree, node)}
+
+
 def controller_params(tree: LaunchTree, node: LaunchNode) -> tuple[Param, ...]:
     """The parameters that say which controllers a node of MoveIt knows; none of other nodes."""
     if not is_move_group(node):

@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Literal
 
-from preflight_analysis.evaluation import names
-from preflight_analysis.evaluation.moveit import is_move_group, moveit_params
-from preflight_analysis.evaluation.tree import LaunchNode, Param
+from preflight_analysis.evaluation.moveit import is_move_group, params_around
+from preflight_analysis.evaluation.tree import Param
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
@@ -34,7 +33,7 @@ _LIMITS = ("robot_description_planning", "joint_limits", None, "")
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     semantics = semantics_of(context.tree)
     for node in filter(is_move_group, context.tree.nodes):
-        params = _params(context, node)
+        params = params_around(context.tree, node)
         semantic = [each for each in semantics if any(one is node for one in each.nodes)]
         if len(semantic) == 1:
             groups = semantic[0].semantic.groups
@@ -45,16 +44,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if robot is not None:
             joints = [joint.name for joint in robot.description.joints]
             yield from _slips(rule, context, "joint", _named(_LIMITS, params), joints, ())
-
-
-def _params(context: Context, node: LaunchNode) -> Mapping[str, Param]:
-    """Those of the node, in ROS 1 with those of the robot description, which are beside it in its namespace."""
-    tree = context.tree
-    if tree.ros.own_parameters:
-        return moveit_params(tree, node)
-    space = names.parent(node.name)
-    around = {name.removeprefix(space): param for name, param in tree.params.items() if name.startswith(space)}
-    return {**around, **moveit_params(tree, node)}
 
 
 def _named(wanted: tuple[str | None, ...], params: Mapping[str, Param]) -> dict[str, Param]:
