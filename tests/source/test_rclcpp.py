@@ -875,3 +875,39 @@ def test_the_transitions_that_a_lifecycle_node_makes_by_itself(
         LIFECYCLE.replace("rclcpp_lifecycle::LifecycleNode", "rclcpp::Node").replace(made, made + main)
     )
     assert plain.transitions == ()
+
+
+def test_the_interface_of_moveit(harness: Harness) -> None:
+    """move_group_interface.cpp of moveit/moveit2 365306eb."""
+    found = harness.main(
+        """
+        using moveit::planning_interface::MoveGroupInterface;
+        auto arm = MoveGroupInterface(node, "arm");
+        """,
+        before="#include <moveit/move_group_interface/move_group_interface.hpp>",
+    )
+    assert ends(found)[2:5] == [
+        ("action_client", "move_action", "moveit_msgs/action/MoveGroup"),
+        ("action_client", "execute_trajectory", "moveit_msgs/action/ExecuteTrajectory"),
+        ("client", "query_planner_interface", "moveit_msgs/srv/QueryPlannerInterfaces"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        'moveit::planning_interface::MoveGroupInterface arm(node, "arm");',
+        'auto arm = std::make_shared<moveit::planning_interface::MoveGroupInterface>(node, "arm");',
+        'const std::string GROUP = "arm"; moveit::planning_interface::MoveGroupInterface arm(node, GROUP);',
+    ],
+)
+def test_the_interface_of_moveit_in_other_words(harness: Harness, made: str) -> None:
+    assert ("action_client", "move_action", "moveit_msgs/action/MoveGroup") in ends(harness.main(made))
+
+
+@pytest.mark.silent
+def test_the_interface_of_moveit_in_a_namespace_that_is_not_known(harness: Harness) -> None:
+    options = 'moveit::planning_interface::MoveGroupInterface::Options options("arm", "robot_description", "/left");'
+    found = harness.main(f"{options}\nmoveit::planning_interface::MoveGroupInterface arm(node, options);")
+    assert not [end for end in ends(found) if "move_action" in end[1]]
+    assert not found.complete

@@ -51,6 +51,10 @@ MOVEIT_CONTROLLERS = (
     "[MoveIt: Low level controllers]"
     "(https://moveit.picknik.ai/main/doc/examples/controller_configuration/controller_configuration_tutorial.html)"
 )
+MOVEIT_CPP_INTERFACE = (
+    "[MoveIt: Move Group C++ interface]"
+    "(https://moveit.picknik.ai/main/doc/examples/move_group_interface/move_group_interface_tutorial.html)"
+)
 MOVEIT_KINEMATICS = (
     "[MoveIt: Kinematics configuration]"
     "(https://moveit.picknik.ai/main/doc/examples/kinematics_configuration/kinematics_configuration_tutorial.html)"

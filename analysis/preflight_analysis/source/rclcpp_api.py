@@ -82,11 +82,22 @@ LOADING = tuple(
 """The services that every container of components offers."""
 TF = "tf2_msgs/msg/TFMessage"
 LISTENS: tuple[tuple[Role, str, str], ...] = (("subscriber", "/tf", TF), ("subscriber", "/tf_static", TF))
+MOVE_GROUP = "moveit::planning_interface::MoveGroupInterface"
 FIXED: Mapping[str, tuple[tuple[Role, str, str], ...]] = {
     "tf2_ros::TransformListener": LISTENS,
     "tf2_ros::TransformBroadcaster": (("publisher", "/tf", TF),),
     "tf2_ros::StaticTransformBroadcaster": (("publisher", "/tf_static", TF),),
     "diagnostic_updater::Updater": (("publisher", "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"),),
+    MOVE_GROUP: (
+        ("publisher", "trajectory_execution_event", "std_msgs/msg/String"),
+        ("publisher", "attached_collision_object", "moveit_msgs/msg/AttachedCollisionObject"),
+        ("action_client", "move_action", "moveit_msgs/action/MoveGroup"),
+        ("action_client", "execute_trajectory", "moveit_msgs/action/ExecuteTrajectory"),
+        ("client", "query_planner_interface", "moveit_msgs/srv/QueryPlannerInterfaces"),
+        ("client", "get_planner_params", "moveit_msgs/srv/GetPlannerParams"),
+        ("client", "set_planner_params", "moveit_msgs/srv/SetPlannerParams"),
+        ("client", "compute_cartesian_path", "moveit_msgs/srv/GetCartesianPath"),
+    ),
     "camera_info_manager::CameraInfoManager": (("service", "~/set_camera_info", "sensor_msgs/srv/SetCameraInfo"),),
 }
 IMAGE, INFO = "sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"

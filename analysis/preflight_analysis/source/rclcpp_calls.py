@@ -46,6 +46,7 @@ from preflight_analysis.source.rclcpp_api import (
     LOADERS,
     LOADING,
     METHODS,
+    MOVE_GROUP,
     NODES,
     TRANSITIONS,
     WITH_NODE,
@@ -79,7 +80,7 @@ class RclcppCalls(Parameters):
         f"{' '.join((*METHODS, *GENERIC, *IMAGES, *DECLARE))} create_server declare_parameters get_parameter "
         "get_parameters get_parameter_or get_parameter_types Subscriber SubscriberFilter ImageTransport Node "
         "TransformListener TransformBroadcaster StaticTransformBroadcaster Updater CameraInfoManager LifecycleNode "
-        "SimpleActionServer ServiceClient InterProcessPollingSubscriber ClassLoader ParamListener "
+        "SimpleActionServer ServiceClient InterProcessPollingSubscriber ClassLoader ParamListener MoveGroupInterface "
         f"wait_for_message {WORDS}".split()
     )
 
@@ -160,6 +161,8 @@ class RclcppCalls(Parameters):
         if name in LOADERS:
             self._any_parameter(place)  # what it loads declares its own
             self.collected.miss()
+        elif name == MOVE_GROUP and isinstance(value_at(args, 1), Unmade):
+            self.collected.miss()  # options, which may have a namespace
         elif endpoints := FIXED.get(name):
             for role, topic, kind in endpoints:
                 self._endpoint(role, first_node(given).name(topic), kind, {}, place)
