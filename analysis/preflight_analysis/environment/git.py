@@ -61,9 +61,9 @@ class Repository:
         # Git before 2.32 knows no other way to leave the user's configuration out.
         return {**_variables(), **own, "HOME": self._folder, "XDG_CONFIG_HOME": self._folder}
 
-    def ask(self, *arguments: str) -> bytes:
-        """What git prints. Raises `GitError`."""
-        return _run(self.command(*arguments), self.environment)
+    def ask(self, *arguments: str, seconds: float = _TIMEOUT) -> bytes:
+        """What git prints within that time. Raises `GitError`."""
+        return _run(self.command(*arguments), self.environment, seconds)
 
 
 @contextlib.contextmanager
@@ -180,7 +180,7 @@ def _variables(*, users: bool = False) -> dict[str, str]:
     return {**kept, **nowhere, "GIT_NO_LAZY_FETCH": "1", "GIT_ALLOW_PROTOCOL": "none", "GIT_TERMINAL_PROMPT": "0"}
 
 
-def _run(command: list[str], environment: dict[str, str]) -> bytes:
+def _run(command: list[str], environment: dict[str, str], seconds: float = _TIMEOUT) -> bytes:
     ended: list[str] = []
     try:
         with (
@@ -198,7 +198,7 @@ def _run(command: list[str], environment: dict[str, str]) -> bytes:
                 ended.append(why)
                 git.kill()
 
-            clock = threading.Timer(_TIMEOUT, end, [f"it takes more than {_TIMEOUT} s"])
+            clock = threading.Timer(seconds, end, [f"it takes more than {seconds:g} s"])
             clock.start()
             said = git.stdout.read(_MOST_BYTES + 1)
             if len(said) > _MOST_BYTES:

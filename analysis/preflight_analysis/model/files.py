@@ -9,6 +9,7 @@ from pathlib import Path
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.git_history import formerly
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
@@ -23,7 +24,7 @@ from preflight_analysis.model.elsewhere import (
     depends_on_working_folder,
 )
 from preflight_analysis.model.nearest import nearest
-from preflight_analysis.model.problems import quoted
+from preflight_analysis.model.problems import quoted, shown
 
 _NOT_SET = re.compile(r"(?<![a-z])no(?:t[_ -]?(?:set|specified|given|defined)|_\w*_set)(?![a-z])", re.IGNORECASE)
 _TO_DO = re.compile(
@@ -174,9 +175,12 @@ def in_named_package(disk: Disk, path: str, environment: Environment) -> tuple[P
 def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     """The path of an existing file that `path` is probably meant to be, None if nothing is near.
 
-    First a file of a like name in the same folder; then the same name, or one like it, elsewhere in the package; then
-    the same place in a package that it names.
+    First the one that git says it was renamed to; then a file of a like name in the same folder, the same name, or one
+    like it, elsewhere in the package, and the same place in a package that it names.
     """
+    change = formerly(disk, path)
+    if change is not None and change.path is not None:
+        return change.path
     wanted = Path(path)
     siblings = {entry.name: entry for entry in map(Path, files_in(disk, str(wanted.parent), deep=False))}
     alike = [name for name in siblings if Path(name).suffix == wanted.suffix]
@@ -196,6 +200,15 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
             elsewhere.setdefault(entry.name, []).append(entry)
     name = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
     return _closest(elsewhere[name], wanted.parent) if name is not None else None
+
+
+def meant_file(context: Context, path: str, near: str | None) -> str:
+    """What a message about a file that is not there says of the one that was meant (`nearest_file`), and of what became
+    of it."""
+    change = formerly(context.disk, path)
+    if change is not None and change.path == near:
+        return change.told(shown(near, context) if near is not None else None)
+    return f"; did you mean '{shown(near, context)}'?" if near is not None else ""
 
 
 def _closest(files: list[Path], folder: Path) -> str | None:

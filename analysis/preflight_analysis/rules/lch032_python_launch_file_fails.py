@@ -25,7 +25,7 @@ from preflight_analysis.model.elsewhere import (
     asks_for_unbuilt_package,
     names_folder_of_build,
 )
-from preflight_analysis.model.files import is_below_own_home, nearest_file
+from preflight_analysis.model.files import is_below_own_home, meant_file, nearest_file
 from preflight_analysis.model.installed import has_ros, lack_of_file, lack_of_made, lack_of_module, may_be_made
 from preflight_analysis.model.nearest import did_you_mean
 from preflight_analysis.model.problems import fix, problems_of, shown
@@ -95,8 +95,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 near, missing = _near_file(context, error, said), _missing_file(error, said)
                 about = Subject("file", missing or absent or "")
                 top = absent_top(context.disk, missing) if missing is not None else None
+                message += meant_file(context, missing, near) if missing is not None else ""
                 if near is not None:
-                    message += f"; did you mean '{shown(near, context)}'?"
                     if top is None and missing is not None:
                         why = doubts(ON_ROBOT=is_below_own_home(context, missing, problem.location.file))
                 elif missing is not None:

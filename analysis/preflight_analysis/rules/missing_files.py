@@ -6,12 +6,21 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.environment.git_history import formerly
 from preflight_analysis.evaluation.problems import UnreadablePath
 from preflight_analysis.findings.claim import Effect, Subject
 from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.files import _doubts, _leads_elsewhere, _stem, in_namesake, nearest_file, package_folder
+from preflight_analysis.model.files import (
+    _doubts,
+    _leads_elsewhere,
+    _stem,
+    in_namesake,
+    meant_file,
+    nearest_file,
+    package_folder,
+)
 from preflight_analysis.model.installed import lack_of_file, lack_of_made
 from preflight_analysis.model.nearest import is_slip
 from preflight_analysis.model.problems import problems_of, rename, replacement, shown
@@ -28,8 +37,8 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
             near = nearest_file(context.disk, path, context.environment)
             message = f"{what[type(problem.kind)]} '{shown(path, context)}' does not exist"
             fixes: tuple[Fix, ...] = ()
+            message += meant_file(context, path, near)
             if near is not None:
-                message += f"; did you mean '{shown(near, context)}'?"
                 fixes = correct_path(context, problem.location, path, near)
             # ros2 launch goes on without the parameter file of a node, or what a process would launch: nothing stops.
             effect: Effect = "stops-launch" if problem.fatal else "misbehaves"
@@ -82,14 +91,16 @@ def check_unreadable_files(kind: type[UnreadablePath], what: str) -> Check:
 def correct_path(context: Context, location: Location, path: str, near: str) -> tuple[Fix, ...]:
     """A fix that makes what is written at `location`, and came to `path`, lead to `near`.
 
-    None if the names of the files are more than a slip apart, or if the text does not hold what differs: the name of
-    the file, or of its folders below the package. Nor if the text leads to another file for other values of its
-    arguments.
+    None if the names of the files are more than a slip apart and git knows of no renaming, or if the text does not hold
+    what differs: the name of the file, or of its folders below the package. Nor if the text leads to another file for
+    other values of its arguments.
     """
     old, new = Path(path), Path(near)
     if _leads_elsewhere(context, location, old):
         return ()
-    if old.name != new.name and not is_slip(_stem(old.name), _stem(new.name)):
+    change = formerly(context.disk, path)
+    was_renamed = change is not None and change.path == near
+    if old.name != new.name and not was_renamed and not is_slip(_stem(old.name), _stem(new.name)):
         return ()
     if old.parent == new.parent:
         return rename(context, location, old.name, new.name)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.git_history import Change, formerly_named
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Package
 from preflight_analysis.environment.packages import MANIFEST
@@ -85,13 +86,19 @@ def _finding(
     *,
     stops: bool,
 ) -> Finding:
+    change = _change_of(context, name, location.file)
     renamed, near = _meant(context, name)
+    if change is not None:
+        renamed, near = None, _at(context, change.path)
     if near is None:
-        return _not_here(rule, context, name, location, related, stops=stops)
+        became = change.told(None) if change is not None and change.path is None else ""
+        return _not_here(rule, context, name, location, related, became, stops=stops)
     fixes = rename(context, location, name, near)
-    hint = (
-        f"; the folder {renamed.share} contains package '{renamed.name}'" if renamed is not None else did_you_mean(near)
-    )
+    hint = did_you_mean(near)
+    if renamed is not None:
+        hint = f"; the folder {renamed.share} contains package '{renamed.name}'"
+    elif change is not None:
+        hint = change.told(near)
     return rule.claim(
         f"package '{name}' not found among {len(context.environment.packages)} packages{hint}",
         location,
@@ -105,10 +112,22 @@ def _finding(
     )
 
 
+def _change_of(context: Context, name: str, file: str) -> Change | None:
+    """What git knows of a package that was in a folder of that name, in the repository of the launch file."""
+    manifests = formerly_named(context.disk, os.path.dirname(file), MANIFEST)
+    return next((change for path, change in manifests if os.path.basename(os.path.dirname(path)) == name), None)
+
+
+def _at(context: Context, manifest: str | None) -> str | None:
+    """The name of the package with that manifest."""
+    return next((each.name for each in context.environment.packages.values() if each.manifest == manifest), None)
+
+
 def _not_here(
-    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], *, stops: bool
+    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], became: str, *, stops: bool
 ) -> Finding:
-    """Of a package that nothing is near to: what is released, or named by a manifest, is missing on this machine."""
+    """Of a package that nothing is near to: what is released, or named by a manifest, is missing on this machine.
+    `became`: what git says of it."""
     having = distributions_with(name, context.tree.generation)
     lack: Lack | None = lack_of_package(context, name)
     meant: str | None = None
@@ -141,7 +160,7 @@ def _not_here(
             text += did_you_mean(meant)
             is_sure = meant is not None
     return rule.claim(
-        text,
+        text + became,
         location,
         subject=Subject("package", name),
         kind="invalid" if is_placeholder else "absent" if meant is None else "near",

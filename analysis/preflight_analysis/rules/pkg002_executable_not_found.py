@@ -1,11 +1,12 @@
 """PKG002: an executable that its package does not have."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from os.path import relpath
 from pathlib import PurePath
 from typing import NamedTuple
 
 from preflight_analysis.environment.build import LISTS, Made
+from preflight_analysis.environment.git_history import Change, formerly_named
 from preflight_analysis.environment.git_ignored import is_ignored
 from preflight_analysis.environment.installed_paths import cmake_build
 from preflight_analysis.environment.model import Package
@@ -26,6 +27,8 @@ from preflight_analysis.rules.rule import Rule
 
 _NO_PROGRAMS = (".h", ".hh", ".hpp", ".c", ".cc", ".cpp", ".cxx", ".txt", ".md", ".rst", ".launch", ".xml", ".yaml")
 """Files that may be executable, by some slip, and that nobody means as one."""
+_OF_PROGRAMS = ("", ".py", ".cpp", ".cc", ".cxx")
+"""The ends of files that programs are, or are made of."""
 _SPACES = {1: "devel and install spaces", 2: "install spaces"}
 
 
@@ -93,14 +96,20 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         programs = [name for name in names if not name.endswith(_NO_PROGRAMS)]
         near = nearest(node.executable, programs) or nearest(node.executable, programs, key=_stem)
         near = near or next((name for name in programs if _plain(name) == _plain(node.executable)), None)
+        change = _change_of(context, found.package_path, node.executable, programs)
+        if change is not None and change.path is not None:
+            near = _program_of(change.path, programs)
         meant: str | None
         if holder is not None:
             hint, meant = f"; package '{holder}' has it", holder
             fixes = rename(context, attribute_location(context, node, "pkg"), node.package, holder)
             meant_for_all = _is_literal(node, context.tree.ros.executable)
         else:
-            hint, meant = did_you_mean(near), near
-            slip = near is not None and any(is_slip(key(node.executable), key(near)) for key in (str, _stem, _plain))
+            hint, meant = did_you_mean(near) if change is None else change.told(near), near
+            keys = (str, _stem, _plain)
+            slip = change is not None or (
+                near is not None and any(is_slip(key(node.executable), key(near)) for key in keys)
+            )
             fixes = rename(context, location, node.executable, near) if near is not None and slip else ()
             meant_for_all = _is_literal(node, "pkg")
         against: tuple[Doubt, ...] = ()
@@ -126,6 +135,25 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             # What another launch starts here, with other arguments, may be there.
             fixes=fixes if meant_for_all else (),
         )
+
+
+def _change_of(context: Context, folder: str, executable: str, programs: Sequence[str]) -> Change | None:
+    """What git knows of the file of a program that its package does not have any more: that it has another name, under
+    which it is one of `programs`, or was removed."""
+    stem = _stem(executable)
+    for suffix in dict.fromkeys((executable[len(stem) :], *_OF_PROGRAMS)):
+        for path, change in formerly_named(context.disk, folder, f"{stem}{suffix}"):
+            if path.startswith(f"{folder}/") and (
+                change.path is None or _program_of(change.path, programs) is not None
+            ):
+                return change
+    return None
+
+
+def _program_of(path: str, programs: Sequence[str]) -> str | None:
+    """The program that a file is, or is the source of."""
+    name = PurePath(path).name
+    return next((each for each in (name, _stem(name)) if each in programs), None)
 
 
 def _is_literal(node: LaunchNode, attribute: str) -> bool:

@@ -22,7 +22,7 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.elsewhere import depends_on_working_folder
-from preflight_analysis.model.files import nearest_file, package_folder
+from preflight_analysis.model.files import meant_file, nearest_file, package_folder
 from preflight_analysis.model.given_in_vain import others_in_vain
 from preflight_analysis.model.installation import will_be_there
 from preflight_analysis.model.installed import is_made_of_template, may_be_made
@@ -94,7 +94,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             if location != given:
                 related = (Related(f"{named.what} is set here", given), *related)
             near = nearest_file(context.disk, path, context.environment)
-            hint = f"; did you mean '{shown(near, context)}'?" if near is not None else ""
+            hint = meant_file(context, path, near)
             fixes: tuple[Fix, ...] = correct_path(context, location, path, near) if near is not None else ()
             against: tuple[Doubt, ...] = ()
             if near is None and _is_fetched(path):

@@ -12,7 +12,7 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.files import nearest_file
+from preflight_analysis.model.files import meant_file, nearest_file
 from preflight_analysis.model.installed import lack_of_made, near_package
 from preflight_analysis.model.problems import rename, shown
 from preflight_analysis.model.robots import robots_in_part, written
@@ -89,10 +89,10 @@ def _missing(context: Context, mesh: str) -> _Missing | None:
         folder = os.path.dirname(path)
         if not context.disk.exists(located(context.disk, context.environment, folder)):
             message, about = f"folder '{shown(folder, context)}' of a mesh does not exist", Subject("file", folder)
-        return _Missing(message, about)
+        return _Missing(f"{message}{meant_file(context, path, None)}", about)
     same_folder = os.path.dirname(near_path) == os.path.dirname(path)
     old, new = (os.path.basename(path), os.path.basename(near_path)) if same_folder else ("", "")
-    return _Missing(f"{message}; did you mean '{shown(near_path, context)}'?", about, near_path, old, new)
+    return _Missing(f"{message}{meant_file(context, path, near_path)}", about, near_path, old, new)
 
 
 RULE = Rule(
