@@ -112,15 +112,24 @@ def test_a_remap_at_one_of_two_ends_that_have_one_name() -> None:
     assert findings_of(mended + "\n//- interfaces" + text.partition("//- interfaces")[2]) == []
 
 
-@pytest.mark.parametrize(("topic", "severity"), [("raw_level", "info"), ("other", "warning")])
-def test_a_multiplexer_that_another_launch_starts_may_have_the_name(tmp_path: Path, topic: str, severity: str) -> None:
+@pytest.mark.parametrize(
+    ("file", "around", "severity"),
+    [
+        ("config/mux.yaml", "topics:\n- {name: tank, topic: raw_level, priority: 10}\n", "info"),
+        ("config/mux.yaml", "topics:\n- {name: tank, topic: other, priority: 10}\n", "warning"),
+        ("launch/more.launch", "<launch><remap from='level' to='raw_level'/></launch>", "info"),
+        ("launch/more.launch", "<launch><remap from='level' to='other'/></launch>", "warning"),
+    ],
+)
+def test_a_multiplexer_or_node_of_another_launch_may_have_the_name(
+    tmp_path: Path, file: str, around: str, severity: str
+) -> None:
     ends = "<topics><topic name='level' type='x/Level' class='{}'/></topics>"
     text = (
         f"<launch><node pkg='p' type='t' name='sensor'>{ends.format('pub')}<remap from='level' to='raw_level'/></node>"
         f"<node pkg='p' type='t' name='monitor'>{ends.format('sub')}</node></launch>"
     )
-    mux = f"topics:\n- {{name: tank, topic: {topic}, priority: 10}}\n"
-    analysis = package_elsewhere.analysed(tmp_path, text, **{"config/mux.yaml": mux})
+    analysis = package_elsewhere.analysed(tmp_path, text, **{file: around})
     assert [each.severity for each in run_rules(analysis.context) if each.rule == "TOP001"] == [severity]
 
 

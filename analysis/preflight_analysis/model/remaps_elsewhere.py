@@ -40,11 +40,13 @@ def in_use_around(context: Context, connections: Sequence[Connection]) -> list[b
     slip, whoever is to be at its other end."""
     if not connections:
         return []
-    known = around(context, "value")
+    known, targets = around(context, "value"), _Targets(around(context, "remap"))
     made = (*around(context, "bridged"), *around(context, "simulated", "robots"))
     simulated = {each.text.strip("/") for each in made}
     return [
-        known.get(Entry("value", connection.name), 0) >= _ENOUGH or connection.name.strip("/") in simulated
+        known.get(Entry("value", connection.name), 0) >= _ENOUGH
+        or targets.has(connection.name, connection.node.name)
+        or connection.name.strip("/") in simulated
         for connection in connections
     ]
 
