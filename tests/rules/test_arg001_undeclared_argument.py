@@ -6,6 +6,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
+from support import package_elsewhere
 from support.check import apply, check
 from support.python_launch_harness import PythonHarness
 
@@ -236,3 +237,20 @@ def test_a_declaration_that_does_not_reach_the_launch_description(tmp_path: Path
         "argument 'port' is not declared here: its DeclareLaunchArgument is not in the LaunchDescription, or comes "
         "after this action"
     ]
+
+
+_INCLUDER = """
+def generate_launch_description():
+    given = {{{}}}
+    file = [get_package_share_directory('not_here'), '/part.launch.xml']
+    return LaunchDescription([IncludeLaunchDescription(file, launch_arguments=given.items())])
+"""
+
+
+@pytest.mark.parametrize("given", ["'map': 'a', 'params': 'b'", "'params': 'b', 'map': 'a'", "'params': {'b': 1}['b']"])
+def test_what_a_launch_file_in_python_passes_has_not_to_be_declared(tmp_path: Path, given: str) -> None:
+    text = "<launch><let name='a' value='$(var params)'/></launch>"
+    files = {"launch/includer.launch.py": _INCLUDER.format(given)}
+    analysis = package_elsewhere.analysed(tmp_path, text, "launch/part.launch.xml", "jazzy", **files)
+    (found,) = [each for each in analysis.findings if each.rule == "ARG001"]
+    assert (found.severity, found.message.partition("; ")[2]) == ("info", "the including launch file has to set it")

@@ -105,7 +105,7 @@ def _of_pair(text: str, previous: Quoted | None, each: Quoted) -> Iterator[Entry
     """`('from', 'to')` may be a remap, `('name', ...)` and `{'name': ...}` what an include is given."""
     behind = text[each.end : each.end + 8].lstrip()[:1]
     is_pair = not each.call and each.bracket >= 0 and text[each.bracket] == "("
-    if each.nth == 0 and ((is_pair and behind == ",") or behind == ":"):
+    if behind == ":" or (each.nth == 0 and is_pair and behind == ","):
         yield Entry("argument", each.text)
     elif is_pair and each.nth == 1 and behind in (",", ")") and GRAPH_NAME.fullmatch(each.text):
         first = previous if previous is not None and previous.bracket == each.bracket else None
