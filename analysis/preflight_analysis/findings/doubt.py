@@ -48,6 +48,7 @@ class Reason(Enum):
     IN_USE = "other files of the workspace use the name", ""
     SHARED = "it is written for several nodes, and one may want it", ""
     INTENDED = "it looks intended", ""
+    SIBLINGS = "only those that are written alike say so", ""
     NO_DIFFERENCE = "it makes no difference here", ""
     EXPLAINED = "another finding names the cause", "fix that one first"
     SET_ASIDE = "nobody starts the file as it is", ""

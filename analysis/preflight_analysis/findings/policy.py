@@ -73,6 +73,7 @@ LIMITS: Mapping[Reason, Limit] = {
     Reason.IN_USE: Limit("info"),
     Reason.SHARED: Limit("info"),
     Reason.INTENDED: Limit("info"),
+    Reason.SIBLINGS: Limit("info", "possible"),
     Reason.NO_DIFFERENCE: Limit("hint"),
     Reason.EXPLAINED: Limit("info"),
     Reason.SET_ASIDE: Limit("info"),

@@ -36,6 +36,7 @@ _TITLES = {
     "BRG": "Bridges to Gazebo",
     "BTR": "Behavior trees",
     "CTL": "Controllers",
+    "DEV": "Deviations among what is alike",
     "FRM": "Coordinate frames",
     "GRF": "The graph",
     "LCH": "Launch files",
