@@ -232,3 +232,12 @@ def test_a_bridge_for_the_type_that_the_keyboard_sends(tmp_path: Path, param: st
     files = {"bridge.yaml": _BRIDGES.format(type_)}
     analysis = package_elsewhere.analysed(tmp_path, _BRIDGED.format(param), "a.launch.xml", "jazzy", **files)
     assert not [each for each in analysis.findings if each.rule == "TOP003"]
+
+
+@pytest.mark.parametrize(("file", "count"), [("$(find-pkg-share not_here)/a.yaml", 0), ("$(dirname)/c.yaml", 1)])
+def test_a_type_that_a_file_which_is_not_here_may_decide(tmp_path: Path, file: str, count: int) -> None:
+    node = f'<node pkg="teleop_twist_keyboard" exec="teleop_twist_keyboard" name="t"><param from="{file}"/>'
+    text = f'<launch>{_MANAGER}{node}<remap from="cmd_vel" to="/base/cmd_vel"/></node></launch>'
+    files = {"c.yaml": _BASE.replace("STAMPED", "")}
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy", **files)
+    assert len([each for each in analysis.findings if each.rule == "TOP003"]) == count

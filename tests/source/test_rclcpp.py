@@ -891,6 +891,7 @@ def test_the_interface_of_moveit(harness: Harness) -> None:
         ("action_client", "execute_trajectory", "moveit_msgs/action/ExecuteTrajectory"),
         ("client", "query_planner_interface", "moveit_msgs/srv/QueryPlannerInterfaces"),
     ]
+    assert ("/", "list") in {(use.name, use.access) for use in found.params}, "MoveIt asks for parameters of its own"
 
 
 @pytest.mark.parametrize(

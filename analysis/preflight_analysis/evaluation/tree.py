@@ -206,6 +206,8 @@ class LaunchNode(NamedTuple):
     """ROS 2: the parameters that it gets, each from the last source that has it. Those of ROS 1 are the tree's."""
     param_sources: tuple[ParamSource, ...] = ()
     """ROS 2: in the order in which they apply."""
+    lacks_params: bool = False
+    """ROS 2: whether it gets a parameter file that is not known, or cannot be read, and may set any of its parameters."""
     within: str | None = None
     """ROS 2, in a graph: the name of the launch file's node in whose process this one is made beside that."""
     deferred: bool = False

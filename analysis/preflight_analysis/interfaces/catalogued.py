@@ -104,7 +104,8 @@ def from_catalogue(
         found = next(filter(None, others), None)
     if found is None:
         return None
-    found = _as_remapped(node, _as_set(node, given, found, newer=may_be_newer(environment.distro, distro)))
+    open_ = node.lacks_params or may_be_newer(environment.distro, distro)
+    found = _as_remapped(node, _as_set(node, given, found, newer=open_))
     if found.of_others:
         params = (replace(use, name=names.join(node.namespace, use.name)) for use in found.params)
         found = replace(found, params=tuple(params))
@@ -213,7 +214,7 @@ def _as_set(node: LaunchNode, given: Sequence[Param], found: Catalogued, *, newe
 
 def typed_end(end: Endpoint, by: TypedBy, value: object, *, newer: bool) -> Endpoint:
     """With the type that a parameter gives, which has the value, None where it is not set. `newer`: the distribution
-    may be newer than the one of the catalogue, and have another default."""
+    may be newer than the one of the catalogue, and have another default, or a file that is not known sets it."""
     unset = None if newer else end.type
     type_ = unset if value is None else dict(by.types).get(str(value).lower(), end.type)
     return replace(end, type=type_, typed_by=by)

@@ -132,9 +132,11 @@ def _deviations(siblings: Sequence[Sibling]) -> Iterator[Deviation]:
     if len(found) != 1:
         return
     ((at, deviations),) = found.items()
-    if len(deviations) > _MOST_DEVIATIONS or len(by_pattern) <= len(deviations):
+    if len(deviations) > _MOST_DEVIATIONS:
         return
-    yield from (each for each in deviations if each.value is None or each.other)
+    # Who has nothing of what the others have may be another kind of node.
+    is_alike = len(by_pattern) > len(deviations)
+    yield from (each for each in deviations if each.other or (each.value is None and is_alike))
 
 
 def _own_parts(names: Sequence[str]) -> list[str]:

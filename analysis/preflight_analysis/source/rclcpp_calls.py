@@ -166,6 +166,8 @@ class RclcppCalls(Parameters):
         elif endpoints := FIXED.get(name):
             for role, topic, kind in endpoints:
                 self._endpoint(role, first_node(given).name(topic), kind, {}, place)
+            if name == MOVE_GROUP:
+                self._any_parameter(place)  # of the robot model, the kinematics and the pipelines
             if name == "diagnostic_updater::Updater":
                 self._declare(first_node(given), "diagnostic_updater.period", 1.0, True, place)
                 self._declare(first_node(given), "diagnostic_updater.use_fqn", False, True, place)

@@ -143,6 +143,7 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
             named=name is not None,
             params=to.effective(),
             param_sources=tuple(to.found),
+            lacks_params=to.lacks,
             deferred=deferred,
         )
     )
@@ -196,6 +197,7 @@ def evaluate_composable(
                 extra_arguments=tuple(_extra_arguments(performer, action, full)),
                 params=to.effective(),
                 param_sources=tuple(to.found),
+                lacks_params=to.lacks,
                 deferred=deferred,
             )
         )
@@ -281,7 +283,9 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
         file = child.value("from")
         if file is not None:
             result = performer.value(file)
-            if result.known:
+            if not result.known:
+                to.add(None)
+            else:
                 path = performer.state.located(os.path.join(performer.state.cwd, result.text))
                 at = performer.place.origin(file.span)
                 location, target = (

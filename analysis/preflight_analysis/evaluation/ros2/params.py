@@ -49,6 +49,8 @@ class Sources:
     key: str = EVERY
     composable: bool = False
     found: list[ParamSource] = field(default_factory=list)
+    lacks: bool = False
+    """Whether one of them is not known."""
 
     @property
     def owner(self) -> str:
@@ -56,8 +58,10 @@ class Sources:
         return "" if self.node.endswith("/?") else self.node
 
     def add(self, source: ParamSource | None) -> None:
-        """One more source, if there is anything to it."""
-        if source is not None:
+        """One more source; None for one that is not known."""
+        if source is None:
+            self.lacks = True
+        else:
             self.found.append(source if source.keys else source._replace(keys=(self.key,) * len(source.params)))
 
     def effective(self) -> tuple[Param, ...]:
