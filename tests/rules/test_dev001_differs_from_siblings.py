@@ -15,7 +15,7 @@ def test_a_name_that_was_not_changed_in_a_copy() -> None:
     said = "info[DEV001] parameter 'port' of /wheel_3 is '/dev/ttyUSB2', where '2' is of another one"
     check(f"""
         <launch>
-{_wheels(1, 2, 2)}{" " * 61}^^^^^^^^^^^^ {said}
+{_wheels(1, 2, 2)}{" " * 61}^^^^ {said}
 {_wheels(4, first=4)}        </launch>
     """)
 

@@ -207,7 +207,7 @@ class LaunchNode(NamedTuple):
     param_sources: tuple[ParamSource, ...] = ()
     """ROS 2: in the order in which they apply."""
     lacks_params: bool = False
-    """ROS 2: whether it gets a parameter file that is not known, or cannot be read, and may set any of its parameters."""
+    """ROS 2: whether it gets a parameter file that is not known or cannot be read, and that may set anything."""
     within: str | None = None
     """ROS 2, in a graph: the name of the launch file's node in whose process this one is made beside that."""
     deferred: bool = False
