@@ -1,6 +1,9 @@
 """LCH035: a lifecycle node that nothing activates (ROS 2)."""
 
+from pathlib import Path
+
 import pytest
+from support import package_elsewhere
 from support.check import check, findings_of
 
 
@@ -159,3 +162,14 @@ def test_a_plain_node_that_the_launch_file_calls_a_lifecycle_node(
                        "publishers": {{"out": "std_msgs/msg/Empty"}}}}, "/other": {{}}}}
     """)
     assert [each.rule for each in found if each.rule == "LCH035"] == (["LCH035"] if said else [])
+
+
+def test_a_launch_file_of_another_project_knows_no_nodes_but_its_own(tmp_path: Path) -> None:
+    """That of the catalogue has an OpaqueFunction."""
+    text = (
+        '<launch><include file="$(find-pkg-share realsense2_camera)/launch/rs_launch.py"/>'
+        '<node pkg="nav2_map_server" exec="map_server" name="map_server"/></launch>'
+    )
+    analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy")
+    (found,) = [each for each in analysis.findings if each.rule == "LCH035"]
+    assert found.message.startswith("lifecycle node /map_server is never activated")

@@ -335,23 +335,20 @@ class Edited:
 class StateChange(NamedTuple):
     """A transition that the launch asks a lifecycle node for: `configure`, `activate`, ..., "" for one that ends it,
     None where it is not known. The node is that of the full name `node`, or what the action of a Python launch file
-    made that has the number at the end of `made_by`, after the file and what leads to that; it may be any where both
-    are None."""
+    made that has the number at the end of `made_by`, after the file and what leads to that; where both are None, it may
+    be any below the includes of `within`: a launch file of a package that is not here knows no nodes but its own."""
 
     transition: str | None
     node: str | None
     made_by: tuple[str, Origin, str] | None
+    within: Origin = ()
 
     def may_be_for(self, node: LaunchNode) -> bool:
         """Whether it is for a node."""
         if self.made_by is not None:
             number = node.action.value("id")
             return number is not None and (node.location.file, node.origin[:-1], number.text) == self.made_by
-        return self.node in (None, node.name)
-
-
-ANY_CHANGE = StateChange(None, None, None)
-"""What code may ask for that is not known."""
+        return self.node in (None, node.name) and node.origin[: len(self.within)] == self.within
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,7 @@ from preflight_analysis.evaluation.ros2.state import Added, State
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.types import NotOfTypeError, coerce
 from preflight_analysis.evaluation.ros2.written import is_from_yaml
-from preflight_analysis.evaluation.tree import ANY_CHANGE, Condition, NotTaken
+from preflight_analysis.evaluation.tree import Condition, NotTaken, StateChange
 from preflight_analysis.launch.configurations import Names, configurations_of, names_in_code
 from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile
 from preflight_analysis.launch.problems import BadValue, LanguageProblem, UnknownElement
@@ -161,7 +161,7 @@ class Walk:
                     self.state.note_unknown(action.kind, "what it does is not known", at)
                 continue
             if place.partial and action.kind in _UNREAD:
-                self.state.state_changes.append(ANY_CHANGE)
+                self.any_change(place)
             if self.applies(performer, action):
                 error = action.value("error")
                 if error is not None:
@@ -268,6 +268,11 @@ class Walk:
             self.state.note_unknown(f"<{action.kind}>", f"there are more than {limit}", at)
         return True
 
+    def any_change(self, place: Place) -> None:
+        """Note that code may ask lifecycle nodes for transitions that are not known."""
+        within = place.chain if catalogued_file(place.file) is not None else ()
+        self.state.state_changes.append(StateChange(None, None, None, within))
+
     def raised(self, performer: Performer, action: Action, error: str, message: str) -> None:
         """Note an exception that launch raises at an action."""
         self.state.problem(PythonException(error, message), performer.place.origin(action.head_span))
@@ -293,7 +298,7 @@ class Walk:
             if known is not None and known.configures:
                 performer.context.cannot_follow(at)
             if any(below.kind in _CHANGES_STATES for below in action.walk()):
-                performer.state.state_changes.append(ANY_CHANGE)
+                self.any_change(performer.place)
             _note_not_taken(performer, action, attribute, name, None)
             return False
         word = result.text.strip().lower()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from preflight_analysis.evaluation.ros2.entity import Part
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
-from preflight_analysis.evaluation.tree import ANY_CHANGE
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClass
 
@@ -15,7 +14,7 @@ def register(walk: Walk, performer: Performer, action: Action) -> None:
     if any(child.kind == "function" for child in action.children):
         at = performer.place.location(action.head_span)
         walk.state.note_unknown("an event handler", "what its function does depends on the event", at)
-        walk.state.state_changes.append(ANY_CHANGE)
+        walk.any_change(performer.place)
     walk.events.register(performer.place, action)
 
 

@@ -7,7 +7,6 @@ from preflight_analysis.evaluation.ros2.python_runs import called
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
-from preflight_analysis.evaluation.tree import ANY_CHANGE
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClass
 
@@ -21,7 +20,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     answer = called(walk.state, context, place, number.text, name.text, "execute", action.head_span)
     origin = place.origin(action.head_span)
     if answer is None:
-        walk.state.state_changes.append(ANY_CHANGE)
+        walk.any_change(performer.place)
         context.cannot_follow(origin[-1])
         return
     for key, text in (answer.changed or {}).items():
@@ -38,7 +37,7 @@ def evaluate_coroutine(walk: Walk, performer: Performer, action: Action) -> None
     """Nobody awaits it here."""
     at = performer.place.location(action.head_span)
     walk.state.note_unknown("OpaqueCoroutine", "what it does is known only when it is launched", at)
-    walk.state.state_changes.append(ANY_CHANGE)
+    walk.any_change(performer.place)
 
 
 def evaluate_stand_in(walk: Walk, performer: Performer, action: Action) -> None:

@@ -6,7 +6,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.entity import Part, action_tag
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
-from preflight_analysis.evaluation.tree import ANY_CHANGE, StateChange
+from preflight_analysis.evaluation.tree import StateChange
 from preflight_analysis.launch.model import Action
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
@@ -20,7 +20,7 @@ def emit(walk: Walk, performer: Performer, action: Action) -> None:
     """Note the transition that a lifecycle node is asked for."""
     event = action.value("event")
     if event is None:
-        performer.state.state_changes.append(ANY_CHANGE)  # a file that was not run has it in its text alone
+        walk.any_change(performer.place)  # a file that was not run has it in its text alone
     elif event.text == _CHANGES:
         _ask(performer, action)
 
@@ -30,7 +30,7 @@ def change(walk: Walk, performer: Performer, action: Action) -> None:
     for child in action.children:
         _ask(performer, child)
     if not action.children:
-        performer.state.state_changes.append(ANY_CHANGE)
+        walk.any_change(performer.place)
 
 
 def _ask(performer: Performer, action: Action) -> None:
