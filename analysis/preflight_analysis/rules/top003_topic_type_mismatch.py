@@ -8,11 +8,12 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Channel, Connection
 from preflight_analysis.model.channels import channels_of, doubts_of_ends
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.fit import in_short
 from preflight_analysis.model.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.model.problems import include_chain
 from preflight_analysis.rules.further_reading import TOPICS, TOPICS_2
 from preflight_analysis.rules.rule import Rule
-from preflight_analysis.rules.type_mismatch import OF_MISMATCHES, in_short, mismatches
+from preflight_analysis.rules.type_mismatch import OF_MISMATCHES, mismatches
 
 _SAID = "type mismatch on '{name}': {node} {does} {types}"
 
