@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from itertools import chain
-from typing import NamedTuple, TypeVar
+from typing import Literal, NamedTuple, TypeVar
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
@@ -21,7 +21,7 @@ from preflight_analysis.model.idle_remaps import idle_remaps
 from preflight_analysis.model.moveit import known_to_moveit, unserved
 from preflight_analysis.model.near_miss import NearMiss, given_name
 from preflight_analysis.model.near_miss_search import near_misses
-from preflight_analysis.model.nearest import numbers_in, share_words
+from preflight_analysis.model.nearest import nearest_typo, numbers_in, share_words
 from preflight_analysis.model.remaps_elsewhere import Elsewhere, used_elsewhere
 from preflight_analysis.model.well_known import may_dangle
 
@@ -216,6 +216,25 @@ def _meant(context: Context, kind: ChannelKind) -> Mapping[int, Connection]:
         found.setdefault(id(provider), consumer)
         found.setdefault(id(consumer), provider)
     return found
+
+
+def meant_by_text(context: Context, topic: str, wanted: Literal["publisher", "subscriber"]) -> Connection | None:
+    """The end that a topic was probably meant to reach which only a text names, as the arguments of a recorder or of a
+    player: that of the nearest name that differs by a slip, to a subscriber only where nobody publishes. None where the
+    topic is known, and where it may be that of a node of which nothing is known."""
+    graph = context.graph
+    if graph is None or graph.blind or graph.is_external(topic) or graph.is_of_unknown("topics", topic):
+        return None
+    there = graph.topics.get(topic)
+    if there is not None and (there.consumers or wanted == "publisher"):
+        return None  # of what others subscribe to and nobody publishes their own findings speak
+    ends = (
+        (name, each.providers if wanted == "publisher" else each.consumers if not each.providers else ())
+        for name, each in graph.topics.items()
+    )
+    found = {name: some[0] for name, some in ends if some}
+    near = nearest_typo(topic, found)
+    return found[near] if near is not None else None
 
 
 class Absence(NamedTuple):
