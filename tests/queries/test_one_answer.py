@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from preflight_analysis.queries.hover import hover
+from preflight_analysis.queries.parameters import parameter
 from preflight_analysis.queries.why import chains
 from preflight_analysis.view.model import graph_view
 from preflight_analysis.workspace.workspace import Analysis
@@ -156,3 +157,41 @@ def test_a_subscriber_that_is_taken_to_the_topic_of_a_sibling() -> None:
     assert broken(cursor.analysis, "/one/sensor", "/one/monitor") == [
         "'/one/level' and '/two/level' are different topic names"
     ]
+
+
+LEAKED = """
+//- /robot.launch.xml
+<launch>
+  <let name="x" value="1"/>
+  <include file="/base.launch.xml"><arg name="params" value="/base.yaml"/></include>
+  <include file="/nav.launch.xml"/>
+</launch>
+//- /base.launch.xml
+<launch><arg name="params"/><node pkg="p" exec="base" name="base"><param from="$(var params)"/></node></launch>
+//- /nav.launch.xml
+<launch>
+  <arg name="params" default="/nav.yaml"/>
+  <node$0 pkg="p" exec="pilot" name="pilot"><param from="$(var params)"/></node>
+</launch>
+//- /base.yaml
+base: {ros__parameters: {port: 1}}
+//- /nav.yaml
+pilot: {ros__parameters: {rate: 1}}
+"""
+
+
+def test_a_file_of_another_include() -> None:
+    cursor = analysed(LEAKED, {"/pilot": {"params": {"rate": 5}}, "/base": {"params": {"port": 1}}})
+    said = (
+        "no section of this file applies to /pilot; it has sections for '/base'; the file is from 'params', which "
+        "another include was passed and which stays set"
+    )
+    (finding,) = (each for each in cursor.analysis.findings if each.rule == "PRM011")
+    assert finding.message.startswith(said)
+    found = parameter(cursor.analysis, "/pilot:rate")
+    assert found is not None
+    assert [(each.used.path, each.reason) for each in found.lost] == [("/base.yaml", said)]
+    assert f"`base.yaml`: {said}" in hovered(cursor)
+    other = parameter(cursor.analysis, "/base:port")
+    assert other is not None
+    assert other.lost == ()

@@ -23,6 +23,7 @@ from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.model.installation import named_installation
 from preflight_analysis.model.lifecycle import inactive
+from preflight_analysis.model.lost_files import lost_files
 from preflight_analysis.model.reach import notes
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.bridges import bridge_hover
@@ -446,6 +447,7 @@ def _node_body(analysis: Analysis, index: int, node: LaunchNode) -> str:
             lines += [f"\nRun without its `launch-prefix` {code(node.launch_prefix)}"]
     if analysis.tree.ros.own_parameters:
         lines += _own_params(analysis, node, interface or NOT_RUN)
+        lines += _lost_files(analysis, node)
     frames = frames_of(node, interface or NOT_RUN)
     if frames:
         lines += ["", "Broadcasts", *map(_frame, frames[:_SHOWN_FRAMES])]
@@ -531,6 +533,13 @@ def _own_params(analysis: Analysis, node: LaunchNode, interface: Interface) -> l
     lines += [f"- {code(name)}: {default_text(use)}{_made_at(use)}" for name, use in declared.items()]
     more = [f"- … and {len(lines) - _SHOWN_PARAMS} more"] if len(lines) > _SHOWN_PARAMS else []
     return ["", "Parameters", *lines[:_SHOWN_PARAMS], *more] if lines else []
+
+
+def _lost_files(analysis: Analysis, node: LaunchNode) -> Iterator[str]:
+    """The parameter files that a node gets and that have nothing for it."""
+    for lost in lost_files(analysis.context):
+        if lost.getter.node is node:
+            yield f"\n{code(shown_path(lost.used.path, analysis.environment.workspace))}: {escaped(lost.reason)}"
 
 
 def _read(analysis: Analysis, graph: Graph, node: LaunchNode, use: ParamUse) -> str:

@@ -78,6 +78,9 @@ def _lines(found: Parameter, analysis: Analysis) -> Iterator[str]:
         where = place(lost.place, analysis.all_documents, os.getcwd())
         key = lost.use.section.key
         yield f"  {'no effect':<10}  {_shown(lost.param.value)} [{where}] section {key!r}: {lost.use.reason}"
+    for file in found.lost:
+        where = place(file.getter.location, analysis.all_documents, os.getcwd())
+        yield f"  {'no effect':<10}  {relative(file.used.path, os.getcwd())} [{where}]: {file.reason}"
     for each in found.unknowns:
         where = place(each.location, analysis.all_documents, os.getcwd())
         yield f"  {'unknown':<10}  may also be set here: {each.what} ({each.reason}) [{where}]"
@@ -127,6 +130,14 @@ def _json(found: Parameter, analysis: Analysis) -> dict[str, Any]:
                 **place_json(each.place, analysis.all_documents),
             }
             for each in found.unapplied
+        ],
+        "lost_files": [
+            {
+                "path": each.used.path,
+                "reason": each.reason,
+                **place_json(each.getter.location, analysis.all_documents),
+            }
+            for each in found.lost
         ],
         "unknown": [
             {"what": each.what, "reason": each.reason, **place_json(each.location, analysis.all_documents)}
