@@ -195,3 +195,29 @@ def test_a_file_of_another_include() -> None:
     other = parameter(cursor.analysis, "/base:port")
     assert other is not None
     assert other.lost == ()
+
+
+@pytest.mark.parametrize(
+    ("lines", "rule", "what"),
+    [
+        ("pilot:\n  rate: 2", "PRM012", "parameter 'rate' is not below 'ros__parameters'"),
+        ("pilot:\n  ros__parameters:\n    gains: [1, 2.5]", "PRM016", "a list with doubles and integers in it: 'gains'"),
+    ],
+)
+def test_a_file_that_rcl_refuses(lines: str, rule: str, what: str) -> None:
+    text = f"""
+//- /main.launch.xml
+<launch><node pkg="p" exec="pilot" name="pilot"><param from="/pilot.yaml"/></node></launch>
+//- /pilot.yaml
+/**:
+  ros__parameters:
+    sp$0eed: 1
+{lines}
+"""
+    cursor = analysed(text, {"/pilot": {"params": {"speed": 5}}})
+    (finding,) = (each for each in cursor.analysis.findings if each.rule == rule)
+    assert finding.message.startswith(what)
+    found = parameter(cursor.analysis, "/pilot:speed")
+    assert found is not None
+    assert [each.what for each in found.refusals] == [what]
+    assert f"rcl refuses the whole file: {what} ([" in hovered(cursor).replace("\\_", "_")
