@@ -201,7 +201,11 @@ def test_a_file_of_another_include() -> None:
     ("lines", "rule", "what"),
     [
         ("pilot:\n  rate: 2", "PRM012", "parameter 'rate' is not below 'ros__parameters'"),
-        ("pilot:\n  ros__parameters:\n    gains: [1, 2.5]", "PRM016", "a list with doubles and integers in it: 'gains'"),
+        (
+            "pilot:\n  ros__parameters:\n    gains: [1, 2.5]",
+            "PRM016",
+            "a list with doubles and integers in it: 'gains'",
+        ),
     ],
 )
 def test_a_file_that_rcl_refuses(lines: str, rule: str, what: str) -> None:
