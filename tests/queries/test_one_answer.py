@@ -225,3 +225,38 @@ def test_a_file_that_rcl_refuses(lines: str, rule: str, what: str) -> None:
     assert found is not None
     assert [each.what for each in found.refusals] == [what]
     assert f"rcl refuses the whole file: {what} ([" in hovered(cursor).replace("\\_", "_")
+
+
+@pytest.mark.parametrize(
+    ("interface", "name", "said"),
+    [
+        ({"params": {"rate": 1}}, "speed", " does not declare it"),
+        ({"params": {"rate": 1}}, "ratee", " does not declare it; did you mean 'rate'?"),
+        ({"params": {"rate": 1}}, "rate", None),
+        ({"params": {"rate": 1}}, "use_sim_time", None),
+        ({"params": {"rate": 1}}, "qos_overrides./tf.publisher.depth", None),
+        ({"params": {"rate": 1, "/": {"access": "list"}}}, "speed", None),
+        ({"params": {"rate": 1}, "status": "crashed"}, "speed", None),
+        ({"publishers": {"a": "x/Y"}, "source": "catalogue", "status": "not-run"}, "speed", None),
+        (
+            {"params": {"rate": 1}, "source": "source", "status": "not-run"},
+            "speed",
+            " does not declare it (not sure: nodes of this launch were not analysed as a whole)",
+        ),
+    ],
+)
+def test_whether_a_node_declares_a_parameter(interface: Mapping[str, Any], name: str, said: str | None) -> None:
+    text = f"""
+//- /main.launch.xml
+<launch><node pkg="p" exec="pilot" name="pilot"><param from="/pilot.yaml"/></node></launch>
+//- /pilot.yaml
+pilot:
+  ros__parameters:
+    {name[:2]}$0{name[2:]}: 1
+"""
+    cursor = analysed(text, {"/pilot": interface})
+    assert ("PRM013" in rules_of(cursor.analysis)) == (said is not None)
+    markdown = hovered(cursor)
+    assert name in markdown.replace("\\_", "_")
+    assert (" does not declare it" in markdown) == (said is not None)
+    assert said is None or markdown.endswith(f"`/pilot`{said}")

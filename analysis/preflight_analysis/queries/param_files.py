@@ -12,6 +12,8 @@ from preflight_analysis.evaluation.ros2.param_files import FileParam
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.launch.recognize import is_yaml
+from preflight_analysis.model.declared_params import declared_params, undeclared
+from preflight_analysis.model.nearest import did_you_mean
 from preflight_analysis.model.plugin_params import declared_of_plugins
 from preflight_analysis.model.refused_files import refusals
 from preflight_analysis.model.sections import Getter, SectionUse, param_file
@@ -138,7 +140,7 @@ def _node(analysis: Analysis, reader: Reader) -> str:
 def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -> str:
     use = reader.declared(param.name)
     if use is None:
-        text = code(reader.node.name) + (" does not declare it" if reader.interface.known else "")
+        text = code(reader.node.name) + _undeclared(analysis, reader, param.name, path)
     else:
         made = f" — {link(use.source_file, use.source_line)}" if use.source_file else ""
         text = f"{code(reader.node.name)} declares it: {default_text(use)}{made}"
@@ -148,6 +150,17 @@ def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -
         where = place(analysis, effective.place)
         text += f"; it gets {value_text(effective.value)} from {where}"
     return text
+
+
+def _undeclared(analysis: Analysis, reader: Reader, name: str, path: str) -> str:
+    """That a node does not declare a parameter, in words that go on from its name; "" where it may well do so."""
+    node, interface = reader.node, reader.interface
+    declared = declared_params(node, interface)
+    found = undeclared(analysis.context, node, interface, declared, name, path) if declared is not None else None
+    if found is None or declared is None:
+        return ""
+    sure = "" if declared.closed else f" (not sure: {declared.open_because[0].reason.sentence})"
+    return f" does not declare it{sure}{did_you_mean(found.meant)}"
 
 
 def from_param_file(context: QueryContext, offset: int) -> Iterator[tuple[Location, Span]]:
