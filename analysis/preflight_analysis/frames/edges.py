@@ -76,7 +76,7 @@ def edges_of_node(
         add(Edge(parent, child, arguments.static, "arguments", node, node.location, space))
     frames = interface.frames if interface is not None else ()
     for frame in frames:
-        if not frame.inferred:
+        if not frame.evidence.inferred:
             parent, child = plain(frame.parent), plain(frame.child)
             add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
     # A controller has parameters in any case.
@@ -107,7 +107,7 @@ def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
         space,
         False,
         detail=f"{os.path.basename(frame.source_file)}:{frame.source_line}",
-        conditional=frame.conditional,
+        conditional=frame.evidence.conditional,
         source_file=frame.source_file,
         source_line=frame.source_line,
     )

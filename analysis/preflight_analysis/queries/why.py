@@ -280,7 +280,7 @@ def _evidence(connection: Connection) -> str:
     if end.displayed:
         return "; from its configuration"
     if end.evidence.inferred:
-        return "; from its source" + (", under a condition" if "condition" in end.evidence.doubts else "")
+        return "; from its source" + (", under a condition" if end.evidence.conditional else "")
     return ""
 
 
