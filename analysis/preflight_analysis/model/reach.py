@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple, TypeVar
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.findings.doubt import doubts
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import not_all_known
@@ -237,17 +237,9 @@ def meant_by_text(context: Context, topic: str, wanted: Literal["publisher", "su
     return found[near] if near is not None else None
 
 
-class Absence(NamedTuple):
-    """That a side of a channel has nobody in the launch: `reason` says who is meant, or else who may be there, in
-    words; `meant` is who was meant to be there, `doubts` why somebody may be there all the same."""
-
-    reason: str
-    meant: Connection | None = None
-    doubts: tuple[Doubt, ...] = ()
-
-
-def absence(context: Context, kind: ChannelKind, channel: Channel) -> Absence | None:
-    """What is known of the side of a channel that has nobody; None where both have somebody."""
+def why_nobody(context: Context, kind: ChannelKind, channel: Channel) -> str | None:
+    """Of a side of a channel that has nobody who is meant to be there, or else who may be there, in words; None where
+    both sides have somebody."""
     graph = context.graph
     there = channel.providers or channel.consumers
     if graph is None or not there or (channel.providers and channel.consumers):
@@ -255,26 +247,26 @@ def absence(context: Context, kind: ChannelKind, channel: Channel) -> Absence | 
     taken = crossed(context) if kind == "topics" else {}
     if (pair := _first(taken, there)) is not None:
         end, other = pair
-        return Absence(f"{end.node.name} is remapped to '{end.name}' of {other.node.name}", end)
+        return f"{end.node.name} is remapped to '{end.name}' of {other.node.name}"
     if (meant := _first(_meant(context, kind), there)) is not None:
-        return Absence(f"did you mean '{meant.name}' of {meant.node.name}?", meant)
+        return f"did you mean '{meant.name}' of {meant.node.name}?"
     ends = {*map(id, there)}
     apart = chain.from_iterable(separations(graph, each) for each in graph.named(kind, channel.name))
     for each in apart if channel.apart else ():
         if not ends.isdisjoint((id(each.consumer), id(each.provider))):
-            return Absence(each.reason)
+            return each.reason
     if not graph.blind and (named := _first(unmet(context, kind).elsewhere, there)) is not None:
-        return Absence(f"did you mean '{named.name}'?")
+        return f"did you mean '{named.name}'?"
     alike = of_same_type(context) if kind == "topics" and not graph.blind else {}
     if (same := _first(alike, there)) is not None:
-        return Absence(f"'{same.name}' of {same.node.name} has the same type and no subscriber", same)
+        return f"'{same.name}' of {same.node.name} has the same type and no subscriber"
     outside = channel.external or all(may_dangle(channel.name, each.endpoint) for each in there)
     found = doubts(
         OUTSIDE=outside,
         NOT_ANALYSED=not outside and (graph.is_of_unknown(kind, channel.name) or not_all_known(graph)),
         OTHER_LAUNCH=not outside,
     )
-    return Absence("; ".join(each.reason.sentence for each in found), doubts=found)
+    return "; ".join(each.reason.sentence for each in found)
 
 
 def _first(found: Mapping[int, V], ends: Iterable[Connection]) -> V | None:
@@ -292,10 +284,10 @@ def notes(context: Context, kind: ChannelKind, channel: Channel) -> tuple[str, .
     """What there is to say of a channel, in words: that a side has nobody, and why; what keeps ends that are there from
     each other; who was taken to it by a remap."""
     found: list[str] = []
-    lost = absence(context, kind, channel)
-    if lost is not None:
+    why = why_nobody(context, kind, channel)
+    if why is not None:
         side = _SIDES[kind][bool(channel.providers)]
-        found.append(f"no {side}" + (f"; {lost.reason}" if lost.reason else ""))
+        found.append(f"no {side}" + (f"; {why}" if why else ""))
     found += (each.reason for each in type_misfits(channel))
     if kind == "topics" and context.tree.ros.has_qos:
         found += (each.reason for each in qos_misfits(channel))
