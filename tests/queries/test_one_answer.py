@@ -126,6 +126,17 @@ def test_the_other_end_is_in_another_domain() -> None:
     assert [*in_picture(cursor.analysis).values()] == [(f"no subscriber; {said}",), (f"no publisher; {said}",)]
 
 
+def test_an_image_that_is_read_in_another_transport() -> None:
+    image, compressed = "sensor_msgs/Image", "sensor_msgs/CompressedImage"
+    given = {
+        "/a": {"publishers": {"chatter": image, "chatter/compressed": compressed}},
+        "/b": {"subscribers": {"in": compressed}},
+    }
+    cursor = analysed(ROS1.replace('to="chatter"', 'to="chatter/compressed"'), given)
+    assert "TOP002" not in rules_of(cursor.analysis)
+    assert in_picture(cursor.analysis) == {"/chatter": ("no subscriber; it is read in another transport",)}
+
+
 CROSSED = """
 //- /main.launch
 <launch>

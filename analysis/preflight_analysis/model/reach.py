@@ -15,7 +15,13 @@ from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Gra
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import not_all_known
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.dangling import by_type, dangling_consumers, dangling_providers, lone_of_type
+from preflight_analysis.model.dangling import (
+    by_type,
+    dangling_consumers,
+    dangling_providers,
+    lone_of_type,
+    read_otherwise,
+)
 from preflight_analysis.model.fit import qos_misfits, separations, type_misfits
 from preflight_analysis.model.idle_remaps import idle_remaps
 from preflight_analysis.model.moveit import known_to_moveit, unserved
@@ -260,6 +266,8 @@ def why_nobody(context: Context, kind: ChannelKind, channel: Channel) -> str | N
     alike = of_same_type(context) if kind == "topics" and not graph.blind else {}
     if (same := _first(alike, there)) is not None:
         return f"'{same.name}' of {same.node.name} has the same type and no subscriber"
+    if kind == "topics" and channel.providers and channel.name in read_otherwise(context):
+        return "it is read in another transport"
     outside = channel.external or all(may_dangle(channel.name, each.endpoint) for each in there)
     found = doubts(
         OUTSIDE=outside,
