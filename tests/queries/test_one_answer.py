@@ -82,6 +82,14 @@ def test_a_service_that_is_called_with_the_sum_of_its_server_fits_whatever_the_t
     assert "types differ" not in hovered(cursor)
 
 
+def test_one_node_uses_a_topic_with_two_types() -> None:
+    interfaces = {"/a": {"publishers": {"chatter": "x/Y", "/chatter": "x/Z"}}, "/b": {"subscribers": {"in": "*"}}}
+    cursor = analysed(ROS1, interfaces)
+    assert "TOP003" in rules_of(cursor.analysis)
+    assert in_picture(cursor.analysis) == {"/chatter": ("/a publishes both x/Y and x/Z",)}
+    assert "/a publishes both x/Y and x/Z" in hovered(cursor)
+
+
 ROS2 = ROS1.replace("/main.launch", "/main.launch.xml").replace("type=", "exec=")
 
 

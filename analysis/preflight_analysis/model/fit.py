@@ -75,6 +75,42 @@ def type_misfits(channel: Channel) -> tuple[TypeMisfit, ...]:
     return tuple(found)
 
 
+class DoubleType(NamedTuple):
+    """Ends of the same kind that one node has under one name with two types, which its client library refuses."""
+
+    first: Connection
+    second: Connection
+
+    @property
+    def does(self) -> str:
+        """What the node does there, in words."""
+        return "publishes" if self.first.endpoint.role == "publisher" else "subscribes to"
+
+    @property
+    def types(self) -> str:
+        """Both of them, in words."""
+        return f"both {self.first.endpoint.type} and {self.second.endpoint.type}"
+
+    @property
+    def reason(self) -> str:
+        """What is so, for a user."""
+        return f"{self.first.node.name} {self.does} {self.types}"
+
+
+def double_types(channel: Channel) -> tuple[DoubleType, ...]:
+    """Those of a topic."""
+    found: list[DoubleType] = []
+    for ends in (channel.providers, channel.consumers):
+        first: dict[int, Connection] = {}
+        for end in ends:
+            if end.endpoint.type in (None, "*") or end.endpoint.evidence.of_catalogue or end.action is not None:
+                continue
+            other = first.setdefault(id(end.node), end)
+            if in_short(other.endpoint.type or "") != in_short(end.endpoint.type or ""):
+                found.append(DoubleType(other, end))
+    return tuple(found)
+
+
 def in_short(name: str) -> str:
     """A type's name without the folder that ROS 2 has in it: a launch file of a package for both generations may be
     answered by nodes of either."""

@@ -22,7 +22,7 @@ from preflight_analysis.model.dangling import (
     lone_of_type,
     read_otherwise,
 )
-from preflight_analysis.model.fit import qos_misfits, separations, type_misfits
+from preflight_analysis.model.fit import double_types, qos_misfits, separations, type_misfits
 from preflight_analysis.model.idle_remaps import idle_remaps
 from preflight_analysis.model.moveit import known_to_moveit, unserved
 from preflight_analysis.model.near_miss import NearMiss, given_name
@@ -297,6 +297,8 @@ def notes(context: Context, kind: ChannelKind, channel: Channel) -> tuple[str, .
         side = _SIDES[kind][bool(channel.providers)]
         found.append(f"no {side}" + (f"; {why}" if why else ""))
     found += (each.reason for each in type_misfits(channel))
+    if kind == "topics":
+        found += (each.reason for each in double_types(channel))
     if kind == "topics" and context.tree.ros.has_qos:
         found += (each.reason for each in qos_misfits(channel))
     ends = {*map(id, channel.consumers)}
