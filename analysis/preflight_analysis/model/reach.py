@@ -271,10 +271,15 @@ def why_nobody(context: Context, kind: ChannelKind, channel: Channel) -> str | N
     outside = channel.external or all(may_dangle(channel.name, each.endpoint) for each in there)
     found = doubts(
         OUTSIDE=outside,
-        NOT_ANALYSED=not outside and (graph.is_of_unknown(kind, channel.name) or not_all_known(graph)),
+        NOT_ANALYSED=not outside and (graph.is_of_unknown(kind, channel.name) or _lacks(context)),
         OTHER_LAUNCH=not outside,
     )
     return "; ".join(each.reason.sentence for each in found)
+
+
+@derived
+def _lacks(context: Context) -> str | bool:
+    return context.graph is not None and not_all_known(context.graph)
 
 
 def _first(found: Mapping[int, V], ends: Iterable[Connection]) -> V | None:
