@@ -27,7 +27,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import backend
 from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.commands import CommandResults, run_commands
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -76,7 +76,7 @@ def timed(file: Path, environment: Environment, rounds: int) -> Sample | None:
         if not workspace.static(str(file)).tree.nodes and not asked:
             return None
         samples["evaluated"].append(time.perf_counter() - began)
-        resolve_commands(workspace, str(file), {}, results, runner, threading.Event(), only_launch_files=True)
+        resolve_commands(workspace, str(file), {}, Resolving(results, runner, only_launch_files=True))
         samples["resolved"].append(time.perf_counter() - began)
     return Sample(file, *(statistics.median(samples[kind]) for kind in ("bare", "evaluated", "resolved")))
 

@@ -16,6 +16,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from tools.endurance.scripted_editor import AT_PLACE
+
 SECONDS = 20.0
 """For the answer to a question after the messages; the machine may be busy."""
 _NOT_SENT = ("exit", "shutdown", "initialize")
@@ -172,16 +174,6 @@ def server() -> _Server:
     return _Server()
 
 
-_POSITIONAL = (
-    "hover",
-    "definition",
-    "references",
-    "completion",
-    "signatureHelp",
-    "prepareRename",
-    "rename",
-    "prepareCallHierarchy",
-)
 _OF_FILE = (
     "documentSymbol",
     "foldingRange",
@@ -204,7 +196,7 @@ def messages() -> list[bytes]:
     range_ = {"textDocument": document, "range": {"start": start, "end": end}}
     more: dict[str, Any] = {"context": {"includeDeclaration": True, "diagnostics": [], "triggerKind": 1}}
     found: list[dict[str, Any]] = [
-        *({"id": 7, "method": f"textDocument/{m}", "params": {**here, **more, "newName": "b"}} for m in _POSITIONAL),
+        *({"id": 7, "method": f"textDocument/{m}", "params": {**here, **more, "newName": "b"}} for m in AT_PLACE),
         *({"id": 7, "method": f"textDocument/{m}", "params": {**range_, **more}} for m in _OF_FILE),
         *({"id": 7, "method": f"rosPreflight/{m}", "params": {"uri": "{uri}", "args": {}}} for m in _OWN),
         {"id": 7, "method": "workspace/symbol", "params": {"query": "a"}},

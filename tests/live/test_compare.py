@@ -185,6 +185,15 @@ def test_actions_of_ros1_are_one_thing() -> None:
     ]
 
 
+def test_types_of_one_definition_are_one() -> None:
+    """The master has the type of whom it heard of last: an old broadcaster of transforms, beside new ones."""
+    expected = [node("/a", endpoint("publisher", "/tf", "tf2_msgs/TFMessage"))]
+    assert told(expected, live({"/a": [("publisher", "/tf", "tf/tfMessage")]})) == []
+    assert told(expected, live({"/a": [("publisher", "/tf", "tf/Other")]})) == [
+        "/a publishes /tf with the type tf/Other; expected tf2_msgs/TFMessage"
+    ]
+
+
 def test_types_of_ros2_are_those_of_each_end() -> None:
     expected = [
         node("/a", endpoint("publisher", "/x", "std_msgs/msg/String")),

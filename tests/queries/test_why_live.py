@@ -71,6 +71,7 @@ def test_the_names_of_two_ends_that_are_not_the_same() -> None:
     [
         ({"type": "x/msg/Z"}, {}, "types differ: /a uses x/msg/Z, /b uses x/msg/Y"),
         ({"type": None}, {}, None),
+        ({"type": "tf/tfMessage"}, {"type": "tf2_msgs/TFMessage"}, None),
         (
             {"qos": {"reliability": "best_effort", "durability": "volatile"}},
             {"qos": {"reliability": "reliable", "durability": "volatile"}},

@@ -1,14 +1,7 @@
 """PRM016: a parameter file that is YAML and that rcl refuses (ROS 2)."""
 
-from pathlib import Path
-
 import pytest
-from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.findings.finding import Finding
-from preflight_analysis.workspace.sources import Sources
-from preflight_analysis.workspace.workspace import Workspace
 from support.check import check
-from support.python_launch_harness import MANIFEST, PythonHarness
 
 
 def test_what_a_parameter_file_cannot_have() -> None:
@@ -120,30 +113,3 @@ def test_values_that_a_parameter_file_can_have() -> None:
             tilde: ~
             nested: {rate: 1}
     """)
-
-
-def _of_files(folder: Path, **files: str) -> list[Finding]:
-    harness = PythonHarness(folder)
-    for name, text in files.items():
-        harness.write(f"{name}/camera.yaml", text)
-    path = str(harness.write("launch/a.launch.xml", '<launch><node pkg="p" exec="x" name="camera"/></launch>'))
-    harness.write("package.xml", MANIFEST.format("p"))
-    workspace = Workspace(detect_environment(None, {"ROS_VERSION": "2"}, (str(folder / "src"),)), Sources())
-    return [each for each, _ in workspace.branches(workspace.static(path)).findings if each.rule == "PRM016"]
-
-
-BAD = "camera:\n  ros__parameters:\n    gains: [1, 2.5]\n"
-
-
-def test_a_file_that_no_node_gets(tmp_path: Path) -> None:
-    (finding,) = _of_files(tmp_path, config=BAD, test=BAD, docs=BAD)
-    assert (finding.severity, finding.confidence) == ("warning", "likely")
-    assert finding.location.file == str(tmp_path / "src/p/config/camera.yaml")
-
-
-@pytest.mark.silent
-def test_a_file_of_something_else(tmp_path: Path) -> None:
-    assert not _of_files(
-        tmp_path, config="rate: 30\ngains: [1, 2.5]\n", params="camera: {ros__parameters: {rate: 1}}\n"
-    )
-    assert not _of_files(tmp_path / "more", config=BAD + "    path: $(find-pkg-share p)\n")

@@ -1,7 +1,7 @@
 """TOP007: a recorder is given the name of a topic that nobody publishes."""
 
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 
 
 def test_a_slip_in_a_topic_that_rosbag_records() -> None:
@@ -51,6 +51,22 @@ def test_a_node_of_which_nothing_is_known_may_publish_it() -> None:
         //- interfaces
         {"/laser": {"publishers": {"scan": "sensor_msgs/LaserScan"}, "subscribers": {"scan": null}}}
     """)
+
+
+def test_a_topic_below_a_node_of_which_nothing_is_known() -> None:
+    found = findings_of("""
+        <launch>
+          <node pkg="p" type="laser" name="laser"/>
+          <node pkg="p" type="other" name="scann"/>
+          <node pkg="rosbag" type="record" name="record" args="/scann/points"/>
+        </launch>
+        //- /rosbag/package.xml
+        <package/>
+        //- interfaces
+        {"/laser": {"publishers": {"/scan/points": "sensor_msgs/LaserScan"}, "subscribers": {"/scan/points": null}},
+         "/record": {}}
+    """)
+    assert [each.rule for each in found] == ["TRC004"]
 
 
 def test_a_slip_in_what_libraries_call_so() -> None:

@@ -1,7 +1,7 @@
 """TOP008: a player of a recording is given the name of a topic that nobody subscribes to."""
 
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 
 
 def test_a_slip_in_what_a_topic_of_the_recording_is_called() -> None:
@@ -71,3 +71,21 @@ def test_topics_that_somebody_subscribes_to_or_that_are_like_none() -> None:
          "/laser": {"publishers": {"pose": "geometry_msgs/Pose"}},
          "/one": {}, "/two": {}, "/three": {}, "/four": {}}
     """)
+
+
+@pytest.mark.parametrize(("name", "state"), [("crashed", "crashed"), ("scann", "not-run")])
+def test_a_node_that_may_subscribe_to_it_unseen(name: str, state: str) -> None:
+    found = findings_of(f"""
+        <launch>
+          <node pkg="p" type="mapper" name="mapper"/>
+          <node pkg="p" type="other" name="{name}"/>
+          <node pkg="rosbag" type="play" name="play" args="run.bag laser:=/scann/points"/>
+        </launch>
+        //- /rosbag/package.xml
+        <package/>
+        //- interfaces
+        {{"/mapper": {{"subscribers": {{"/scan/points": "sensor_msgs/LaserScan"}}}}, "/play": {{}},
+          "/{name}": {{"status": "{state}"}}}}
+    """)
+    assert found
+    assert "TOP008" not in {each.rule for each in found}

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from support.check import apply, check
+from support.check import apply, check, findings_of
 from support.robot_launch import of_urdf, robot
 
 _URDF = '<link name="a"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
@@ -67,3 +67,15 @@ def test_a_slip_in_the_package(package: str) -> None:
 )
 def test_one_that_is_there_or_may_be(mesh: str, package: str) -> None:
     check(of_urdf(_URDF.format(mesh), "<robot/>" + package))
+
+
+def test_one_in_a_submodule_that_is_not_checked_out(package: str, tmp_path: Path) -> None:
+    (tmp_path / ".git").mkdir()
+    (tmp_path / ".gitmodules").write_text('[submodule "cad"]\n\tpath = arms/cad\n\turl = https://example.org/cad.git\n')
+    (tmp_path / "arms/cad").mkdir()
+    mesh = "package://arms/cad/wrist.stl"
+    written = robot(f'<mesh filename="{mesh}"/>')
+    (found,) = findings_of(of_urdf(_URDF.format(mesh), written + package))
+    assert (found.rule, found.severity) == ("URD006", "hint")
+    assert found.lack is not None
+    assert found.lack.remedy == "git submodule update --init arms/cad"

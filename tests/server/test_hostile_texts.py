@@ -73,33 +73,37 @@ async def test_what_is_shown_of_a_hostile_launch_file(harness: Harness) -> None:
         assert any("evil" in text for key, text in shown if key == "message")
 
 
+class Writer:
+    """What a server sends."""
+
+    def __init__(self) -> None:
+        self.sent: list[bytes] = []
+
+    def write(self, data: bytes) -> None:
+        self.sent.append(data)
+
+    def protocol(self) -> Any:
+        """The protocol of a server that writes here."""
+        protocol = PreflightServer().protocol
+        protocol.writer = self  # type: ignore[assignment]
+        return protocol
+
+
 @pytest.mark.parametrize("key", ["label", "title", "detail", "message", "tooltip"])
 def test_texts_are_made_harmless_where_they_leave(key: str) -> None:
-    sent: list[bytes] = []
-
-    class Writer:
-        def write(self, data: bytes) -> None:
-            sent.append(data)
-
-    protocol = PreflightServer().protocol
-    protocol.writer = Writer()  # type: ignore[assignment]
+    writer = Writer()
+    protocol = writer.protocol()
     protocol.notify("rosPreflight/test", {key: "a\u202eb\x1b", "newText": "a\u202eb\x1b", "uri": "file:///\u202e"})
-    (data,) = sent
+    (data,) = writer.sent
     assert data.count(b"\\u202e") == 2
     assert data.count(b"\\u001b") == 1
 
 
 def test_the_names_of_files_too(tmp_path: Path) -> None:
     """A path in a message is text as any other; as a URI it is quoted."""
-    sent: list[bytes] = []
-
-    class Writer:
-        def write(self, data: bytes) -> None:
-            sent.append(data)
-
-    protocol = PreflightServer().protocol
-    protocol.writer = Writer()  # type: ignore[assignment]
+    writer = Writer()
+    protocol = writer.protocol()
     message = types.ShowMessageParams(types.MessageType.Info, "/ws/\u202enuhc.launch\n\ud800")
     protocol.notify(types.WINDOW_SHOW_MESSAGE, message)
-    assert b"\\u202e" not in sent[0]
-    assert b"\\ud800" not in sent[0]
+    assert b"\\u202e" not in writer.sent[0]
+    assert b"\\ud800" not in writer.sent[0]

@@ -134,8 +134,8 @@ def test_rclcpp(tmp_path: Path) -> None:
         [("base", "laser", True), ("base", "imu", True), ("odom", "base", False), ("", "footprint", False)],
         [("laser", "sensor_msgs/LaserScan"), ("map", "Buffer::lookupTransform"), ("base", "Buffer::lookupTransform")],
     )
-    assert not any(frame.conditional for frame in found.frames)
-    assert {(Path(frame.source_file).name, frame.inferred) for frame in found.frames} == {("t.cpp", True)}
+    assert not any(frame.evidence.conditional for frame in found.frames)
+    assert {(Path(frame.source_file).name, frame.evidence.inferred) for frame in found.frames} == {("t.cpp", True)}
 
 
 def test_a_parameter_that_turns_it_off(tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_a_parameter_that_turns_it_off(tmp_path: Path) -> None:
 
 def test_a_condition_that_is_not_known(tmp_path: Path) -> None:
     found = _rclcpp(tmp_path, _ODOMETRY.replace("if (publish_tf_)", "if (moving())"))
-    assert [(frame.child, frame.conditional) for frame in found.frames][2:3] == [("base_link", True)]
+    assert [(frame.child, frame.evidence.conditional) for frame in found.frames][2:3] == [("base_link", True)]
 
 
 _FLAG = """
@@ -183,7 +183,9 @@ int main(int argc, char** argv) {{
 def test_a_flag_that_a_callback_sets(tmp_path: Path, condition: str) -> None:
     files = {**_ROS1, "src/t.cpp": _FLAG.format(condition)}
     found = _read(tmp_path, files, "main.launch", "")
-    assert [(frame.parent, frame.child, frame.conditional) for frame in found.frames] == [("odom", "base_link", True)]
+    assert [(frame.parent, frame.child, frame.evidence.conditional) for frame in found.frames] == [
+        ("odom", "base_link", True)
+    ]
     off = _read(tmp_path, files, "main.launch", '<param name="publish_tf" value="false"/>')
     assert bool(off.frames) is ("publish_tf" not in condition)
 

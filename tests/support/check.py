@@ -55,6 +55,7 @@ from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, run_rules
 from preflight_analysis.tracing.interface import (
     NOT_RUN,
+    SEEN,
     Endpoint,
     Evidence,
     Frame,
@@ -304,15 +305,34 @@ def apply(text: str, edits: tuple[Edit, ...]) -> dict[str, str]:
     return files
 
 
+def _evidence(inferred: bool, conditional: bool = False) -> Evidence:
+    return Evidence("source", doubts=("condition",) if conditional else ()) if inferred else SEEN
+
+
+def _made_node(*, inferred: bool = False, **fields: Any) -> MadeNode:
+    return MadeNode(**fields, evidence=_evidence(inferred))
+
+
+def _frame(
+    parent: str, child: str, static: bool = False, inferred: bool = False, conditional: bool = False, *place: Any
+) -> Frame:
+    return Frame(parent, child, static, _evidence(inferred, conditional), *place)
+
+
+def _frame_use(frame: str, call: str, looked_up: bool = True, conditional: bool = False, *place: Any) -> FrameUse:
+    return FrameUse(frame, call, looked_up, _evidence(True, conditional), *place)
+
+
 def interface_from_json(data: Mapping[str, Any]) -> Interface:
     """An interface as fixtures write it: endpoints `{"publishers": {name: type}}` and so on for each role, `params`
     `{name: default}`, null for none, or `{name: {"access": ...}}`, and `described` `{name: {"type": ..., "range":
     [0, 10], ...}}` of them; `source` where it was not run; `status`, `exit_code`, `reason`, `stderr`, `notes`,
-    `answers`, `lacks`; `frames` and `frame_uses`, lists with the fields of `Frame` and `FrameUse`; `md5` `{name: sum}`;
+    `answers`, `lacks`; `frames`, lists `[parent, child, static, inferred, conditional, file,
+    line]`, `frame_uses`, lists `[frame, call, looked_up, conditional, file, line]`; `md5` `{name: sum}`;
     `qos` `{name: {policy: value}}`;
     `made` `{name: [file, line]}`; `unnamed`, those of the names that are random in each run; `builtin`, `speculative`,
     `on_demand` and `similar`, lists of names; `catalogued`;
-    `nodes`, those that the process makes, with the fields of `MadeNode`.
+    `nodes`, those that the process makes, with the fields of `MadeNode` and `inferred`.
     """
     made, unnamed = data.get("made", {}), data.get("unnamed", ())
     endpoints = [
@@ -348,7 +368,7 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         lacks=data.get("lacks"),
     )
     source = data.get("source", "none" if outcome.status == "not-run" else "trace")
-    nodes = tuple(MadeNode(**node) for node in data.get("nodes", ()))
+    nodes = tuple(_made_node(**node) for node in data.get("nodes", ()))
     return Interface(
         source,
         outcome,
@@ -356,8 +376,8 @@ def interface_from_json(data: Mapping[str, Any]) -> Interface:
         tuple(params),
         unnamed=tuple(each for each in endpoints if each.name in unnamed),
         notes=tuple(data.get("notes", ())),
-        frames=tuple(Frame(*each) for each in data.get("frames", ())),
-        frame_uses=tuple(FrameUse(*each) for each in data.get("frame_uses", ())),
+        frames=tuple(_frame(*each) for each in data.get("frames", ())),
+        frame_uses=tuple(_frame_use(*each) for each in data.get("frame_uses", ())),
         nodes=nodes,
         transitions=tuple(data.get("transitions", ())),
         unnamed_calls=tuple(data.get("unnamed_calls", ())),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import textwrap
-import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,7 +10,7 @@ from pathlib import Path
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -63,7 +62,7 @@ class PythonHarness:
         if why_not is not None:
             return workspace.static(str(path), args)
         runner = CommandRunner(environment, str(self.folder), CommandCache(self.folder / "cache"))
-        return resolve_commands(workspace, str(path), args or {}, results, runner, threading.Event())
+        return resolve_commands(workspace, str(path), args or {}, Resolving(results, runner))
 
 
 def line_of(analysis: Analysis, index: int = 0) -> tuple[str, int]:

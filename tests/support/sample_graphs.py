@@ -87,7 +87,7 @@ def view_of(text: str, **options: Any) -> GraphView:
     """The view of a fixture, as `support.check` describes it."""
     context = analyse(read_fixture(text), **options)
     assert context.graph is not None
-    return graph_view(context.graph, run_rules(context), context.documents)
+    return graph_view(context.graph, run_rules(context), context)
 
 
 def robot() -> GraphView:
@@ -97,7 +97,7 @@ def robot() -> GraphView:
 def hostile() -> GraphView:
     """The robot with a hostile text wherever a text can stand."""
     view = robot()
-    texts = iter(HOSTILE * 20)
+    texts = iter(HOSTILE * 24)
     nodes = tuple(
         replace(n, name=next(texts), package=next(texts), executable=next(texts), file=next(texts), reason=next(texts))
         for n in view.nodes
@@ -107,7 +107,7 @@ def hostile() -> GraphView:
         root=HOSTILE[0],
         nodes=nodes,
         files=tuple(dict.fromkeys(node.file for node in nodes)),
-        channels=tuple(replace(c, name=next(texts), types=(next(texts),)) for c in view.channels),
+        channels=tuple(replace(c, name=next(texts), types=(next(texts),), notes=(next(texts),)) for c in view.channels),
         edges=tuple(
             replace(e, type=next(texts), remapped_from=next(texts), qos={next(texts): next(texts)}) for e in view.edges
         ),

@@ -16,7 +16,6 @@ from __future__ import annotations
 import json
 import re
 import textwrap
-import threading
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,7 +28,7 @@ from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.indexing import build_index
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -111,7 +110,7 @@ def create_workspace(
     for each in roots[:analysed]:
         if runs:
             runner = CommandRunner(environment, str(folder), CommandCache(folder / ".cache"))
-            resolve_commands(workspace, each.path, dict(each.args), results, runner, threading.Event())
+            resolve_commands(workspace, each.path, dict(each.args), Resolving(results, runner))
         analysis = workspace.static(each.path, dict(each.args))
         if interfaces:
             given = [interface_from_json(i) if (i := interfaces.get(n.name)) else NOT_RUN for n in analysis.tree.nodes]

@@ -12,7 +12,6 @@ import json
 import os
 import re
 import sys
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -28,7 +27,7 @@ from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.resolve_commands import resolve_together
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -108,7 +107,7 @@ def _trees(folder: Path, cache: Path) -> Iterator[tuple[str, LaunchTree]]:
     runner = CommandRunner(environment, str(folder), CommandCache(cache / "commands"))
     for start in range(0, len(paths), 8):
         roots = [Root.of(path, {}) for path in paths[start : start + 8]]
-        resolve_together(workspace, roots, results, runner, threading.Event())
+        resolve_together(workspace, roots, Resolving(results, runner))
         for root in roots:
             yield root.path, workspace.static(root.path, {}).tree
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import textwrap
-import threading
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -12,7 +11,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
@@ -74,7 +73,7 @@ class Harness:
         if why_not is not None:
             return workspace.static(str(path))
         runner = CommandRunner(environment, str(self.folder), self.cache)
-        return resolve_commands(workspace, str(path), {}, results, runner, threading.Event())
+        return resolve_commands(workspace, str(path), {}, Resolving(results, runner))
 
 
 @pytest.fixture

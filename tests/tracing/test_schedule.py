@@ -58,7 +58,7 @@ def test_the_first_of_like_jobs_comes_before_the_others() -> None:
     order: list[str] = []
     lock, others = threading.Lock(), threading.Event()
 
-    def run(job: str, _cancel: threading.Event) -> None:
+    def run(job: str) -> None:
         with lock:
             assert all(job[0] != other[0] or (job[0] + "1") not in (job, other) for other in under_way)
             under_way.append(job)
@@ -71,7 +71,7 @@ def test_the_first_of_like_jobs_comes_before_the_others() -> None:
             under_way.remove(job)
 
     jobs = ["a1", "a2", "a3", "b1", "b2", "c1", "a4"]
-    run_all(run, jobs, alike=lambda job: job[0], on_done=lambda *_: None, cancel=threading.Event())
+    run_all(run, jobs, alike=lambda job: job[0], on_done=lambda *_: None)
     assert sorted(order[:4]) == ["a1", "b1", "b2", "c1"]
     assert order.index("b1") < order.index("b2")
     assert sorted(order[4:]) == ["a2", "a3", "a4"]

@@ -20,7 +20,7 @@ from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.trace import Tracer
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 from support.ros2_harness import ros2_prefix
@@ -100,7 +100,7 @@ def settled_in(folder: Path, launch: Path, cache: Path, variables: Mapping[str, 
     results = CommandResults(lambda: None)
     workspace = Workspace(environment, Sources(), str(folder), results)
     runner = CommandRunner(environment, str(folder), CommandCache(cache))
-    return workspace, resolve_commands(workspace, str(launch), {}, results, runner, threading.Event())
+    return workspace, resolve_commands(workspace, str(launch), {}, Resolving(results, runner))
 
 
 def analysed(folder: Path, launch: Path, cache: Path) -> Analysis:

@@ -17,7 +17,7 @@ from preflight_analysis.evaluation.commands import CommandResult
 from preflight_analysis.tracing import store as store_module
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.index_store import IndexStore, build_from_kept
-from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.indexing import Earlier, build_index
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.kept_index import (
@@ -257,9 +257,8 @@ def test_an_index_of_a_foreign_form_raises_nothing(starts: Starts) -> None:
         path.write_bytes(hashlib.sha256(data).hexdigest().encode() + b"\n" + data)
         environment = detect(str(starts.folder), variables=starts.variables, package_path=[str(starts.folder)])
         workspace = Workspace(environment, Sources())
-        index = build_index(
-            workspace, str(starts.folder), previous=starts.store.load(workspace, str(starts.folder)), changed=()
-        )
+        earlier = Earlier(starts.store.load(workspace, str(starts.folder)))
+        index = build_index(workspace, str(starts.folder), earlier=earlier)
         assert index is not None
         assert all(isinstance(node.name, str) for _, node in index.nodes())
 

@@ -12,7 +12,7 @@ from preflight_analysis.environment.packages import walk_unignored
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.workspace import indexing
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
-from preflight_analysis.workspace.indexing import build_index, entry_of
+from preflight_analysis.workspace.indexing import Earlier, Watch, build_index, entry_of
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -42,8 +42,8 @@ class Harness:
         return path
 
     def build(self, *named: Root, changed: list[Path] | None = None) -> WorkspaceIndex:
-        paths = None if changed is None else [str(path) for path in changed]
-        built = build_index(self.workspace, str(self.folder), named, previous=self.index, changed=paths)
+        earlier = Earlier(self.index, [str(path) for path in changed]) if changed is not None else None
+        built = build_index(self.workspace, str(self.folder), named, earlier=earlier)
         assert built is not None
         fresh = build_index(self.workspace, str(self.folder), named)
         assert built == fresh, "what is brought up to date equals what is made anew"
@@ -126,7 +126,7 @@ def test_a_file_opened_in_the_home_folder_does_not_make_all_of_it_a_workspace(
 
 def test_it_can_be_stopped(harness: Harness) -> None:
     harness.write("leaf.launch", LEAF)
-    assert build_index(harness.workspace, str(harness.folder), cancelled=lambda: True) is None
+    assert build_index(harness.workspace, str(harness.folder), watch=Watch(cancelled=lambda: True)) is None
 
 
 def test_what_the_build_ignores_is_not_checked(harness: Harness) -> None:

@@ -9,7 +9,6 @@ import dataclasses
 import re
 import shutil
 import sys
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -29,7 +28,7 @@ from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
@@ -112,7 +111,7 @@ def shown(folder: Path, launch: Path) -> Iterator[str]:
     results = CommandResults(lambda: None)
     workspace = Workspace(environment, Sources(), str(folder), results)
     runner = CommandRunner(environment, str(folder), CommandCache(folder / ".cache"))
-    found = resolve_commands(workspace, str(launch), {}, results, runner, threading.Event())
+    found = resolve_commands(workspace, str(launch), {}, Resolving(results, runner))
     found = workspace.with_interfaces(found, [not_run(node, "a test") for node in found.tree.nodes], "a test")
     assert found.graph is not None
     yield from texts_of(found.findings)

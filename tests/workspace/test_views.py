@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from pathlib import Path
 
 import pytest
@@ -11,7 +10,7 @@ from preflight_analysis.tracing.commands import CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.not_run import not_run
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.package_folders import file, script
@@ -127,5 +126,5 @@ def generate_launch_description():
     runner = CommandRunner(environment, str(repository), None)
     for name in ("one", "two"):
         launch = file(repository / name / "src/robot/launch/b.launch.py", text=text)
-        analysis = resolve_commands(workspace, str(launch), {}, results, runner, threading.Event())
+        analysis = resolve_commands(workspace, str(launch), {}, Resolving(results, runner))
         assert [node.name for node in analysis.tree.nodes] == [f"/{name}"]

@@ -40,8 +40,7 @@ def build_frames(tree: LaunchTree, graph: Graph | None, meanings: KnownMeanings,
     interfaces: Sequence[Interface | None] = graph.interfaces if graph is not None else (None,) * len(nodes)
     known = known_of_nodes(tree, meanings, kept)
     params = params_of_nodes(tree, known, kept)
-    prefixed, lacking = [_has_prefix(tree, kept)] * len(nodes), kept.each(_lacks_params, nodes)
-    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params, prefixed, lacking), generation)
+    edges = kept.each_row(edges_of_node, (nodes, interfaces, known, params), generation, _has_prefix(tree, kept))
     uses = kept.each_row(uses_of_node, (nodes, interfaces, known, params), generation, meanings)
     unnamed = kept.each_row(has_unnamed, (nodes, interfaces, known, params))
     silent = kept.each_row(_gap, (nodes, interfaces, known, unnamed, edges))
@@ -65,12 +64,6 @@ def _has_prefix(tree: LaunchTree, kept: Kept) -> bool:
 
 def _is_prefix(param: Param) -> bool:
     return names.leaf(param.name) == "tf_prefix"
-
-
-def _lacks_params(node: LaunchNode) -> bool:
-    """Whether a parameter file in the node's own tag is not known (ROS 2)."""
-    files = sum(child.kind == "param" and child.value("from") is not None for child in node.action.children)
-    return files > sum(source.path is not None and not source.pushed for source in node.param_sources)
 
 
 def _of_robots(tree: LaunchTree, distro: str | None) -> Iterator[Edge]:

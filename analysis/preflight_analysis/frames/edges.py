@@ -58,9 +58,8 @@ def edges_of_node(
     interface: Interface | None,
     known: Known | None,
     given: Sequence[Param],
-    prefixed: bool,
-    lacks_params: bool,
     generation: int,
+    prefixed: bool,
 ) -> tuple[Edge, ...]:
     """What a node broadcasts beside the frames of a robot description: by its arguments, its run, its parameters.
     With a `tf_prefix` that it may heed, or parameters that are not known, nothing of the last is sure."""
@@ -77,17 +76,23 @@ def edges_of_node(
         add(Edge(parent, child, arguments.static, "arguments", node, node.location, space))
     frames = interface.frames if interface is not None else ()
     for frame in frames:
-        if not frame.inferred:
+        if not frame.evidence.inferred:
             parent, child = plain(frame.parent), plain(frame.child)
             add(Edge(parent, child, frame.static, "run", node, node.location, space, detail="seen in a run"))
     # A controller has parameters in any case.
-    guessed = lacks_params or (known is not None and "controllers" in known.entry.names and not given)
+    guessed = _lacks_params(node) or (known is not None and "controllers" in known.entry.names and not given)
     for edge in _of_knowledge(node, known, given, space):
         add(replace(edge, sure=False, guessed=guessed) if guessed or prefixed else edge)
     # What is known of it otherwise is more than its text tells.
     for frame in frames if not found else ():
         add(_of_source(frame, node, space))
     return tuple(found.values())
+
+
+def _lacks_params(node: LaunchNode) -> bool:
+    """Whether a parameter file in the node's own tag is not known (ROS 2)."""
+    files = sum(child.kind == "param" and child.value("from") is not None for child in node.action.children)
+    return files > sum(source.path is not None and not source.pushed for source in node.param_sources)
 
 
 def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
@@ -102,7 +107,7 @@ def _of_source(frame: Frame, node: LaunchNode, space: str) -> Edge:
         space,
         False,
         detail=f"{os.path.basename(frame.source_file)}:{frame.source_line}",
-        conditional=frame.conditional,
+        conditional=frame.evidence.conditional,
         source_file=frame.source_file,
         source_line=frame.source_line,
     )

@@ -73,7 +73,7 @@ def _of_source(use: FrameUse, node: LaunchNode, given: Sequence[Param], space: s
         param,
         space,
         use.looked_up,
-        not use.conditional,
+        not use.evidence.conditional,
         use.call,
         of_sensor=use.call in _SENSORS,
     )

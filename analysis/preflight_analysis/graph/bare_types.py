@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
+from itertools import chain
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.generation import ros
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.tracing.agents.stand_ins.definitions import Definitions
 from preflight_analysis.tracing.interface import Endpoint, Interface, Role
 
@@ -48,12 +50,25 @@ def _common(generation: int, kind: str) -> Mapping[str, tuple[str, ...]]:
     return found
 
 
-def bare_types(interface: Interface) -> tuple[tuple[str, str], ...]:
+def with_packages(
+    interfaces: Sequence[Interface], disk: Disk, environment: Environment, generation: int, kept: Kept
+) -> tuple[Interface, ...]:
+    """The interfaces with the full names of types that are written without a package: that which one known package has;
+    none where several have it, or none."""
+    bare = dict.fromkeys(chain.from_iterable(kept.each(_bare_types, interfaces)))
+    if not bare:
+        return tuple(interfaces)
+    found = ((each, full_types(disk, environment, generation, *each)) for each in bare)
+    full = tuple((each, types[0] if len(types) == 1 else None) for each, types in found)
+    return kept.each(_resolved, interfaces, full)
+
+
+def _bare_types(interface: Interface) -> tuple[tuple[str, str], ...]:
     """Kind and name of those of an interface."""
     return tuple((KINDS[each.role], str(each.type)) for each in interface.endpoints if is_bare(each.type))
 
 
-def resolved(interface: Interface, full: Iterable[tuple[tuple[str, str], str | None]]) -> Interface:
+def _resolved(interface: Interface, full: Iterable[tuple[tuple[str, str], str | None]]) -> Interface:
     """The interface with the types in `full` for those without a package, or with any type."""
     if not any(is_bare(each.type) for each in interface.endpoints):
         return interface

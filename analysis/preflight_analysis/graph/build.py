@@ -9,7 +9,6 @@ from dataclasses import replace
 from itertools import chain
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.evaluation import names
@@ -18,7 +17,6 @@ from preflight_analysis.evaluation.ros2.remaps import source_for
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Remap
 from preflight_analysis.generation import ros
 from preflight_analysis.graph.actions import ActionEndpoint, actions_of, moves_actions
-from preflight_analysis.graph.bare_types import bare_types, full_types, resolved
 from preflight_analysis.graph.domains import Domain, Domains, domains_of, groups_apart, separation
 from preflight_analysis.graph.model import PROVIDERS, Channel, Connection, Graph, ParamRead
 from preflight_analysis.graph.processes import each_node
@@ -38,7 +36,6 @@ def build_graph(
     environment: Environment | None = None,
     documents: Mapping[str, Document] | None = None,
     kept: Kept | None = None,
-    disk: Disk | None = None,
 ) -> Graph:
     """Who talks to whom after the launch of `tree`, given what each of its nodes does.
 
@@ -48,8 +45,7 @@ def build_graph(
     `external_topics` are patterns of the topics that something outside of the launch offers or wants. The
     client libraries of the `environment`'s distribution decide what a remap moves, and its variables are those that the
     launch is started with. `documents` are the texts of parameter files, which may have something for other nodes of a
-    process than the launch file's. What was `kept` of the graph before is taken over. On the `disk` are the packages
-    of types that are written without one.
+    process than the launch file's. What was `kept` of the graph before is taken over.
 
     Raises `ValueError` if the lengths differ.
     """
@@ -58,10 +54,6 @@ def build_graph(
     if len(nodes) != len(interfaces):
         raise ValueError(f"{len(interfaces)} interfaces of {len(nodes)} nodes")
     processes = tuple(interfaces[:started])
-    bare = dict.fromkeys(chain.from_iterable(kept.each(bare_types, processes)))
-    if bare:
-        full = tuple((each, _only(disk, environment, tree.generation, *each)) for each in bare)
-        processes = kept.each(resolved, processes, full)
     tree = replace(tree, nodes=nodes, simulated=()) if tree.simulated else tree
     tree, merged = each_node(tree, (*processes, *interfaces[started:]), documents or {})
     columns = tree.nodes, merged, _managers(tree)
@@ -77,14 +69,6 @@ def build_graph(
         tuple(external_topics),
         domains,
     )
-
-
-def _only(disk: Disk | None, environment: Environment | None, generation: int, kind: str, name: str) -> str | None:
-    """The type of that name that one known package has; None where several have it, or none."""
-    if disk is None or environment is None:
-        return None
-    found = full_types(disk, environment, generation, kind, name)
-    return found[0] if len(found) == 1 else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,6 +38,7 @@ from preflight_analysis.tracing.interface import (
 )
 
 _What = TypeVar("_What", Endpoint, ParamUse)
+_SAID = Evidence("catalogue")
 _KEPT = 1024
 _TYPE = ".type"
 _NAMED_BY = "named_by"
@@ -147,14 +148,14 @@ def _controllers(node: LaunchNode, asked: Sequence[str], distro: str, *, is_used
         prefix = type_.partition("/")[0]
         found = catalogued(_PACKAGES.get(prefix, prefix), "controllers", type_, distro, is_used=is_used)
         if found is None:
-            made = MadeNode(name, name, inferred=True, full=full, unknown=True)
+            made = MadeNode(name, name, evidence=_SAID, full=full, unknown=True)
             yield Catalogued((), (), (made,), "")
         else:
             yield replace(
                 found,
                 endpoints=tuple(_on_condition(end, full) for end in found.endpoints),
                 params=tuple(_on_condition(use, full) for use in (*found.params, *_OF_SPAWNERS)),
-                nodes=(MadeNode(name, name, inferred=True, full=full),),
+                nodes=(MadeNode(name, name, evidence=_SAID, full=full),),
             )
 
 
@@ -254,7 +255,7 @@ def _beside(node: LaunchNode, does: Sequence[Catalogued]) -> tuple[MadeNode, ...
     """The nodes of a process, of which the first are those that the launch file knows."""
     own, *others = (each.nodes for each in does)
     name = node.name.rpartition("/")[2]
-    first = own or (MadeNode(name, "", inferred=True),)
+    first = own or (MadeNode(name, "", evidence=_SAID),)
     return (*(replace(made, full=node.name) for made in first), *(made for each in others for made in each))
 
 
@@ -292,7 +293,7 @@ def _catalogued(
     return Catalogued(
         tuple(made for made, _ in ends if made.name),
         tuple(_param(name, about, said_by, is_used=is_used) for name, about in found.get("parameters", {}).items()),
-        tuple(MadeNode(made, made, space, renamed, inferred=True) for made, space, renamed in found.get("nodes", ())),
+        tuple(MadeNode(made, made, space, renamed, _SAID) for made, space, renamed in found.get("nodes", ())),
         said_by,
         tuple((each[_NAMED_BY].removeprefix("~"), made) for made, each in ends if _NAMED_BY in each),
         tuple(

@@ -189,7 +189,7 @@ def named_within(
         said = every.within(beside, process)
         part = named(beside, apart, said, beside.params, every, kinds_in_types) if said is not None else None
         if part is not None:
-            on_demand = all("condition" in end.evidence.doubts for end in apart.endpoints if end.node == name)
+            on_demand = all(end.evidence.conditional for end in apart.endpoints if end.node == name)
             doubts: tuple[Unsure, ...] = ("condition",) if on_demand else ()
             more += (replace(end, node=name, evidence=end.evidence.but(*doubts)) for end in part.endpoints)
             corrected += part.corrected

@@ -29,17 +29,9 @@ _CONDITIONS = (
 )
 
 
-def _tag(
-    doc: str,
-    *attributes: Attribute,
-    children: tuple[str, ...] = (),
-    text: bool = False,
-    refused: tuple[str, ...] = (),
-    named_by: tuple[str, ...] = (),
-    detail: tuple[str, ...] = (),
-    starts: bool = False,
-) -> Tag:
-    return Tag(doc, {a.name: a for a in (*attributes, *_CONDITIONS)}, children, text, refused, named_by, detail, starts)
+def _attributes(*attributes: Attribute) -> Mapping[str, Attribute]:
+    """Those of a tag, and the conditions."""
+    return {each.name: each for each in (*attributes, *_CONDITIONS)}
 
 
 _SCOPE = ("node", "include", "arg", "param", "rosparam", "remap", "group", "env", "machine", "test")
@@ -63,141 +55,163 @@ _CWD = Attribute(
 _REQUIRED = _flag("required", "End the whole launch when the node ends.")
 
 TAGS: Mapping[str, Tag] = {
-    "launch": _tag(
+    "launch": Tag(
         "The root of every launch file.",
-        Attribute("deprecated", "Tell users that the file should no longer be used, with this message.", "prose"),
+        _attributes(
+            Attribute("deprecated", "Tell users that the file should no longer be used, with this message.", "prose")
+        ),
         children=_SCOPE,
     ),
-    "group": _tag(
+    "group": Tag(
         "Tags that share a namespace, a condition, and remaps, environment and arguments of their own.",
-        Attribute("ns", "Put everything in the group into this namespace.", "namespace"),
-        _flag("clear_params", "Delete all parameters in the group's namespace before the launch; needs `ns`."),
+        _attributes(
+            Attribute("ns", "Put everything in the group into this namespace.", "namespace"),
+            _flag("clear_params", "Delete all parameters in the group's namespace before the launch; needs `ns`."),
+        ),
         children=_SCOPE,
         named_by=("ns",),
         starts=True,
     ),
-    "node": _tag(
+    "node": Tag(
         "Starts a node.",
-        _PKG,
-        _TYPE,
-        _required(_NAME),
-        _ARGS,
-        _NS,
-        Attribute("output", "Where the node's output goes.", "choice", ("log", "screen"), "log"),
-        _flag("respawn", "Start the node again whenever it ends."),
-        Attribute("respawn_delay", "Seconds to wait before the node is started again.", "number", default="0"),
-        _REQUIRED,
-        _PREFIX,
-        _MACHINE,
-        _CWD,
-        _CLEAR,
+        _attributes(
+            _PKG,
+            _TYPE,
+            _required(_NAME),
+            _ARGS,
+            _NS,
+            Attribute("output", "Where the node's output goes.", "choice", ("log", "screen"), "log"),
+            _flag("respawn", "Start the node again whenever it ends."),
+            Attribute("respawn_delay", "Seconds to wait before the node is started again.", "number", default="0"),
+            _REQUIRED,
+            _PREFIX,
+            _MACHINE,
+            _CWD,
+            _CLEAR,
+        ),
         children=_NODE,
         named_by=("name", "type"),
         starts=True,
     ),
-    "test": _tag(
+    "test": Tag(
         "Runs a test node; only `rostest` does, `roslaunch` leaves it out.",
-        _PKG,
-        _TYPE,
-        Attribute("test-name", "The name of the test in the results.", "node", required=True),
-        replace(_NAME, doc="The name of the node, without a namespace; that of the test where it is left out."),
-        _ARGS,
-        _NS,
-        _PREFIX,
-        _MACHINE,
-        _CWD,
-        _CLEAR,
-        Attribute("time-limit", "Seconds after which the test has failed.", "number", default="60"),
-        Attribute("retry", "How often to try again before the test has failed.", "integer", default="0"),
-        _REQUIRED,
+        _attributes(
+            _PKG,
+            _TYPE,
+            Attribute("test-name", "The name of the test in the results.", "node", required=True),
+            replace(_NAME, doc="The name of the node, without a namespace; that of the test where it is left out."),
+            _ARGS,
+            _NS,
+            _PREFIX,
+            _MACHINE,
+            _CWD,
+            _CLEAR,
+            Attribute("time-limit", "Seconds after which the test has failed.", "number", default="60"),
+            Attribute("retry", "How often to try again before the test has failed.", "integer", default="0"),
+            _REQUIRED,
+        ),
         children=_NODE,
         refused=("respawn", "respawn_delay", "output"),
         named_by=("test-name", "name", "type"),
         starts=True,
     ),
-    "include": _tag(
+    "include": Tag(
         "Reads another launch file. It sees only the arguments that are passed to it.",
-        Attribute("file", "The launch file to read.", "launch-file", required=True),
-        Attribute("ns", "Put everything in the file into this namespace.", "namespace"),
-        _flag("clear_params", "Delete all parameters in the namespace before the launch; needs `ns`."),
-        _flag("pass_all_args", "Pass on all arguments of this file as well."),
+        _attributes(
+            Attribute("file", "The launch file to read.", "launch-file", required=True),
+            Attribute("ns", "Put everything in the file into this namespace.", "namespace"),
+            _flag("clear_params", "Delete all parameters in the namespace before the launch; needs `ns`."),
+            _flag("pass_all_args", "Pass on all arguments of this file as well."),
+        ),
         children=("arg", "env"),
         named_by=("file",),
         starts=True,
     ),
-    "arg": _tag(
+    "arg": Tag(
         "Declares an argument of this file; inside of an `<include>`: passes one on.",
-        Attribute("name", "The name of the argument, for `$(arg name)`.", "argument", required=True),
-        Attribute("default", "The value where none is passed. Without `default` and `value` one has to be."),
-        Attribute("value", "The value, which nobody can override."),
-        Attribute("doc", "What it is for, shown by `roslaunch --ros-args`.", "prose"),
+        _attributes(
+            Attribute("name", "The name of the argument, for `$(arg name)`.", "argument", required=True),
+            Attribute("default", "The value where none is passed. Without `default` and `value` one has to be."),
+            Attribute("value", "The value, which nobody can override."),
+            Attribute("doc", "What it is for, shown by `roslaunch --ros-args`.", "prose"),
+        ),
         named_by=("name",),
         detail=("value", "default"),
     ),
-    "param": _tag(
+    "param": Tag(
         "Sets a parameter; inside of a `<node>` a private one.",
-        Attribute("name", "The name of the parameter, relative to the namespace.", "parameter", required=True),
-        Attribute("value", "The value."),
-        Attribute(
-            "type",
-            "The type of the value; `auto` goes by what the text looks like.",
-            "choice",
-            ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml"),
-            "auto",
+        _attributes(
+            Attribute("name", "The name of the parameter, relative to the namespace.", "parameter", required=True),
+            Attribute("value", "The value."),
+            Attribute(
+                "type",
+                "The type of the value; `auto` goes by what the text looks like.",
+                "choice",
+                ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml"),
+                "auto",
+            ),
+            Attribute("textfile", "Set it to the text of this file.", "file"),
+            Attribute("binfile", "Set it to the bytes of this file.", "file"),
+            Attribute("command", "Set it to what this command prints."),
         ),
-        Attribute("textfile", "Set it to the text of this file.", "file"),
-        Attribute("binfile", "Set it to the bytes of this file.", "file"),
-        Attribute("command", "Set it to what this command prints."),
         named_by=("name",),
         detail=("value", "textfile", "binfile", "command"),
     ),
-    "rosparam": _tag(
+    "rosparam": Tag(
         "Sets parameters from YAML, in a file or between the tags.",
-        Attribute(
-            "command",
-            "`load` parameters, `dump` them to a file or `delete` them.",
-            "choice",
-            ("load", "dump", "delete"),
-            "load",
+        _attributes(
+            Attribute(
+                "command",
+                "`load` parameters, `dump` them to a file or `delete` them.",
+                "choice",
+                ("load", "dump", "delete"),
+                "load",
+            ),
+            Attribute("file", "The YAML file.", "yaml-file"),
+            Attribute("param", "The name of the parameter under which the YAML is put.", "parameter"),
+            Attribute("ns", "Put the parameters into this namespace.", "namespace"),
+            _flag("subst_value", "Resolve `$(...)` in the YAML text."),
         ),
-        Attribute("file", "The YAML file.", "yaml-file"),
-        Attribute("param", "The name of the parameter under which the YAML is put.", "parameter"),
-        Attribute("ns", "Put the parameters into this namespace.", "namespace"),
-        _flag("subst_value", "Resolve `$(...)` in the YAML text."),
         text=True,
         named_by=("param", "file", "ns"),
     ),
-    "remap": _tag(
+    "remap": Tag(
         "Gives a topic, service or action another name, for the nodes that come later in the same scope.",
-        Attribute("from", "The name that the node uses.", "remap-from", required=True),
-        Attribute("to", "The name that it gets instead.", "remap-to", required=True),
+        _attributes(
+            Attribute("from", "The name that the node uses.", "remap-from", required=True),
+            Attribute("to", "The name that it gets instead.", "remap-to", required=True),
+        ),
         named_by=("from",),
         detail=("to",),
     ),
-    "env": _tag(
+    "env": Tag(
         "Sets an environment variable for the nodes that come later in the same scope.",
-        Attribute("name", "The name of the variable.", "variable", required=True),
-        Attribute("value", "Its value.", required=True),
+        _attributes(
+            Attribute("name", "The name of the variable.", "variable", required=True),
+            Attribute("value", "Its value.", required=True),
+        ),
         named_by=("name",),
         detail=("value",),
     ),
-    "machine": _tag(
+    "machine": Tag(
         "Declares a machine on which nodes can be started.",
-        Attribute("name", "The name for the attribute `machine` of nodes.", "machine", required=True),
-        Attribute("address", "The host's name or address.", required=True),
-        Attribute("env-loader", "A script on the machine that sets up the environment and runs what follows."),
-        Attribute("ssh-port", "The port of its SSH server.", "integer", default="22"),
-        Attribute("user", "The user to log in as."),
-        Attribute("password", "The password; keys are safer."),
-        Attribute(
-            "default",
-            "`true`: nodes that come later start here unless they say otherwise; `never`: this machine is not used "
-            "for nodes that name none.",
-            "choice",
-            ("true", "false", "never"),
-            "false",
+        _attributes(
+            Attribute("name", "The name for the attribute `machine` of nodes.", "machine", required=True),
+            Attribute("address", "The host's name or address.", required=True),
+            Attribute("env-loader", "A script on the machine that sets up the environment and runs what follows."),
+            Attribute("ssh-port", "The port of its SSH server.", "integer", default="22"),
+            Attribute("user", "The user to log in as."),
+            Attribute("password", "The password; keys are safer."),
+            Attribute(
+                "default",
+                "`true`: nodes that come later start here unless they say otherwise; `never`: this machine is not used "
+                "for nodes that name none.",
+                "choice",
+                ("true", "false", "never"),
+                "false",
+            ),
+            Attribute("timeout", "Seconds to wait for a node to start.", "number", default="10"),
         ),
-        Attribute("timeout", "Seconds to wait for a node to start.", "number", default="10"),
         refused=("ros-root", "ros-package-path", "ros-ip", "ros-hostname", "env"),
         named_by=("name",),
     ),

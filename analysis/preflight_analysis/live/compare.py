@@ -27,6 +27,7 @@ from preflight_analysis.live.model import (
     State,
     is_builtin,
 )
+from preflight_analysis.model.fit import in_short
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.tracing.interface import Endpoint, Role
 
@@ -319,7 +320,7 @@ def _different(node: str, endpoint: ExpectedEndpoint, there: Sequence[LiveEndpoi
     if wanted is not None and endpoint.parts:
         wanted += "Goal"
     by_topic = ros(generation).has_master and endpoint.role in ("publisher", "subscriber")
-    if wanted not in (None, "*") and types and not by_topic and _plain(wanted) not in map(_plain, types):
+    if wanted not in (None, "*") and types and not by_topic and in_short(wanted) not in map(in_short, types):
         actual = " | ".join(sorted(types))
         actual = actual.removesuffix("Goal") if endpoint.parts else actual
         return Issue(
@@ -350,12 +351,6 @@ def _different(node: str, endpoint: ExpectedEndpoint, there: Sequence[LiveEndpoi
     return None
 
 
-def _plain(name: str | None) -> str:
-    """`std_msgs/msg/String` may be written without what it is of."""
-    parts = (name or "").split("/")
-    return f"{parts[0]}/{parts[-1]}"
-
-
 def _wrong_topics(nodes: Iterable[ExpectedNode], live: Observation, states: _States) -> Iterator[Issue]:
     """A master has one type for each topic, that of whom it heard of last: not all ends need to have it."""
     actual = {
@@ -369,13 +364,13 @@ def _wrong_topics(nodes: Iterable[ExpectedNode], live: Observation, states: _Sta
             if endpoint.role in ("publisher", "subscriber") and (owner, endpoint.role, endpoint.name) in there:
                 wanted[endpoint.name].append((node, endpoint))
     for topic, found in wanted.items():
-        types = {endpoint.type for _, endpoint in found} - {None}
+        types = {endpoint.type for _, endpoint in found if endpoint.type is not None}
         kind = actual.get(topic)
-        if kind is None or not types or types & {kind, "*"}:
+        if kind is None or not types or "*" in (kind, *types) or in_short(kind) in map(in_short, types):
             continue
         states.say("publisher", topic, "wrong-type")
         node, endpoint = min((each for each in found if each[1].type), key=lambda each: each[1].role != "publisher")
-        wanted_types = " | ".join(sorted(map(str, types)))
+        wanted_types = " | ".join(sorted(types))
         yield Issue(
             "wrong-type",
             endpoint.role,

@@ -30,12 +30,10 @@ def all_dangling_consumers(context: Context) -> Mapping[ChannelKind, tuple[Conne
 @derived
 def dangling_providers(context: Context, kind: ChannelKind) -> tuple[Connection, ...]:
     """Publishers or servers without any other end, but for those that may well be used from outside."""
-    channels = context.graph.channels(kind) if context.graph is not None else {}
     lone = _all_lone_providers(context)[kind]
-    transported = {name.rpartition("/")[0] for name in channels if name.endswith(IMAGE_TRANSPORTS)}
-    if transported:
-        found = zip(channels, lone, strict=True)
-        lone = tuple(() if name in transported and _read_otherwise(name, channels) else each for name, each in found)
+    others = read_otherwise(context) if kind == "topics" else frozenset[str]()
+    if others and context.graph is not None:
+        lone = tuple(() if name in others else each for name, each in zip(context.graph.topics, lone, strict=True))
     return _not_of_unknown(context, kind, chain.from_iterable(lone))
 
 
@@ -68,10 +66,15 @@ def _lone_providers(channel: Channel) -> tuple[Connection, ...]:
     return tuple(c for c in channel.providers if c.action is None and not may_dangle(channel.name, c.endpoint))
 
 
-def _read_otherwise(name: str, channels: Mapping[str, Channel]) -> bool:
-    """Whether an image is read in another transport of the same publisher."""
-    others = (channels.get(name + transport) for transport in IMAGE_TRANSPORTS)
-    return any(channel.consumers and channel.providers for channel in others if channel is not None)
+@derived
+def read_otherwise(context: Context) -> frozenset[str]:
+    """The topics of images that are read in another transport of the same publisher."""
+    topics = context.graph.topics.items() if context.graph is not None else ()
+    return frozenset(
+        name.rpartition("/")[0]
+        for name, each in topics
+        if name.endswith(IMAGE_TRANSPORTS) and each.consumers and each.providers
+    )
 
 
 def by_type(

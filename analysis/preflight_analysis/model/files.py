@@ -1,4 +1,4 @@
-"""The file that a wrong path was meant to name."""
+"""The files that paths and addresses name, and those that wrong ones were meant to name."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import os
 import re
 from itertools import chain
 from pathlib import Path
+from typing import NamedTuple
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location
@@ -42,7 +43,31 @@ _GAP = re.compile(r"(?:\A()(?=[._-])|([._-])(?=[._-]))")
 """Where the name of a file lacks a part: `_map.yaml`, `map_.yaml`."""
 
 
-def _doubts(context: Context, problem: Problem[UnreadablePath], near: str | None) -> tuple[tuple[Doubt, ...], str]:
+class Address(NamedTuple):
+    """What an address (`package://arm/meshes/a.stl`, `file:///a.stl`) names: `package` is the one that it names, "" for
+    none, `path` where the file has to be; None where that package is not here."""
+
+    package: str
+    path: str | None
+
+
+def address(environment: Environment, text: str) -> Address | None:
+    """That of a text; None where it is none of a file."""
+    scheme, sign, rest = text.partition("://")
+    if not sign or not rest:
+        return None
+    if scheme == "file":
+        return Address("", rest)
+    name, slash, below = rest.partition("/")
+    if scheme != "package" or not slash or not below.strip("/"):
+        return None
+    package = environment.packages.get(name)
+    return Address(name, os.path.join(package.share, below.lstrip("/")) if package is not None else None)
+
+
+def doubts_of_file(
+    context: Context, problem: Problem[UnreadablePath], near: str | None
+) -> tuple[tuple[Doubt, ...], str]:
     """Those about a file that is not there, and what the message says of them."""
     path, place = problem.kind.path, problem.location
     if says_not_set(path):
@@ -104,7 +129,7 @@ def _maker_of(context: Context, path: str, place: Location) -> str | None:
     launch_file = context.launch_files.get(place.file)
     if launch_file is None or launch_file.root is None or os.path.dirname(path) != folder:
         return None
-    if not os.path.basename(path).startswith(_stem(name)):
+    if not os.path.basename(path).startswith(stem(name)):
         return None
     itself = re.compile(rf"(?<![\w.-]){re.escape(name)}(?![\w.])")
     pending = [launch_file.root]
@@ -186,8 +211,8 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     alike = [name for name in siblings if Path(name).suffix == wanted.suffix]
     # A launch file is meant by no name but that of one.
     launches = () if wanted.name.endswith(LAUNCH_SUFFIXES) else LAUNCH_SUFFIXES
-    other = (name for name in siblings if _stem(name) == wanted.stem and not name.endswith(launches))
-    near = nearest(wanted.name, alike, key=_stem) or next(other, None)
+    other = (name for name in siblings if stem(name) == wanted.stem and not name.endswith(launches))
+    near = nearest(wanted.name, alike, key=stem) or next(other, None)
     if near is not None:
         return str(siblings[near])
     share = package_folder(path, environment)
@@ -198,7 +223,7 @@ def nearest_file(disk: Disk, path: str, environment: Environment) -> str | None:
     for entry in map(Path, files_in(disk, str(share), deep=True)):
         if entry.suffix == wanted.suffix:
             elsewhere.setdefault(entry.name, []).append(entry)
-    name = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=_stem)
+    name = wanted.name if wanted.name in elsewhere else nearest(wanted.name, elsewhere, key=stem)
     return _closest(elsewhere[name], wanted.parent) if name is not None else None
 
 
@@ -220,7 +245,7 @@ def _closest(files: list[Path], folder: Path) -> str | None:
     return str(ranked[0])
 
 
-def _leads_elsewhere(context: Context, location: Location, path: Path) -> bool:
+def leads_elsewhere(context: Context, location: Location, path: Path) -> bool:
     """Whether there are files that fit a text which came to `path`, with anything in the place of what the text does
     not hold, as another launch may give it: `maps/hall.yaml` for `maps/$(arg map).yaml`."""
     root = package_folder(str(path), context.environment) or path.parent
@@ -241,6 +266,6 @@ def package_folder(path: str, environment: Environment) -> Path | None:
     return Path(max(holders, key=len)) if holders else None
 
 
-def _stem(name: str) -> str:
+def stem(name: str) -> str:
     """What can be a slip of the keyboard: an equal extension would make short names look alike."""
     return name.partition(".")[0] or name

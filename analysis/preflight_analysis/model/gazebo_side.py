@@ -23,6 +23,7 @@ from preflight_analysis.findings.finding import Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.knowledge.gazebo import Direction, TopicForm, gazebo_topics, is_of_classic, plugin_name
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.files import address
 from preflight_analysis.model.gazebo_bridges import Bridge, bridges
 from preflight_analysis.robot.model import GazeboPlugin, IncludedModel, Simulated, SimulatedSensor
 from preflight_analysis.robot.of_launch import robots_of, unread_of
@@ -304,12 +305,9 @@ class _Reader:
         if not sign:
             found = self._file(uri)
             return found or (self._in(uri) if uri.startswith("/") else None)
-        if scheme == "file":
-            return self._file(rest) or self._in(rest)
-        if scheme == "package":
-            name, _, below = rest.partition("/")
-            package = self.context.environment.packages.get(name)
-            return self._file(os.path.join(package.share, below)) if package is not None else None
+        named = address(self.context.environment, uri)
+        if named is not None:
+            return self._file(named.path) or self._in(named.path) if named.path is not None else None
         if scheme != "model":
             return None
         return next(filter(None, map(self._in, self._candidates(rest))), None)

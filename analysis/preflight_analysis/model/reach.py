@@ -5,23 +5,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
-from typing import NamedTuple
+from itertools import chain
+from typing import Literal, NamedTuple, TypeVar
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
-from preflight_analysis.findings.doubt import Doubt, doubts
+from preflight_analysis.findings.doubt import doubts
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import not_all_known
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.dangling import by_type, dangling_consumers, dangling_providers
+from preflight_analysis.model.dangling import (
+    by_type,
+    dangling_consumers,
+    dangling_providers,
+    lone_of_type,
+    read_otherwise,
+)
+from preflight_analysis.model.fit import double_types, qos_misfits, separations, type_misfits
 from preflight_analysis.model.idle_remaps import idle_remaps
 from preflight_analysis.model.moveit import known_to_moveit, unserved
 from preflight_analysis.model.near_miss import NearMiss, given_name
 from preflight_analysis.model.near_miss_search import near_misses
-from preflight_analysis.model.nearest import numbers_in, share_words
+from preflight_analysis.model.nearest import nearest_typo, numbers_in, share_words
 from preflight_analysis.model.remaps_elsewhere import Elsewhere, used_elsewhere
 from preflight_analysis.model.well_known import may_dangle
+
+V = TypeVar("V")
 
 
 class Seen(NamedTuple):
@@ -175,6 +185,20 @@ def _are_siblings(one: Connection, other: Connection) -> bool:
     return alike and (one.endpoint.name, one.endpoint.role) == (other.endpoint.name, other.endpoint.role)
 
 
+@derived
+def of_same_type(context: Context) -> Mapping[int, Connection]:
+    """For subscribers without a publisher, by id, the only publisher of their type that nobody subscribes to, where the
+    type is specific. Of what a display might show instead its type says nothing."""
+    found = unmet(context, "topics")
+    others = [each for each in found.consumers if id(each) not in found.elsewhere and not each.endpoint.displayed]
+    if not others:
+        return {}
+    dangling = by_type(context, "topics", dangling_providers(context, "topics"))
+    of_types = [dangling.get(each.endpoint.type, ()) for each in others]
+    lone = context.each_row(lone_of_type, (others, of_types))
+    return {id(each): meant for each, meant in zip(others, lone, strict=True) if meant is not None}
+
+
 def meant_pairs(context: Context, kind: ChannelKind) -> Iterator[tuple[Connection, Connection]]:
     """The ends of a kind that were probably meant to meet and do not, whatever says so, each provider with its
     consumer."""
@@ -187,45 +211,113 @@ def meant_pairs(context: Context, kind: ChannelKind) -> Iterator[tuple[Connectio
     if kind == "services":
         clients = {id(each): each for each in unmet(context, kind).consumers}
         yield from ((offer, clients[client]) for client, offer in awaited(context).items())
+    yield from _taken(context, kind)
 
 
-class Absence(NamedTuple):
-    """That a side of a channel has nobody in the launch: `meant` is who was meant to be there, `elsewhere` the name
-    that the files around have for it, `doubts` why somebody may be there all the same."""
-
-    meant: Connection | None
-    elsewhere: Elsewhere | None
-    doubts: tuple[Doubt, ...]
-
-    @property
-    def reason(self) -> str:
-        """Who is meant, or else who may be there, in words."""
-        if self.meant is not None:
-            return f"did you mean '{self.meant.name}' of {self.meant.node.name}?"
-        if self.elsewhere is not None:
-            return f"did you mean '{self.elsewhere.name}'?"
-        return "; ".join(each.reason.sentence for each in self.doubts)
+@derived
+def _meant(context: Context, kind: ChannelKind) -> Mapping[int, Connection]:
+    """For each end that was meant to meet another one, by id, that one."""
+    found: dict[int, Connection] = {}
+    for provider, consumer in meant_pairs(context, kind):
+        found.setdefault(id(provider), consumer)
+        found.setdefault(id(consumer), provider)
+    return found
 
 
-def absence(context: Context, kind: ChannelKind, channel: Channel) -> Absence | None:
-    """What is known of the side of a channel that has nobody; None where both have somebody."""
+def meant_by_text(context: Context, topic: str, wanted: Literal["publisher", "subscriber"]) -> Connection | None:
+    """The end that a topic was probably meant to reach which only a text names, as the arguments of a recorder or of a
+    player: that of the nearest name that differs by a slip, to a subscriber only where nobody publishes. None where the
+    topic is known, and where it may be that of a node of which nothing is known."""
+    graph = context.graph
+    if graph is None or graph.blind or graph.is_external(topic) or graph.is_of_unknown("topics", topic):
+        return None
+    there = graph.topics.get(topic)
+    if there is not None and (there.consumers or wanted == "publisher"):
+        return None  # of what others subscribe to and nobody publishes their own findings speak
+    ends = (
+        (name, each.providers if wanted == "publisher" else each.consumers if not each.providers else ())
+        for name, each in graph.topics.items()
+    )
+    found = {name: some[0] for name, some in ends if some}
+    near = nearest_typo(topic, found)
+    return found[near] if near is not None else None
+
+
+def why_nobody(context: Context, kind: ChannelKind, channel: Channel) -> str | None:
+    """Of a side of a channel that has nobody who is meant to be there, or else who may be there, in words; None where
+    both sides have somebody."""
     graph = context.graph
     there = channel.providers or channel.consumers
     if graph is None or not there or (channel.providers and channel.consumers):
         return None
-    ends = {id(each) for each in there}
-    for provider, consumer in meant_pairs(context, kind):
-        if id(provider) in ends or id(consumer) in ends:
-            return Absence(consumer if id(provider) in ends else provider, None, ())
-    found = unmet(context, kind)
-    named = next((found.elsewhere[each] for each in ends if each in found.elsewhere), None)
+    taken = crossed(context) if kind == "topics" else {}
+    if (pair := _first(taken, there)) is not None:
+        end, other = pair
+        return f"{end.node.name} is remapped to '{end.name}' of {other.node.name}"
+    if (meant := _first(_meant(context, kind), there)) is not None:
+        return f"did you mean '{meant.name}' of {meant.node.name}?"
+    ends = {*map(id, there)}
+    apart = chain.from_iterable(separations(graph, each) for each in graph.named(kind, channel.name))
+    for each in apart if channel.apart else ():
+        if not ends.isdisjoint((id(each.consumer), id(each.provider))):
+            return each.reason
+    if not graph.blind and (named := _first(unmet(context, kind).elsewhere, there)) is not None:
+        return f"did you mean '{named.name}'?"
+    alike = of_same_type(context) if kind == "topics" and not graph.blind else {}
+    if (same := _first(alike, there)) is not None:
+        return f"'{same.name}' of {same.node.name} has the same type and no subscriber"
+    if kind == "topics" and channel.providers and channel.name in read_otherwise(context):
+        return "it is read in another transport"
     outside = channel.external or all(may_dangle(channel.name, each.endpoint) for each in there)
-    return Absence(
-        None,
-        named,
-        doubts(
-            OUTSIDE=outside,
-            NOT_ANALYSED=not outside and (graph.is_of_unknown(kind, channel.name) or not_all_known(graph)),
-            OTHER_LAUNCH=not outside,
-        ),
+    found = doubts(
+        OUTSIDE=outside,
+        NOT_ANALYSED=not outside and (graph.is_of_unknown(kind, channel.name) or _lacks(context)),
+        OTHER_LAUNCH=not outside,
     )
+    return "; ".join(each.reason.sentence for each in found)
+
+
+@derived
+def _lacks(context: Context) -> str | bool:
+    return context.graph is not None and not_all_known(context.graph)
+
+
+def _first(found: Mapping[int, V], ends: Iterable[Connection]) -> V | None:
+    return next((found[id(each)] for each in ends if id(each) in found), None)
+
+
+_SIDES: Mapping[ChannelKind, tuple[str, str]] = {
+    "topics": ("publisher", "subscriber"),
+    "services": ("server", "client"),
+    "actions": ("server", "client"),
+}
+
+
+def notes(context: Context, kind: ChannelKind, channel: Channel) -> tuple[str, ...]:
+    """What there is to say of a channel, in words: that a side has nobody, and why; what keeps ends that are there from
+    each other; who was taken to it by a remap."""
+    found: list[str] = []
+    why = why_nobody(context, kind, channel)
+    if why is not None:
+        side = _SIDES[kind][bool(channel.providers)]
+        found.append(f"no {side}" + (f"; {why}" if why else ""))
+    found += (each.reason for each in type_misfits(channel))
+    if kind == "topics":
+        found += (each.reason for each in double_types(channel))
+    if kind == "topics" and context.tree.ros.has_qos:
+        found += (each.reason for each in qos_misfits(channel))
+    ends = {*map(id, channel.consumers)}
+    found += (
+        f"nobody subscribes to '{own.name}' of {own.node.name}, the name of {end.node.name} without its remap"
+        for own, end in _taken(context, kind)
+        if id(end) in ends
+    )
+    return tuple(dict.fromkeys(found))
+
+
+def _taken(context: Context, kind: ChannelKind) -> Iterator[tuple[Connection, Connection]]:
+    """The pairs of `crossed`: a publisher that nobody hears, and the subscriber that a remap took away."""
+    taken = crossed(context) if kind == "topics" else {}
+    if taken:
+        own = {id(each): each for each in unmet(context, "topics").providers}
+        yield from ((own[at], end) for at, (end, _) in taken.items())

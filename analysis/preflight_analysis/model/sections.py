@@ -26,6 +26,7 @@ from preflight_analysis.findings.finding import Related
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.recognize import is_yaml
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.declared_params import declared_params
 from preflight_analysis.model.names_elsewhere import section_around
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.section_reader import SectionReader
@@ -489,12 +490,9 @@ class _Search:
     def _may_want(self, name: str, section: Section) -> bool:
         """Whether the node declares one of the parameters of a section, as far as that is known: another one may have a
         name like its own, as `map_server` and `map_saver`."""
-        interface = _interfaces(self.context).get(name)
-        if interface is None or not section.params or not interface.speaks_of("parameters"):
-            return True
-        declared = {use.name.removeprefix("~") for use in interface.params}
-        lists = any(use.access == "list" for use in interface.params)
-        return lists or not declared.isdisjoint(param.name for param in section.params)
+        known = _interfaces(self.context).get(name)
+        declared = declared_params(*known) if known is not None and section.params else None
+        return declared is None or any(param.name in declared for param in section.params)
 
 
 def _slip(context: Context, section: Section) -> Slip | None:
@@ -509,9 +507,10 @@ def _slip(context: Context, section: Section) -> Slip | None:
 
 
 @derived
-def _interfaces(context: Context) -> Mapping[str, Interface]:
+def _interfaces(context: Context) -> Mapping[str, tuple[LaunchNode, Interface]]:
     graph = context.graph
-    return dict(zip((n.name for n in graph.tree.nodes), graph.interfaces, strict=True)) if graph is not None else {}
+    pairs = zip(graph.tree.nodes, graph.interfaces, strict=True) if graph is not None else ()
+    return {node.name: (node, interface) for node, interface in pairs}
 
 
 def _doubts(context: Context, path: str, nodes: Sequence[LaunchNode]) -> tuple[Doubt, ...]:

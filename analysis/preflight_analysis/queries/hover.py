@@ -23,7 +23,8 @@ from preflight_analysis.graph.tf_frames import frames_of
 from preflight_analysis.launch.model import NODE_KINDS, Action
 from preflight_analysis.model.installation import named_installation
 from preflight_analysis.model.lifecycle import inactive
-from preflight_analysis.model.reach import absence
+from preflight_analysis.model.lost_files import lost_files
+from preflight_analysis.model.reach import notes
 from preflight_analysis.queries.arguments import accepted
 from preflight_analysis.queries.bridges import bridge_hover
 from preflight_analysis.queries.frames import frame_hover
@@ -61,6 +62,7 @@ _SHOWN_ROOTS = 8
 _SHOWN_VALUES = 4
 _SHOWN_QOS = ("reliability", "durability")
 _SHOWN_ENDPOINTS = 8
+_SHOWN_NOTES = 4
 _OF_ONE_RUN = (re.compile(r", kept from an earlier run"), re.compile(r" after \d+\.\d+ s(?=\.)"))
 """What two runs of the same node differ in."""
 
@@ -372,10 +374,8 @@ def _connections(analysis: Analysis, graph: Graph, name: str) -> Iterator[str]:
     for kind, of_kind, channel in found:
         ends = ("publisher", "subscriber") if kind == "topic" else ("server", "client")
         shown = f"{kind} {code(name)}" + (f" ({code(channel.domain)})" if channel.domain else "")
+        yield from (f"- {shown}: {escaped(each)}" for each in notes(analysis.context, of_kind, channel)[:_SHOWN_NOTES])
         for end, connections in zip(ends, (channel.providers, channel.consumers), strict=True):
-            if not connections:
-                lost = absence(analysis.context, of_kind, channel)
-                yield f"- {shown}: no {end}" + (f"; {escaped(lost.reason)}" if lost is not None and lost.reason else "")
             for connection in sorted(connections, key=lambda each: each.node.name)[:_SHOWN_ENDPOINTS]:
                 endpoint = connection.endpoint
                 kind_of = f" {code(endpoint.type)}" if endpoint.type else ""
@@ -447,6 +447,7 @@ def _node_body(analysis: Analysis, index: int, node: LaunchNode) -> str:
             lines += [f"\nRun without its `launch-prefix` {code(node.launch_prefix)}"]
     if analysis.tree.ros.own_parameters:
         lines += _own_params(analysis, node, interface or NOT_RUN)
+        lines += _lost_files(analysis, node)
     frames = frames_of(node, interface or NOT_RUN)
     if frames:
         lines += ["", "Broadcasts", *map(_frame, frames[:_SHOWN_FRAMES])]
@@ -532,6 +533,13 @@ def _own_params(analysis: Analysis, node: LaunchNode, interface: Interface) -> l
     lines += [f"- {code(name)}: {default_text(use)}{_made_at(use)}" for name, use in declared.items()]
     more = [f"- … and {len(lines) - _SHOWN_PARAMS} more"] if len(lines) > _SHOWN_PARAMS else []
     return ["", "Parameters", *lines[:_SHOWN_PARAMS], *more] if lines else []
+
+
+def _lost_files(analysis: Analysis, node: LaunchNode) -> Iterator[str]:
+    """The parameter files that a node gets and that have nothing for it."""
+    for lost in lost_files(analysis.context):
+        if lost.getter.node is node:
+            yield f"\n{code(shown_path(lost.used.path, analysis.environment.workspace))}: {escaped(lost.reason)}"
 
 
 def _read(analysis: Analysis, graph: Graph, node: LaunchNode, use: ParamUse) -> str:

@@ -10,9 +10,12 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam
 from preflight_analysis.evaluation.tree import LaunchNode
-from preflight_analysis.findings.markdown import code
+from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.launch.recognize import is_yaml
+from preflight_analysis.model.declared_params import declared_params, undeclared
+from preflight_analysis.model.nearest import did_you_mean
 from preflight_analysis.model.plugin_params import declared_of_plugins
+from preflight_analysis.model.refused_files import refusals
 from preflight_analysis.model.sections import Getter, SectionUse, param_file
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.param_texts import default_text, type_text, value_text
@@ -23,6 +26,7 @@ from preflight_analysis.tracing.interface import NOT_RUN, Evidence, Interface, P
 from preflight_analysis.workspace.workspace import Analysis
 
 _SHOWN_NODES = 8
+_SHOWN_REFUSALS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +95,14 @@ def in_param_file(analyses: Sequence[Analysis], path: str, offset: int) -> Hover
     if not lines:
         lines = list(_why_not(use))
     more = [f"- … and {len(lines) - _SHOWN_NODES} more"] if len(lines) > _SHOWN_NODES else []
-    return Hover("\n".join([title, "", *lines[:_SHOWN_NODES], *more]).rstrip(), span)
+    refused = (f"\n{each}" for each in _refusals(analyses, path)[:_SHOWN_REFUSALS])
+    return Hover("\n".join([title, "", *lines[:_SHOWN_NODES], *more, *refused]).rstrip(), span)
+
+
+def _refusals(analyses: Sequence[Analysis], path: str) -> Sequence[str]:
+    """Why rcl refuses a file, each with a link to the place."""
+    found = ((analysis, each) for analysis in analyses for each in refusals(analysis.context) if each.path == path)
+    return list(dict.fromkeys(f"{escaped(each.reason)} ({place(analysis, each.place)})" for analysis, each in found))
 
 
 def _for_section(analysis: Analysis, path: str, use: SectionUse) -> tuple[Reader, ...]:
@@ -129,7 +140,7 @@ def _node(analysis: Analysis, reader: Reader) -> str:
 def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -> str:
     use = reader.declared(param.name)
     if use is None:
-        text = code(reader.node.name) + (" does not declare it" if reader.interface.known else "")
+        text = code(reader.node.name) + _undeclared(analysis, reader, param.name, path)
     else:
         made = f" — {link(use.source_file, use.source_line)}" if use.source_file else ""
         text = f"{code(reader.node.name)} declares it: {default_text(use)}{made}"
@@ -139,6 +150,17 @@ def _declared(analysis: Analysis, reader: Reader, param: FileParam, path: str) -
         where = place(analysis, effective.place)
         text += f"; it gets {value_text(effective.value)} from {where}"
     return text
+
+
+def _undeclared(analysis: Analysis, reader: Reader, name: str, path: str) -> str:
+    """That a node does not declare a parameter, in words that go on from its name; "" where it may well do so."""
+    node, interface = reader.node, reader.interface
+    declared = declared_params(node, interface)
+    found = undeclared(analysis.context, node, interface, declared, name, path) if declared is not None else None
+    if found is None or declared is None:
+        return ""
+    sure = "" if declared.closed else f" (not sure: {declared.open_because[0].reason.sentence})"
+    return f" does not declare it{sure}{did_you_mean(found.meant)}"
 
 
 def from_param_file(context: QueryContext, offset: int) -> Iterator[tuple[Location, Span]]:

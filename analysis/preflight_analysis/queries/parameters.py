@@ -10,8 +10,10 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import FileParam
 from preflight_analysis.evaluation.tree import LaunchTree, Param, Unknown
+from preflight_analysis.model.lost_files import LostFile, lost_files
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.parameters import OF_ALL_NODES
+from preflight_analysis.model.refused_files import Refusal, refusals
 from preflight_analysis.model.sections import SectionUse, param_files
 from preflight_analysis.queries.symbol_at import own_parameter, settings_of
 from preflight_analysis.tracing.interface import ParamUse
@@ -41,13 +43,16 @@ class Unapplied:
 class Parameter:
     """One parameter. `name` is the full one, in ROS 2 `/node:name`. `settings` are the places that set it, the one that
     applies first; `uses` are the calls of nodes, each with the node's name. `unknowns` are what is not known of the
-    launch and may set it too."""
+    launch and may set it too; `lost` are the files that its node gets and that have nothing for it,
+    `refusals` say why rcl refuses one that it gets."""
 
     name: str
     settings: tuple[Param, ...]
     uses: tuple[tuple[str, ParamUse], ...]
     unknowns: tuple[Unknown, ...] = ()
     unapplied: tuple[Unapplied, ...] = ()
+    lost: tuple[LostFile, ...] = ()
+    refusals: tuple[Refusal, ...] = ()
 
     @property
     def node(self) -> str:
@@ -76,7 +81,10 @@ def parameter(analysis: Analysis, name: str) -> Parameter | None:
     if not settings and not uses and not unapplied:
         return None
     unknowns = tuple(dict.fromkeys(_unknowns(analysis.tree, name)))
-    return Parameter(name, tuple(settings.values()), uses, unknowns, unapplied)
+    owner = name.rpartition(":")[0]
+    lost = tuple(each for each in lost_files(analysis.context) if each.getter.name == owner)
+    given = (each for each in refusals(analysis.context) if any(node.name == owner for node, _ in each.given))
+    return Parameter(name, tuple(settings.values()), uses, unknowns, unapplied, lost, tuple(given))
 
 
 def parameters(analysis: Analysis, name: str) -> tuple[Parameter, ...]:

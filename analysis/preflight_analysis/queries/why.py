@@ -19,6 +19,7 @@ from preflight_analysis.graph.domains import differences, domain_of, processes_o
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.graph.qos import policies
 from preflight_analysis.model.clock import publishes_clock
+from preflight_analysis.model.fit import type_misfit
 from preflight_analysis.model.lifecycle import inactive
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.model.places import attribute_location, connection_location
@@ -279,7 +280,7 @@ def _evidence(connection: Connection) -> str:
     if end.displayed:
         return "; from its configuration"
     if end.evidence.inferred:
-        return "; from its source" + (", under a condition" if "condition" in end.evidence.doubts else "")
+        return "; from its source" + (", under a condition" if end.evidence.conditional else "")
     return ""
 
 
@@ -318,13 +319,14 @@ def _type(provider: Connection, consumer: Connection) -> Link:
     mine, theirs = consumer.endpoint.type, provider.endpoint.type
     if "*" in (mine, theirs):
         return Link("type", "ok", f"any type fits ({theirs if mine == '*' else mine})")
+    misfit = type_misfit(consumer, provider)
+    if misfit is not None:
+        return Link("type", "broken", misfit.reason, consumer.node.location)
     if mine is None or theirs is None:
         who = consumer if mine is None else provider
         return Link("type", "unknown", f"the type that {who.node.name} uses is not known")
-    if mine != theirs:
-        text = f"types differ: {provider.node.name} uses {theirs}, {consumer.node.name} uses {mine}"
-        return Link("type", "broken", text, consumer.node.location)
-    return Link("type", "ok", f"both use the type {mine}")
+    same = mine if mine == theirs else f"{theirs}, which {consumer.node.name} calls {mine}"
+    return Link("type", "ok", f"both use the type {same}")
 
 
 def _qos(provider: Connection, consumer: Connection) -> Iterator[Link]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from preflight_analysis.graph.model import ChannelKind
 from preflight_analysis.live.model import LiveEndpoint, Observation
+from preflight_analysis.model.fit import in_short
 from preflight_analysis.model.nearest import nearest
 from preflight_analysis.queries.why import Chain, Link, listed, qos_links
 from preflight_analysis.tracing.interface import DOES, Endpoint, Role
@@ -74,7 +75,7 @@ def _compared(chain: Chain, provider: LiveEndpoint, consumer: LiveEndpoint) -> I
         return
     yield Link("name", "ok", f"both use the {chain.noun} '{consumer.name}'")
     if provider.type is not None and consumer.type is not None:
-        if "*" in (provider.type, consumer.type) or provider.type == consumer.type:
+        if "*" in (provider.type, consumer.type) or in_short(provider.type) == in_short(consumer.type):
             yield Link("type", "ok", f"both use the type {consumer.type}")
         else:
             text = f"types differ: {chain.provider} uses {provider.type}, {chain.consumer} uses {consumer.type}"

@@ -9,10 +9,10 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.findings.claim import Text, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.graph.domains import Difference, Domains, differences, processes_of
-from preflight_analysis.graph.model import PROVIDERS, Channel, Connection
+from preflight_analysis.graph.domains import Difference, processes_of
 from preflight_analysis.model.channels import OF_ENDS, channels_of, doubts_of_ends
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.fit import Separation, separations
 from preflight_analysis.model.places import endpoints_of, related_endpoint, subject_of
 from preflight_analysis.model.problems import include_chain, rename
 from preflight_analysis.model.variables import setting_of
@@ -20,19 +20,16 @@ from preflight_analysis.rules.further_reading import DOMAINS, MASTER
 from preflight_analysis.rules.further_reading import MIDDLEWARE as ABOUT_MIDDLEWARE
 from preflight_analysis.rules.rule import Rule
 
-_Pair = tuple[Connection, Connection, Difference]
-"""A consumer, a provider, and what keeps them apart."""
-
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
-    if graph is None or not graph.tree.complete or not graph.domains.by_node or graph.domains.bridged is None:
+    if graph is None or not graph.domains.by_node:
         return
     by_process = {id(node): each for node, each in zip(graph.tree.nodes, processes_of(graph.tree), strict=True)}
-    found: dict[tuple[int, int], list[_Pair]] = {}
+    found: dict[tuple[int, int], list[Separation]] = {}
     for channel in chain.from_iterable(channels_of(context).values()):
-        for pair in _apart(channel, graph.domains):
-            found.setdefault((id(pair[0].node), id(pair[1].node)), []).append(pair)
+        for pair in separations(graph, channel):
+            found.setdefault((id(pair.consumer.node), id(pair.provider.node)), []).append(pair)
     for pairs in found.values():
         consumer, provider, difference = pairs[0]
         places = [
@@ -58,33 +55,13 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         )
 
 
-def _apart(channel: Channel, domains: Domains) -> Iterator[_Pair]:
-    """Each consumer that can reach no provider for sure, with the first one; or none by what anybody promises."""
-    providers = [*channel.providers, *(each for each in channel.apart if each.endpoint.role in PROVIDERS)]
-    if channel.external or not providers or channel.name in (domains.bridged or ()):
-        return
-    for consumer in channel.consumers:
-        mine = domains.by_node[id(consumer.node)]
-        if mine is None or consumer.action is not None or consumer.endpoint.builtin:
-            continue
-        kept_apart = []
-        for provider in providers:
-            theirs = domains.by_node[id(provider.node)]
-            between = [*differences(theirs, mine)] if theirs is not None else []
-            sure = [each for each in between if each.separates]
-            kept_apart.append(next(iter(sure or [each for each in between if each.unsupported]), None))
-        first = kept_apart[0]
-        if first is not None and None not in kept_apart:
-            yield consumer, providers[0], first
-
-
 def _aligned(context: Context, place: Location, difference: Difference, of_consumer: bool) -> tuple[Fix, ...]:
     """The other node's value in place of this one, where only one of both is set."""
     old, new = (difference.other, difference.one) if of_consumer else (difference.one, difference.other)
     return rename(context, place, old, new, preferred=False) if difference.separates else ()
 
 
-def _message(pairs: list[_Pair]) -> Text:
+def _message(pairs: list[Separation]) -> Text:
     consumer, provider, difference = pairs[0]
     more = f" and {len(pairs) - 1} more" if len(pairs) > 1 else ""
     fact = f"{'are' if more else 'is'} not shared{'' if difference.separates else ' reliably'}"

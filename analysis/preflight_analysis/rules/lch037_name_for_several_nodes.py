@@ -22,7 +22,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         given = list(dict.fromkeys(each.given for each in renamed))
         if len(given) < 2:
             continue
-        inferred = any(each.inferred for each in renamed)
+        inferred = any(each.evidence.inferred for each in renamed)
         value = node.action.value("name")
         span = value.span if value is not None else node.action.kind_span
         leaf = names.leaf(node.name)

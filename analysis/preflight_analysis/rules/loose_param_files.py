@@ -26,6 +26,7 @@ from preflight_analysis.model.context import Context
 from preflight_analysis.model.name_index import named_in, sources_in
 from preflight_analysis.model.names_elsewhere import joint_around
 from preflight_analysis.model.params_in_sources import meant_in_one_file
+from preflight_analysis.model.refused_files import not_marked
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules import ctl001_unknown_joint as ctl001
@@ -78,7 +79,7 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
             continue  # they look for its keys, and rcl does not get it
         # Only what has a section of a node is one for certain.
         for name, span in file.unmarked[:1] if file.sections else ():
-            message = prm012.MESSAGE.format(name, MARK)
+            message = prm012.MESSAGE.format(not_marked(name))
             place, fixes = document.location(span), prm012.marked(document, span)
             yield prm012.RULE.claim(message, place, subject=Subject("parameter", name), doubts=_LOOSE, fixes=fixes)
         for what, span in file.refused[:1]:

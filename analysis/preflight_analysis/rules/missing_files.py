@@ -13,13 +13,13 @@ from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.files import (
-    _doubts,
-    _leads_elsewhere,
-    _stem,
+    doubts_of_file,
     in_namesake,
+    leads_elsewhere,
     meant_file,
     nearest_file,
     package_folder,
+    stem,
 )
 from preflight_analysis.model.installed import lack_of_file, lack_of_made
 from preflight_analysis.model.nearest import is_slip
@@ -47,7 +47,7 @@ def check_missing_files(what: Mapping[type[UnreadablePath], str]) -> Check:
                 # Which of the two packages is found depends on the package path.
                 effect, message = "misbehaves", f"{message}; another package of that name has it in '{other}'"
             else:
-                found, why = _doubts(context, problem, near)
+                found, why = doubts_of_file(context, problem, near)
                 message += why
             lack = lack_of_made(context, path) or (lack_of_file(context, path) if near is None else None)
             yield problem_claim(
@@ -96,11 +96,11 @@ def correct_path(context: Context, location: Location, path: str, near: str) -> 
     other values of its arguments.
     """
     old, new = Path(path), Path(near)
-    if _leads_elsewhere(context, location, old):
+    if leads_elsewhere(context, location, old):
         return ()
     change = formerly(context.disk, path)
     was_renamed = change is not None and change.path == near
-    if old.name != new.name and not was_renamed and not is_slip(_stem(old.name), _stem(new.name)):
+    if old.name != new.name and not was_renamed and not is_slip(stem(old.name), stem(new.name)):
         return ()
     if old.parent == new.parent:
         return rename(context, location, old.name, new.name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
@@ -52,7 +52,9 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
         about, place = Subject("executable", name), line_of(document, line, module)
         file = module_file(package.share, module, disk)
         if file is None:
-            yield from _of_missing_module(rule, disk, environment, package, document, build.called, name, module, place)
+            yield from _of_missing_module(
+                rule, disk, environment, package, build.called, _Entry(name, module, document, place)
+            )
             continue
         source = disk.text(file)
         known = names_of_module(source) if isinstance(source, Document) else None
@@ -92,17 +94,19 @@ def _malformed(text: str) -> str:
     return f"entry point '{text.strip()}' cannot be read; it is written `name = package.module:function`"
 
 
+class _Entry(NamedTuple):
+    """An entry point: its name, the module that it names, and where that stands."""
+
+    name: str
+    module: str
+    document: Document
+    place: Location
+
+
 def _of_missing_module(
-    rule: Rule,
-    disk: Disk,
-    environment: Environment,
-    package: Package,
-    document: Document,
-    called: Called,
-    name: str,
-    module: str,
-    place: Location,
+    rule: Rule, disk: Disk, environment: Environment, package: Package, called: Called, entry: _Entry
 ) -> Iterator[Finding]:
+    name, module, document, place = entry
     top = module.partition(".")[0]
     there = sorted(_modules(disk, package))
     tops = {each.partition(".")[0] for each in there}

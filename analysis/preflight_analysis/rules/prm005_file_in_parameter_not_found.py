@@ -22,7 +22,7 @@ from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.launch.model import action_at
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.elsewhere import depends_on_working_folder
-from preflight_analysis.model.files import meant_file, nearest_file, package_folder
+from preflight_analysis.model.files import address, meant_file, nearest_file, package_folder
 from preflight_analysis.model.given_in_vain import others_in_vain
 from preflight_analysis.model.installation import will_be_there
 from preflight_analysis.model.installed import is_made_of_template, may_be_made
@@ -277,10 +277,9 @@ def _is_built(below: str, share: str, context: Context) -> bool:
 
 
 def _paths(text: str, environment: Environment) -> Iterable[str]:
+    named = address(environment, text)
     if text.startswith(_PACKAGE_URI):
-        name, _, below = text.removeprefix(_PACKAGE_URI).partition("/")
-        package = environment.packages.get(name)
-        return (os.path.join(package.share, below),) if package is not None and below else ()
+        return (named.path,) if named is not None and named.path is not None else ()
     plain = text.removeprefix("file://")
     pieces = plain.replace(";", ",").replace(":", ",").split(",") if "/" in plain else ()
     return [piece for piece in pieces if piece.startswith("/")]

@@ -4,13 +4,12 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import Section
-from preflight_analysis.evaluation.tree import Use
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.leaked_arguments import leaked_argument
-from preflight_analysis.model.problems import enumerated, include_chain, quoted, replacement
+from preflight_analysis.model.lost_files import LostFile, lost_files
+from preflight_analysis.model.problems import enumerated, include_chain, replacement
 from preflight_analysis.model.sections import FileUse, Getter, SectionUse, Slip, param_files
 from preflight_analysis.rules.further_reading import COMMAND_LINE, NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Rule
@@ -19,7 +18,7 @@ _SHOWN = 3
 _OF_OTHERS = "section '{section}' applies to no node that gets this file (only {node}{others})"
 _OF_PROCESS = "section '{section}' applies to no node that gets this file; did you mean '{node}'?"
 _GETS_ANOTHER = "section '{section}' applies to no node: {node} does not get this file"
-_KEPT = "; the file is from '{name}', which another include was passed and which stays set; put that one into a group"
+_KEPT = "; {leak}; put that one into a group"
 _NOT_OF_NODE = "no section of this file applies to {node}; it has sections for {sections}{inferred}"
 
 
@@ -37,14 +36,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 yield _about_namespace(rule, context, used.path, each, each.slip)
             elif each.unserved is not None and each.section.exact and not is_said:
                 yield _about_another_file(rule, context, used, each, each.unserved)
-        for getter, reached in used.lacking:
-            # One file for several nodes, with nothing for this one: that is usual.
-            key = used.meant_for(getter)
-            if not used.sections or reached:
-                continue
-            leaked = leaked_argument(context, getter.node, used.path) if key is None else None
-            if len(given) == 1 or key is not None or leaked is not None:
-                yield _about_file(rule, context, used, getter, key, leaked)
+    for lost in lost_files(context):
+        yield _about_file(rule, context, lost)
 
 
 def _about_namespace(rule: Rule, context: Context, path: str, lost: SectionUse, slip: Slip) -> Finding:
@@ -95,16 +88,14 @@ def _about_key(rule: Rule, context: Context, used: FileUse, lost: SectionUse) ->
     )
 
 
-def _about_file(
-    rule: Rule, context: Context, used: FileUse, given: Getter, meant: SectionUse | None, leaked: Use | None
-) -> Finding:
-    node, sections = given.node, [each.section for each in used.sections]
-    named = quoted(s.pattern for s in sections[:_SHOWN]) + (" and others" if len(sections) > _SHOWN else "")
+def _about_file(rule: Rule, context: Context, lost: LostFile) -> Finding:
+    used, given, meant, leaked = lost
+    node = given.node
     inferred = "; the name is from its source" if node.name_inferred else ""
-    key = meant.section if meant is not None else sections[0]
-    text = say(_NOT_OF_NODE, node=node.name, sections=named, inferred=inferred)
+    key = meant.section if meant is not None else used.sections[0].section
+    text = say(_NOT_OF_NODE, node=node.name, sections=lost.sections, inferred=inferred)
     return rule.claim(
-        text.followed_by(_KEPT, name=leaked.name) if leaked is not None else text,
+        text.followed_by(_KEPT, leak=lost.leak) if leaked is not None else text,
         given.location,
         subject=Subject("file", used.path),
         kind="absent" if meant is None else "near",

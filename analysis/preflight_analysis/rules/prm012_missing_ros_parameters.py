@@ -6,35 +6,32 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.edits.writer import writer_of
 from preflight_analysis.edits.yaml import YamlWriter
-from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
+from preflight_analysis.evaluation.ros2.param_files import MARK
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Fix, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix
-from preflight_analysis.model.sections import given_files
+from preflight_analysis.model.refused_files import refusals
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Rule
 
-MESSAGE = "parameter '{}' is not below '{}'; rcl refuses the whole file"
+MESSAGE = "{}; rcl refuses the whole file"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    for path, given in given_files(context).items():
-        # launch_ros reads it for a component: it takes the sections that there are, or all of it.
-        by_rcl = next(((node, source) for node, source in given if node.kind != "composable"), None)
-        document = context.documents.get(path)
-        if by_rcl is None or not isinstance(document, Document):
+    for refusal in refusals(context):
+        document = context.document(refusal.path)
+        if not refusal.unmarked or document is None:
             continue
-        node, source = by_rcl
-        for name, span in read_param_file(document).unmarked[:1]:
-            yield rule.claim(
-                MESSAGE.format(name, MARK),
-                context.location(path, span),
-                subject=Subject("parameter", name),
-                related=(Related(f"{node.name} gets the file here", source.origin[-1]),),
-                fixes=marked(document, span),
-            )
+        node, source = refusal.given[0]
+        yield rule.claim(
+            MESSAGE.format(refusal.what),
+            refusal.place,
+            subject=Subject("parameter", refusal.unmarked),
+            related=(Related(f"{node.name} gets the file here", source.origin[-1]),),
+            fixes=marked(document, refusal.place.span),
+        )
 
 
 def marked(document: Document, key: Span) -> tuple[Fix, ...]:

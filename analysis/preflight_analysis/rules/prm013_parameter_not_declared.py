@@ -1,33 +1,23 @@
 """PRM013: a parameter that its node does not declare (ROS 2)."""
 
-import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
-from preflight_analysis.evaluation.ros2.spawners import MANAGER
 from preflight_analysis.evaluation.tree import LaunchNode, Param
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Alike, Finding, Fix
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest, without_numbers
-from preflight_analysis.model.param_matching import reports_params
-from preflight_analysis.model.parameters import OF_ALL_NODES
-from preflight_analysis.model.params_in_sources import may_be_made
+from preflight_analysis.model.declared_params import declared_params, is_controller, undeclared
+from preflight_analysis.model.nearest import did_you_mean, is_slip
 from preflight_analysis.model.places import related_node
 from preflight_analysis.model.problems import include_chain, replacement
 from preflight_analysis.model.sections import is_for_all, section_at
 from preflight_analysis.rules.further_reading import PARAMETERS, PARAMETERS_DESIGN
 from preflight_analysis.rules.rule import Rule
-from preflight_analysis.tracing.interface import Interface, ParamUse
 
-_PREFIXES = ("qos_overrides.",)
 _CLOCK = "use_sim_time"
-_OF_TRANSPORT = re.compile(
-    r"\.(?:(?:en|dis)able_pub_plugins|(?:compressed|compressedDepth|theora|zstd|ffmpeg|draco|zlib|cloudini)\.\w+)\Z"
-)
-"""What image_transport and point_cloud_transport declare for each topic that they publish."""
 _SAID = "parameter '{name}' is not declared by {node}; its value is ignored{near}"
 _MANY = "parameters are not declared by {node}; their values are ignored"
 _NO_CLOCK = "parameter '{name}' of {node} has no effect; did you mean '{near}'?"
@@ -37,45 +27,29 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     graph = context.graph
     if graph is None:
         return
-    nodes = [(n, _declared(n, i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
-    own = context.environment.own_packages
+    nodes = [(n, declared_params(n, i), i) for n, i in zip(graph.tree.nodes, graph.interfaces, strict=True) if n.params]
     takers: dict[Location | None, set[int]] = {}
     for node, declared, _ in nodes:
         for param in node.params:
-            if declared is None or _is_controller(node) or param.name in declared:
+            if declared is None or is_controller(node) or param.name in declared:
                 takers.setdefault(param.name_location, set()).add(id(node))
     for node, declared, interface in nodes:
         for param in node.params:
             if is_slip(param.name, _CLOCK) and param.name != _CLOCK and param.name not in (declared or ()):
                 yield _clock(rule, context, node, param)
-        if declared is None:
-            continue
-        given = {(param.name, param.place.file) for param in node.params}
-        for param in node.params:
-            if param.name in declared or param.name in OF_ALL_NODES or param.name.startswith(_PREFIXES):
-                continue
-            if is_slip(param.name, _CLOCK):
+        for param in node.params if declared is not None else ():
+            if declared is None or is_slip(param.name, _CLOCK):
                 continue
             if param.name_location is not None and takers.get(param.name_location, set()) - {id(node)}:
                 continue  # what is written once for several nodes, one of which wants it
-            if _OF_TRANSPORT.search(param.name):
+            found = undeclared(context, node, interface, declared, param.name, param.place.file)
+            if found is None:
                 continue
-            package = context.environment.packages.get(node.package)
-            if package in own and may_be_made(context.disk.db, package.share, param.name):
-                continue
-            numbered = without_numbers(param.name)
-            if not interface.tells_all("parameters") and numbered in set(map(without_numbers, declared)):
-                continue  # one of a row, `odom1` beside `odom0`, of which the node may take as many as it is given
-            near = _near(param.name, [name for name in declared if (name, param.place.file) not in given])
-            if near is None and _is_controller(node):
-                continue  # a library's base declares all that is set; names may be made of those of joints
-            if near is None and interface.source == "trace" and interface.outcome.status in ("crashed", "timed-out"):
-                continue  # it may have come to it later
-            in_full = interface.tells_all("parameters")
-            use = declared.get(near) if near is not None else None
+            near, in_full = found.meant, declared.closed
+            use = declared.names.get(near) if near is not None else None
             shared = near is None and (
                 _is_for_all(context, node, param)
-                or _is_other_choice(param.name, declared)
+                or _is_other_choice(param.name, declared.names)
                 or _is_handed_over(context, param)
             )
             yield rule.claim(
@@ -111,26 +85,6 @@ def _clock(rule: Rule, context: Context, node: LaunchNode, param: Param) -> Find
     )
 
 
-def _is_controller(node: LaunchNode) -> bool:
-    """Whether a controller manager makes it, of ros2_control."""
-    return node.within is not None and (node.package, node.executable) == MANAGER
-
-
-def _of_node(node: LaunchNode, uses: Iterable[ParamUse]) -> Iterator[ParamUse]:
-    """Without what the library's base of a controller does to all parameters."""
-    return (use for use in uses if not (use.name == "/" and use.evidence.of_catalogue and _is_controller(node)))
-
-
-def _declared(node: LaunchNode, interface: Interface) -> dict[str, ParamUse] | None:
-    """The parameters that the node declares, None where it takes any or nothing of it is known."""
-    uses = interface.params
-    if (not uses and not reports_params(interface)) or any(use.access == "list" for use in _of_node(node, uses)):
-        return None
-    if interface.source == "none":
-        return None
-    return {use.name.removeprefix("~"): use for use in uses}
-
-
 def _is_for_all(context: Context, node: LaunchNode, param: Param) -> bool:
     """Whether it is written for whoever wants it: in a section for any node, of a file that is not the node's own."""
     place = param.name_location
@@ -157,15 +111,6 @@ def _is_other_choice(name: str, declared: Collection[str]) -> bool:
         parts[-1] == other[-1] and sum(one != another for one, another in zip(parts, other, strict=True)) == 1
         for other in alike
     )
-
-
-def _near(name: str, others: Collection[str]) -> str | None:
-    """The parameter that was probably meant; what all of a section share says nothing."""
-    near = nearest(name, others)
-    if near is None:
-        return None
-    (above, _, leaf), (other_above, _, other) = name.rpartition("."), near.rpartition(".")
-    return near if above != other_above or nearest(leaf, (other,)) is not None else None
 
 
 def _rename(context: Context, param: Param, name: str) -> tuple[Fix, ...]:

@@ -2,16 +2,14 @@
 
 from collections.abc import Iterator
 
-from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
-from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.ros2.rcl_yaml import as_passed, refused_items
-from preflight_analysis.evaluation.tree import LaunchNode, ParamSource
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import include_chain
+from preflight_analysis.model.refused_files import reads_by_rcl, refusals
 from preflight_analysis.rules.further_reading import NODE_ARGUMENTS, PARAMETERS
 from preflight_analysis.rules.rule import Rule
 
@@ -25,47 +23,30 @@ _ARRIVES = (
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    reported: set[Location] = set()
-    for (path, substituted), given in _files(context).items():
-        document = context.documents.get(path)
-        if not isinstance(document, Document):
+    for refusal in refusals(context):
+        if refusal.unmarked:
             continue
-        for what, span in read_param_file(document).refused:
-            at = context.location(path, span)
-            if at in reported or (substituted and "$(" in document.text[span.start : span.end]):
-                continue  # what a substitution comes to may be fine
-            reported.add(at)
-            one, count = given[0][0].name, len(given)
-            text = say(_ONE, what=what, node=one) if count == 1 else say(_SEVERAL, what=what, count=count)
-            more = f" (and {len(given) - _SHOWN} more nodes)" if len(given) > _SHOWN else ""
-            yield rule.claim(
-                text,
-                at,
-                subject=Subject("file", path),
-                related=[
-                    Related(f"{node.name} gets the file here{more if index == _SHOWN else ''}", source.origin[-1])
-                    for index, (node, source) in enumerate(given[:_SHOWN], 1)
-                ],
-            )
+        given = refusal.given
+        one, count, what = given[0][0].name, len(given), refusal.what
+        text = say(_ONE, what=what, node=one) if count == 1 else say(_SEVERAL, what=what, count=count)
+        more = f" (and {count - _SHOWN} more nodes)" if count > _SHOWN else ""
+        yield rule.claim(
+            text,
+            refusal.place,
+            subject=Subject("file", refusal.path),
+            related=[
+                Related(f"{node.name} gets the file here{more if index == _SHOWN else ''}", source.origin[-1])
+                for index, (node, source) in enumerate(given[:_SHOWN], 1)
+            ],
+        )
     yield from _values(rule, context)
-
-
-def _files(context: Context) -> dict[tuple[str, bool], list[tuple[LaunchNode, ParamSource]]]:
-    """The nodes that get each parameter file, as it is or after its substitutions were made; launch_ros reads that of a
-    composable node itself, which takes some of it."""
-    found: dict[tuple[str, bool], dict[str, tuple[LaunchNode, ParamSource]]] = {}
-    for node in context.tree.nodes_and_simulated:
-        for source in node.param_sources if node.container is None else ():
-            if source.path is not None:
-                found.setdefault((source.path, source.substituted), {}).setdefault(node.name, (node, source))
-    return {file: list(nodes.values()) for file, nodes in found.items()}
 
 
 def _values(rule: Rule, context: Context) -> Iterator[Finding]:
     """Lists in the launch file: launch writes a parameter file of them, without quotes where Python needs none."""
     reported: set[Location] = set()
     for node in context.tree.nodes:
-        for source in node.param_sources if node.container is None else ():
+        for source in node.param_sources if reads_by_rcl(node) else ():
             for param in source.params if source.path is None else ():
                 refused = refused_items(as_passed(param.value)) if isinstance(param.value, list) else None
                 place = param.place

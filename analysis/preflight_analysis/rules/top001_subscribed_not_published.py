@@ -8,11 +8,10 @@ from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Connection
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.dangling import by_type, dangling_providers, lone_of_type
 from preflight_analysis.model.near_miss import OF_NEAR_MISSES, NearMiss, doubts_of
 from preflight_analysis.model.nearest import numbers_in
 from preflight_analysis.model.places import Verbs, related_endpoint
-from preflight_analysis.model.reach import Seen, seen, unmet
+from preflight_analysis.model.reach import Seen, of_same_type, seen, unmet
 from preflight_analysis.model.remaps_elsewhere import BY_FILES, in_use_around, named_in_files
 from preflight_analysis.rules.further_reading import REMAPPING_DESIGN, TOPICS, TOPICS_2
 from preflight_analysis.rules.near_miss_fixes import documents_of, fixes
@@ -51,12 +50,8 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         if id(each) in found.elsewhere:
             yield elsewhere_finding(rule, context, each, _lone_message(known, each), found.elsewhere[id(each)])
     others = [each for each in found.consumers if id(each) not in found.elsewhere]
-    if others:
-        dangling = by_type(context, "topics", dangling_providers(context, "topics"))
-        # Of what a display might show instead its type says nothing.
-        of_types = [() if each.endpoint.displayed else dangling.get(each.endpoint.type, ()) for each in others]
-        lone = context.each_row(lone_of_type, (others, of_types))
-        yield from context.each_row(_hint, (others, lone), rule, known)
+    same = of_same_type(context)
+    yield from context.each_row(_hint, (others, [same.get(id(each)) for each in others]), rule, known)
 
 
 def _near(

@@ -13,9 +13,10 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import is_slip, nearest_typo
+from preflight_analysis.model.nearest import is_slip
 from preflight_analysis.model.places import argument_location, related_endpoint
 from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.reach import meant_by_text
 from preflight_analysis.rules.further_reading import ROSBAG, ROSBAG2
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.request import split_args
@@ -39,12 +40,12 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     for node, recorded in zip(nodes, context.each(_recorded, nodes, context.tree.generation), strict=True):
         for written, topic in recorded:
-            near = _near(graph, topic) if not node.unknowns else None
-            if near is None:
+            provider = meant_by_text(context, topic, "publisher") if not node.unknowns else None
+            if provider is None:
                 yield from _of_convention(rule, context, graph, node, written, topic)
                 continue
             place, known = argument_location(context, node, written), graph.likely_complete_beside(node)
-            provider = graph.topics[near].providers[0]
+            near = provider.name
             yield rule.claim(
                 say(_SAID, name=topic, near=near, node=provider.node.name),
                 place,
@@ -73,13 +74,6 @@ def _of_convention(
         related=include_chain(node.origin),
         fixes=rename(context, place, leaf, meant),
     )
-
-
-def _near(graph: Graph, topic: str) -> str | None:
-    """The published topic that differs by a slip, the nearest one first; None where the topic itself is known."""
-    if topic in graph.topics or graph.is_external(topic) or graph.blind:
-        return None
-    return nearest_typo(topic, (name for name, channel in graph.topics.items() if channel.providers))
 
 
 def _recorded(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:

@@ -10,11 +10,10 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.build import effective_remaps
-from preflight_analysis.graph.model import Connection, Graph
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.nearest import nearest_typo
 from preflight_analysis.model.places import argument_location, related_endpoint
 from preflight_analysis.model.problems import include_chain, rename
+from preflight_analysis.model.reach import meant_by_text
 from preflight_analysis.rules.further_reading import ROSBAG, ROSBAG2
 from preflight_analysis.rules.rule import Rule
 from preflight_analysis.tracing.request import split_args
@@ -34,7 +33,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
         return
     for node, played in zip(nodes, context.each(_played, nodes, context.tree.generation), strict=True):
         for written, topic in played:
-            consumer = _meant(graph, topic)
+            consumer = meant_by_text(context, topic, "subscriber")
             if consumer is None:
                 continue
             place = argument_location(context, node, written)
@@ -48,17 +47,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 related=(related_endpoint(consumer, "subscribes to"), *include_chain(node.origin)),
                 fixes=rename(context, place, written.lstrip("/"), consumer.name.lstrip("/")),
             )
-
-
-def _meant(graph: Graph, topic: str) -> Connection | None:
-    """The subscriber of the nearest topic that differs by a slip and has no publisher; None where the topic itself is
-    known."""
-    channel = graph.topics.get(topic)
-    if (channel is not None and channel.consumers) or graph.is_external(topic):
-        return None
-    waiting = (name for name, each in graph.topics.items() if each.consumers and not each.providers)
-    near = nearest_typo(topic, waiting)
-    return graph.topics[near].consumers[0] if near is not None else None
 
 
 def _played(node: LaunchNode, generation: int) -> tuple[tuple[str, str], ...]:

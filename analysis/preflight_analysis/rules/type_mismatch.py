@@ -11,11 +11,12 @@ from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.findings.claim import say
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
-from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
+from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.channels import OF_ENDS, channels_of, doubts_of_ends, of_all_kinds
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.controllers import controllers_of
+from preflight_analysis.model.fit import TypeMisfit, in_short, type_misfits
 from preflight_analysis.model.interface_files import lacks_type
 from preflight_analysis.model.places import Verbs, connection_location, endpoints_of, related_endpoint, subject_of
 from preflight_analysis.model.problems import include_chain, rename
@@ -23,11 +24,8 @@ from preflight_analysis.rules.rule import Rule
 
 _MESSAGES = "_msgs"
 _SAID = "type mismatch on '{name}': {node} {provides} {type}, {other} {consumes} {other_type}{difference}"
-_NO_TYPE = "an unknown type"
 OF_MISMATCHES = (Reason.PARTLY_READ, Reason.OTHER_VERSION, *OF_ENDS)
 """Doubts of what `mismatches` finds."""
-_SAME = {"tf/tfMessage": "tf2_msgs/TFMessage"}
-"""Types of two packages with one definition, and so with one sum."""
 
 
 def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) -> Iterator[Finding]:
@@ -35,22 +33,23 @@ def mismatches(rule: Rule, context: Context, kind: ChannelKind, verbs: Verbs) ->
     graph = context.graph
     if graph is None:
         return
-    for consumer, provider, difference in chain.from_iterable(_all_misfits(context)[kind]):
-        site, other = (consumer, provider)
+    for misfit in chain.from_iterable(_all_misfits(context)[kind]):
+        consumer, provider = site, other = misfit.consumer, misfit.provider
         if not consumer.is_placed and provider.is_placed:
             site, other = provider, consumer
         advice, fixes = _deciding_parameter(context, provider, consumer)
+        provided, consumed = misfit.types
         yield rule.claim(
             say(
                 _SAID,
                 name=consumer.name,
                 node=provider.node.name,
                 provides=verbs.provides,
-                type=provider.endpoint.type or _NO_TYPE,
+                type=provided,
                 other=consumer.node.name,
                 consumes=verbs.consumes,
-                other_type=consumer.endpoint.type or _NO_TYPE,
-                difference=f"{difference}{advice}",
+                other_type=consumed,
+                difference=f"{misfit.difference}{advice}",
             ),
             connection_location(site),
             subject=subject_of(site),
@@ -132,56 +131,6 @@ def _is_moved(consumer: Connection, provider: Connection) -> bool:
     return moved and name == other_name and package.partition("_")[0] == other_package.partition("_")[0]
 
 
-_Misfit = tuple[Connection, Connection, str]
-"""A consumer, a provider that does not fit it, and what to add to the message."""
-
-
 @derived
-def _all_misfits(context: Context) -> Mapping[ChannelKind, tuple[tuple[_Misfit, ...], ...]]:
-    return of_all_kinds(context, _misfits, channels_of(context))
-
-
-def _misfits(channel: Channel) -> tuple[_Misfit, ...]:
-    # Of those that are alike the first one is told; a topic that all nodes share has many.
-    providers: dict[tuple[str | None, str | None, bool], Connection] = {}
-    for connection in channel.providers:
-        providers.setdefault((connection.endpoint.type, connection.endpoint.md5, connection.action is None), connection)
-    found: list[_Misfit] = []
-    for consumer in channel.consumers:
-        reported: set[tuple[str | None, str]] = set()
-        for provider in providers.values():
-            if consumer.action is not None and provider.action is not None:
-                continue  # said once of the action, not of each of its topics
-            known = consumer.endpoint.evidence, provider.endpoint.evidence
-            if consumer.node is provider.node and all(each.of_catalogue for each in known):
-                continue  # within a node of others, as move_base's footprints
-            difference = _difference(consumer, provider)
-            if difference is not None and (provider.endpoint.type, difference) not in reported:
-                reported.add((provider.endpoint.type, difference))
-                found.append((consumer, provider, difference))
-    return tuple(found)
-
-
-def _difference(consumer: Connection, provider: Connection) -> str | None:
-    """None when they fit; else what to add to the message, which is empty when the types' names tell it all."""
-    mine, theirs = consumer.endpoint, provider.endpoint
-    if "*" in (mine.type, theirs.type, mine.md5, theirs.md5):
-        return None
-    sums_differ = bool(mine.md5 and theirs.md5) and mine.md5 != theirs.md5
-    if mine.type is None or theirs.type is None:
-        # A roscpp client of a service knows no type, but what it sends is known by the sum.
-        return f" (MD5 sums {theirs.md5} and {mine.md5})" if sums_differ else None
-    if in_short(mine.type) != in_short(theirs.type):
-        # Of a service only the sums are compared when it is called.
-        return None if mine.role == "client" and mine.md5 and mine.md5 == theirs.md5 else ""
-    if sums_differ:
-        return f" (different definitions, MD5 sums {theirs.md5} and {mine.md5})"
-    return None
-
-
-def in_short(name: str) -> str:
-    """A type's name without the folder that ROS 2 has in it: a launch file of a package for both generations may be
-    answered by nodes of either."""
-    package, _, rest = name.partition("/")
-    short = f"{package}/{rest.rpartition('/')[2]}"
-    return _SAME.get(short, short)
+def _all_misfits(context: Context) -> Mapping[ChannelKind, tuple[tuple[TypeMisfit, ...], ...]]:
+    return of_all_kinds(context, type_misfits, channels_of(context))

@@ -12,15 +12,12 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.files import meant_file, nearest_file
+from preflight_analysis.model.files import address, meant_file, nearest_file, package_folder
 from preflight_analysis.model.installed import lack_of_made, near_package
 from preflight_analysis.model.problems import rename, shown
 from preflight_analysis.model.robots import robots_in_part, written
 from preflight_analysis.rules.further_reading import URDF_LINK
 from preflight_analysis.rules.rule import Rule
-
-_PACKAGE = "package://"
-_FILE = "file://"
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -32,8 +29,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 continue
             said.add(found.message)
             place, related = written(context, robot, "mesh", "filename", mesh)
-            path = mesh.removeprefix(_FILE)
-            lack = lack_of_made(context, path) if mesh.startswith(_FILE) else None
             fixes: tuple[Fix, ...] = rename(context, place, found.old, found.new) if found.new else ()
             yield rule.claim(
                 found.message,
@@ -44,16 +39,17 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 candidates=(found.meant,),
                 related=related,
                 fixes=fixes,
-                lack=lack,
+                lack=lack_of_made(context, found.path) if found.path else None,
             )
 
 
 class _Missing(NamedTuple):
-    """What is wrong with the name of a mesh: what was meant, and what in it to replace by what. `is_ignored`: git
-    ignores the file."""
+    """What is wrong with the name of a mesh: the path that is not there, "" where its package is not; what was meant,
+    and what in it to replace by what. `is_ignored`: git ignores the file."""
 
     message: str
     about: Subject
+    path: str = ""
     meant: str | None = None
     old: str = ""
     new: str = ""
@@ -62,37 +58,32 @@ class _Missing(NamedTuple):
 
 def _missing(context: Context, mesh: str) -> _Missing | None:
     """None for a file that is there, and for one of a package or folder that this machine does not have."""
-    packages = context.environment.packages
-    if mesh.startswith(_PACKAGE):
-        name, slash, below = mesh.removeprefix(_PACKAGE).partition("/")
-        if not slash:
+    named = address(context.environment, mesh)
+    if named is None:
+        return None
+    path = named.path
+    if path is None:
+        near = near_package(context, named.package)
+        if near is None:
             return None
-        package = packages.get(name)
-        if package is None:
-            near = near_package(context, name)
-            if near is None:
-                return None
-            message = f"package '{name}' of a mesh does not exist; did you mean '{near}'?"
-            return _Missing(message, Subject("package", name), near, name, near)
-        path = os.path.join(package.share, below.lstrip("/"))
-    else:
-        path = mesh.removeprefix(_FILE) if mesh.startswith(_FILE) else ""
-        if not any(path.startswith(f"{package.share.rstrip('/')}/") for package in packages.values()):
-            return None
+        message = f"package '{named.package}' of a mesh does not exist; did you mean '{near}'?"
+        return _Missing(message, Subject("package", named.package), meant=near, old=named.package, new=near)
+    if package_folder(path, context.environment) is None:
+        return None
     if context.disk.exists(located(context.disk, context.environment, path)):
         return None
     message, about = f"mesh '{shown(path, context)}' does not exist", Subject("file", path)
     if is_ignored(context.disk, path):
-        return _Missing(f"{message}; git ignores it, so each machine may create it", about, is_ignored=True)
+        return _Missing(f"{message}; git ignores it, so each machine may create it", about, path, is_ignored=True)
     near_path = nearest_file(context.disk, path, context.environment)
     if near_path is None:
         folder = os.path.dirname(path)
         if not context.disk.exists(located(context.disk, context.environment, folder)):
             message, about = f"folder '{shown(folder, context)}' of a mesh does not exist", Subject("file", folder)
-        return _Missing(f"{message}{meant_file(context, path, None)}", about)
+        return _Missing(f"{message}{meant_file(context, path, None)}", about, path)
     same_folder = os.path.dirname(near_path) == os.path.dirname(path)
     old, new = (os.path.basename(path), os.path.basename(near_path)) if same_folder else ("", "")
-    return _Missing(f"{message}{meant_file(context, path, near_path)}", about, near_path, old, new)
+    return _Missing(f"{message}{meant_file(context, path, near_path)}", about, path, near_path, old, new)
 
 
 RULE = Rule(

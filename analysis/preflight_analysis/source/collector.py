@@ -8,13 +8,22 @@ from typing import Any
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.source.branches import Branches
-from preflight_analysis.tracing.interface import Endpoint, Evidence, Frame, FrameUse, MadeNode, ParamUse, Role
+from preflight_analysis.tracing.interface import (
+    IN_SOURCE,
+    Endpoint,
+    Evidence,
+    Frame,
+    FrameUse,
+    MadeNode,
+    ParamUse,
+    Role,
+)
 
 _MAX_FOUND = 500
 _MAX_NODES = 32
 _MAX_FRAMES = 100
 _LONGEST_FRAME = 200
-_PLAIN, _UNDER_CONDITION = Evidence("source"), Evidence("source").but("condition")
+_UNDER_CONDITION = IN_SOURCE.but("condition")
 _NO_FRAME = re.compile(r"\s")
 
 
@@ -83,7 +92,12 @@ class Collector:
     @property
     def _evidence(self) -> Evidence:
         """Of what is found at the place that is looked at."""
-        return _UNDER_CONDITION if self.branches.speculative else _PLAIN
+        return _UNDER_CONDITION if self.branches.speculative else IN_SOURCE
+
+    @property
+    def _evidence_of_frames(self) -> Evidence:
+        """Likewise, of frames: callbacks count like the rest, as most transforms are broadcast in one."""
+        return _UNDER_CONDITION if self.branches.inside else IN_SOURCE
 
     def miss(self) -> None:
         """There may be more than was found."""
@@ -94,7 +108,7 @@ class Collector:
         if not is_name(name) or "/" in name or not isinstance(space, str) or len(self._nodes) >= _MAX_NODES:
             self._unknown_nodes = True
             return
-        self._nodes[MadeNode(name, name, space.strip("/"), renamed, inferred=True)] = None
+        self._nodes[MadeNode(name, name, space.strip("/"), renamed, IN_SOURCE)] = None
         self._alternatives = self._alternatives or self.branches.speculative
 
     def transition(self, *names: str) -> None:
@@ -138,31 +152,30 @@ class Collector:
             self.miss()
 
     def broadcast(self, parent: Any, child: Any, static: bool, file: str, line: int) -> None:
-        """A transform that is broadcast; a frame that is not known is noted as such. Callbacks count like the rest:
-        most transforms are broadcast in one."""
+        """A transform that is broadcast; a frame that is not known is noted as such."""
         if len(self._frames) >= _MAX_FRAMES:
             return
         self._broadcasts.add((file, line))
-        named = Frame(_frame(parent), _frame(child), static, True, self.branches.inside, file, line)
+        named = Frame(_frame(parent), _frame(child), static, self._evidence_of_frames, file, line)
         key = (named.parent, named.child, static)
         before = self._frames.get(key)
-        if before is None or (before.conditional and not named.conditional):
+        if before is None or (before.evidence.conditional and not named.evidence.conditional):
             self._frames[key] = named
 
     def expect_broadcast(self, file: str, first: int, last: int) -> None:
         """Lines that broadcast a transform: where none of them was come to, a flag or a parameter keeps it from that,
         and more frames than are known may follow."""
         if not any(path == file and first <= line <= last for path, line in self._broadcasts):
-            self._frames.setdefault(("", "", False), Frame("", "", False, True, True, file, first))
+            self._frames.setdefault(("", "", False), Frame("", "", False, _UNDER_CONDITION, file, first))
 
     def use_frame(self, frame: Any, call: str, looked_up: bool, file: str, line: int) -> None:
         """A frame that is asked for, or stands in a message that is published."""
         named = _frame(frame)
         if not named or len(self._frame_uses) >= _MAX_FRAMES:
             return
-        use = FrameUse(named, call, looked_up, self.branches.inside, file, line)
+        use = FrameUse(named, call, looked_up, self._evidence_of_frames, file, line)
         before = self._frame_uses.get((named, call))
-        if before is None or (before.conditional and not use.conditional):
+        if before is None or (before.evidence.conditional and not use.evidence.conditional):
             self._frame_uses[named, call] = use
 
 

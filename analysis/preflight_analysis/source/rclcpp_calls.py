@@ -169,8 +169,8 @@ class RclcppCalls(Parameters):
             if name == MOVE_GROUP:
                 self._any_parameter(place)  # of the robot model, the kinematics and the pipelines
             if name == "diagnostic_updater::Updater":
-                self._declare(first_node(given), "diagnostic_updater.period", 1.0, True, place)
-                self._declare(first_node(given), "diagnostic_updater.use_fqn", False, True, place)
+                self._declare(first_node(given), "diagnostic_updater.period", Parameter(1.0), place)
+                self._declare(first_node(given), "diagnostic_updater.use_fqn", Parameter(False), place)
         elif name in WITH_NODE:
             self._with_node(name, type_.args, args, place)
         else:
@@ -234,7 +234,7 @@ class RclcppCalls(Parameters):
     def _hints(self, given: Sequence[Any], place: Place) -> Any:
         texts = [value for value in given if isinstance(value, str)]
         default, param = (*texts, *("raw", "image_transport")[len(texts) :])[:2]
-        found = self._declare(first_node(given), param, default, True, place)
+        found = self._declare(first_node(given), param, Parameter(default), place)
         return found if isinstance(found, str) else "raw"
 
     def _unknown_library(self, name: str, given: Sequence[Any], place: Place) -> None:

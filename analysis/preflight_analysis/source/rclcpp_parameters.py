@@ -92,10 +92,10 @@ class Parameters:
         struct = self._structs[name] = struct_of()
         for param in library.params:
             place = Place(param.file, param.line)
-            default = _of_type(param.default, param.type)
+            default = Parameter(_of_type(param.default, param.type)) if param.has_default else None
             type_ = _LIBRARY_TYPES.get(re.sub(r"_fixed_\d+\Z", "", param.type))
             about = ParamUse("", "get", type=type_, read_only=param.read_only, range=param.range)
-            value = self._declare(node, prefix + param.name, default, param.has_default, place, about=about, read=True)
+            value = self._declare(node, prefix + param.name, default, place, about=about, read=True)
             *groups, leaf = param.name.split(".")
             inner = struct
             for group in groups:
@@ -112,12 +112,12 @@ class Parameters:
             return UNKNOWN
         type_ = types[0] if types else None
         has_default = len(args) > 1 and not isinstance(args[1].value, Constant) and not is_descriptor(args[1].value)
-        default = given_parameter(args[1], type_) if has_default else Parameter(UNKNOWN)
+        default = given_parameter(args[1], type_) if has_default else None
         about = _described(args, type_)
         if type_ is not None and not has_default and (len(args) < 2 or is_descriptor(args[1].value)):
             # rclcpp throws where there is no value of that type.
             about = replace(about, mandatory=not self.collected.branches.caught)
-        found = self._declare(node, name, default.value, has_default, place, typed=default.typed, about=about)
+        found = self._declare(node, name, default, place, about=about)
         of_value = len(args) > 1 and isinstance(args[1].value, (Parameter, Constant))
         if of_value and type_ is None:
             return parameter_of(found)
@@ -137,17 +137,15 @@ class Parameters:
             value = pair[1] if len(pair) > 1 else UNKNOWN
             value = value[0] if isinstance(value, list) and len(value) == 2 and isinstance(value[1], Unmade) else value
             default = given_parameter(Argument(value), call.types[0] if call.types else None)
-            self._declare(node, name, default.value, True, call.place)
+            self._declare(node, name, Parameter(default.value), call.place)
 
     def _declare(
         self,
         node: NodeObject,
         name: str,
-        default: Any,
-        has_default: bool,
+        default: Parameter | None,
         place: Place,
         *,
-        typed: bool = True,
         about: ParamUse | None = None,
         read: bool = False,
     ) -> Any:
@@ -157,12 +155,12 @@ class Parameters:
         if full is UNKNOWN:
             self._any_parameter(place)  # it may be the node that the launch file starts
             return UNKNOWN
-        known = default if has_default and typed and is_plain(default) else None
+        known = default.value if default is not None and default.typed and is_plain(default.value) else None
         use = replace(
             about or ParamUse("", "get"),
             name=full,
             default=known,
-            has_default=has_default,
+            has_default=default is not None,
             source_file=place.file,
             source_line=place.line,
         )
@@ -172,7 +170,7 @@ class Parameters:
             self._not_reached.append(use)
             return UNKNOWN
         self.collected.use(use)
-        self._declared[full] = default if has_default else UNSET
+        self._declared[full] = default.value if default is not None else UNSET
         return self._value(full)
 
     def _read(self, node: NodeObject, call: Call) -> Any:

@@ -136,7 +136,7 @@ class RclpyCalls:
         if name in _DESCRIBING:
             return Instance(Class(name.rpartition(".")[2], {}, ()), _all_known(kwargs))
         if path.startswith("rclpy."):
-            return self._of_rclpy(path, name, method, args, given, kwargs, file, line)
+            return self._of_rclpy(path, given, kwargs, file, line)
         if _MAKES_NODES.search(path):
             self.collected.unknown_node()
             self.collected.miss()
@@ -151,14 +151,12 @@ class RclpyCalls:
     def _of_rclpy(
         self,
         path: str,
-        name: str,
-        method: str,
-        args: Sequence[Any],
         given: Callable[[int, str], Any],
         kwargs: Mapping[str, Any],
         file: str,
         line: int,
     ) -> Any:
+        name, method = _plain(path), path.rpartition(".")[2]
         if method == "declare_parameter":
             return self._declared(given(0, "name"), given(1, "value"), given(2, "descriptor"), file, line)
         if method == "declare_parameters":

@@ -28,7 +28,7 @@ from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import TraceRequest
 from preflight_analysis.tracing.store import MAX_BYTES, Place, Store, any_changed_since, digest_of, fingerprint, listing
 
-SCHEMA = "ros-preflight/trace-cache/7"
+SCHEMA = "ros-preflight/trace-cache/8"
 MAX_ENTRY_BYTES = 4 << 20
 MOST_OF_ONE_EXECUTABLE = 64
 """How many traces of an executable are looked at for a similar one, the last used."""

@@ -68,7 +68,7 @@ _ASSUMED: frozenset[Unsure] = frozenset({"condition", "other distribution"})
 _UNCERTAIN: frozenset[Unsure] = _ASSUMED | {"made-up answer", "on demand"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, order=True)
 class Evidence:
     """How something is known of a node: from which source, which one of the catalogue or of what is known of packages
     that is (`said_by`, in words), and why the real node may not do it."""
@@ -85,6 +85,11 @@ class Evidence:
     def without(self, *doubts: Unsure) -> Evidence:
         """The same without some doubts."""
         return replace(self, doubts=tuple(each for each in self.doubts if each not in doubts))
+
+    @property
+    def conditional(self) -> bool:
+        """Whether only a condition that is not known leads there, in the source."""
+        return "condition" in self.doubts
 
     @property
     def inferred(self) -> bool:
@@ -108,6 +113,7 @@ class Evidence:
 
 
 SEEN = Evidence()
+IN_SOURCE = Evidence("source")
 """A run of the node showed it."""
 
 
@@ -223,10 +229,7 @@ class Frame:
     parent: str
     child: str
     static: bool = False
-    inferred: bool = False
-    """Read from the source code, not seen in a run."""
-    conditional: bool = False
-    """In the source, only a condition that is not known leads there."""
+    evidence: Evidence = SEEN
     source_file: str = ""
     """Where in the node's source it is broadcast, line counted from 1."""
     source_line: int = 0
@@ -245,8 +248,7 @@ class FrameUse:
     call: str
     looked_up: bool = True
     """Whether the node asks for a transform; otherwise the frame stands in a message that it publishes."""
-    conditional: bool = False
-    """As of `Frame`."""
+    evidence: Evidence = IN_SOURCE
     source_file: str = ""
     source_line: int = 0
 
@@ -262,8 +264,7 @@ class MadeNode:
     given: str
     space: str = ""
     renamed: bool = False
-    inferred: bool = False
-    """Read from the source code, not seen in a run."""
+    evidence: Evidence = SEEN
     full: str = ""
     own_arguments_only: bool = False
     """Whether the arguments of the process are not for it, as for a component: no name, remap or parameter of them."""

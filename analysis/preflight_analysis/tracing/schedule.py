@@ -42,29 +42,34 @@ def trace_all(
     on_done: Callable[[int, Interface], None],
     cancel: threading.Event,
 ) -> None:
-    """Trace `requests` as `run_all` runs jobs. Of like nodes one is run first: the others find its trace in the cache,
+    """Trace `requests` as `run_all` runs jobs. Once `cancel` is set the runs under way are killed and the rest are told
+    as not run. Of like nodes one is run first: the others find its trace in the cache,
     unless they do depend on what is different."""
     alike = likeness if tracer.cache is not None else None
-    run_all(tracer.trace, requests, workers=workers, alike=alike, on_begin=on_begin, on_done=on_done, cancel=cancel)
+    run_all(
+        lambda request: tracer.trace(request, cancel),
+        requests,
+        workers=workers,
+        alike=alike,
+        on_begin=on_begin,
+        on_done=on_done,
+    )
 
 
 def run_all(
-    run: Callable[[_Job, threading.Event], _Result],
+    run: Callable[[_Job], _Result],
     jobs: Sequence[_Job],
     *,
     workers: int = 2,
     alike: Callable[[_Job], Hashable] | None = None,
     on_begin: Callable[[int], None] = lambda index: None,
     on_done: Callable[[int, _Result], None],
-    cancel: threading.Event,
 ) -> None:
     """Run `jobs` in their order and return when all are done; equal ones are run once, and the first of those that are
     `alike` before the others.
 
     `on_begin(index)` is called for a job that starts, `on_done(index, result)` for each job, one call at a time, from
-    the worker threads. Once `cancel` is set
-    the runs under way are killed and the rest are told as not run. Raises what `on_done` raised, after the others are
-    done.
+    the worker threads. Raises what `on_done` raised, after the others are done.
     """
     groups: list[list[int]] = []
     for index, job in enumerate(jobs):
@@ -83,7 +88,7 @@ def run_all(
             try:
                 with telling:
                     on_begin(group[0])
-                result = run(jobs[group[0]], cancel)
+                result = run(jobs[group[0]])
             finally:
                 waiting.ended(kind)
             with telling:

@@ -7,20 +7,22 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from preflight_analysis.dataclass import dataclass
-from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Origin, Place
 from preflight_analysis.evaluation.json_values import json_value
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.findings.report import positions
-from preflight_analysis.graph.model import Channel, Connection, Graph
+from preflight_analysis.graph.model import ChannelKind, Connection, Graph
+from preflight_analysis.model.context import Context
 from preflight_analysis.model.places import connection_location
+from preflight_analysis.model.reach import notes
 from preflight_analysis.tracing.interface import Interface, Role
 
 Kind = Literal["topic", "service", "action"]
 State = Literal["normal", "missing", "extra", "wrong"]
 """How a running robot compares: as launched, not there, there without having been launched, or of another type."""
 
+_KINDS: Mapping[ChannelKind, Kind] = {"topics": "topic", "services": "service", "actions": "action"}
 TOWARDS_CHANNEL: frozenset[Role] = frozenset(("publisher", "client", "action_client"))
 """The roles from which messages, calls and goals go out: their edges point at the channel, the others away from it."""
 
@@ -54,7 +56,8 @@ class ViewNode:
 
 @dataclass(frozen=True, slots=True)
 class ViewChannel:
-    """A topic, service or action under its final name. `external`: the settings say that something else uses it."""
+    """A topic, service or action under its final name. `external`: the settings say that something else uses it.
+    `notes` say what keeps its ends from each other, or why a side has nobody."""
 
     kind: Kind
     name: str
@@ -62,6 +65,7 @@ class ViewChannel:
     builtin: bool
     external: bool
     findings: tuple[int, ...]
+    notes: tuple[str, ...] = ()
     state: State = "normal"
 
 
@@ -115,15 +119,15 @@ class GraphView:
         )
 
 
-def graph_view(graph: Graph, findings: Sequence[Finding], documents: Mapping[str, Document]) -> GraphView:
+def graph_view(graph: Graph, findings: Sequence[Finding], context: Context) -> GraphView:
     """The view of a graph. The topics that actions are made of are left out, an action is shown as such."""
-    return _Builder(graph, findings, documents).view()
+    return _Builder(graph, findings, context).view()
 
 
 class _Builder:
-    def __init__(self, graph: Graph, findings: Sequence[Finding], documents: Mapping[str, Document]) -> None:
+    def __init__(self, graph: Graph, findings: Sequence[Finding], context: Context) -> None:
         self._graph = graph
-        self._documents = documents
+        self._context = context
         self._findings: list[ViewFinding] = []
         self._of_endpoints: dict[tuple[str, str, str], list[int]] = {}
         self._of_nodes: dict[int, list[int]] = {}
@@ -146,13 +150,8 @@ class _Builder:
         index = {id(node): i for i, node in enumerate(graph.tree.nodes)}
         channels: list[ViewChannel] = []
         edges: list[ViewEdge] = []
-        all_channels: tuple[tuple[Kind, Mapping[str, Channel]], ...] = (
-            ("topic", graph.topics),
-            ("service", graph.services),
-            ("action", graph.actions),
-        )
-        for kind, named in all_channels:
-            for channel in named.values():
+        for of_kind, kind in _KINDS.items():
+            for channel in graph.channels(of_kind).values():
                 connections = (*channel.providers, *channel.consumers)
                 if all(connection.action is not None for connection in connections):
                     continue
@@ -160,7 +159,10 @@ class _Builder:
                 made = [self._edge(kind, connection, index[id(connection.node)], at) for connection in connections]
                 finding_ids = tuple(dict.fromkeys(i for edge in made for i in edge.findings))
                 builtin = all(edge.builtin for edge in made)
-                channels.append(ViewChannel(kind, channel.key, channel.types, builtin, channel.external, finding_ids))
+                said = notes(self._context, of_kind, channel) if not builtin else ()
+                channels.append(
+                    ViewChannel(kind, channel.key, channel.types, builtin, channel.external, finding_ids, said)
+                )
                 edges += made
         return GraphView(
             graph.tree.file,
@@ -211,7 +213,7 @@ class _Builder:
         return tuple(self._place(step) for step in reversed(origin))
 
     def _place(self, location: Location) -> Place:
-        (line, column), _ = positions(location, self._documents)
+        (line, column), _ = positions(location, self._context.documents)
         return Place(location.file, line + 1, column + 1)
 
 

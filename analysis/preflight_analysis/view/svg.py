@@ -105,7 +105,7 @@ def _boxes(view: GraphView, layout: Layout) -> Iterator[str]:
                 found = view.channels[channel]
                 dangling = channel in lone and not found.external
                 severity = view.severity(found.findings)
-                yield _channel(channel, found, row, box.width, frame, severity, dangling=dangling)
+                yield _channel(found, box, row, frame, severity, dangling=dangling)
             yield "</g>"
 
 
@@ -136,21 +136,14 @@ def _node(node: ViewNode, file: int, box: Box, frame: Frame | None, place: str, 
 
 
 def _channel(
-    index: int,
-    channel: ViewChannel,
-    row: int,
-    width: float,
-    frame: Frame | None,
-    severity: Severity | None,
-    *,
-    dangling: bool,
+    channel: ViewChannel, box: Box, row: int, frame: Frame | None, severity: Severity | None, *, dangling: bool
 ) -> str:
     marks = _classes("external" if channel.external else "", "dangling" if dangling else "")
     return (
         f'<g class="{_classes("channel", channel.kind, severity, marks, f"state-{channel.state}")}" '
-        f'data-channel="{index}" transform="translate(0 {STACK_PADDING + row * ROW_HEIGHT:g})" '
+        f'data-channel="{box.channels[row]}" transform="translate(0 {STACK_PADDING + row * ROW_HEIGHT:g})" '
         f"aria-label={_attribute(_said(f'{channel.kind} {channel.name}', severity))}>"
-        f'<rect class="row" x="3" width="{width - 6:g}" height="{ROW_HEIGHT:g}" rx="7"/>{_ICONS[channel.kind]}'
+        f'<rect class="row" x="3" width="{box.width - 6:g}" height="{ROW_HEIGHT:g}" rx="7"/>{_ICONS[channel.kind]}'
         f'<text x="25" y="14">{escape(channel_text(channel, frame))}</text></g>'
     )
 

@@ -48,6 +48,7 @@ def view_json(view: GraphView, layout: Layout, base: str | None) -> dict[str, An
                 "builtin": channel.builtin,
                 "external": channel.external,
                 "findings": list(channel.findings),
+                "notes": list(channel.notes),
                 "state": channel.state,
             }
             for channel in view.channels

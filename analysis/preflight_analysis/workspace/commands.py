@@ -100,5 +100,5 @@ def run_commands(runner: CommandRunner, lines: Sequence[str], cancel: threading.
                 results[line] = result
 
     workers = max(2, processors())
-    run_all(runner.run_together, groups, workers=workers, on_done=done, cancel=cancel)
+    run_all(lambda group: runner.run_together(group, cancel), groups, workers=workers, on_done=done)
     return results

@@ -17,7 +17,7 @@ from preflight_analysis.tracing.store import Place, Store, digest_of
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.index_data import data_of_index, index_of_data
 from preflight_analysis.workspace.index_processes import parts_by_processes
-from preflight_analysis.workspace.indexing import Report, build_index, launch_files
+from preflight_analysis.workspace.indexing import Earlier, Report, Watch, build_index, launch_files
 from preflight_analysis.workspace.workspace import Workspace
 
 SCHEMA = "ros-preflight/index/2"
@@ -46,9 +46,8 @@ def build_from_kept(
         for part in parts_by_processes(workspace, lacking, named, cancelled):
             known = known.with_part(part)
             report(len(known.files), len(paths), next(iter(part.files), folder))
-    index = build_index(
-        workspace, folder, named, paths=paths, previous=known, changed=(), report=report, cancelled=cancelled
-    )
+    watch = Watch(report, cancelled)
+    index = build_index(workspace, folder, named, paths=paths, earlier=Earlier(known), watch=watch)
     if index is not None and not (_same(index.files, kept.files) and _same(index.entries, kept.entries)):
         store.save(workspace, folder, index)
     return index

@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import replace
 from functools import partial
 
+from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.python_text import PYTHON_SUFFIX
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.environment.installed_paths import installed_at, package_around
@@ -37,30 +38,47 @@ Report = Callable[[int, int, str], None]
 """How many of how many are done, and the path that is next."""
 
 
+@dataclass(frozen=True, slots=True)
+class Earlier:
+    """An index from before: only what depends on the files that `changed` since is looked at again."""
+
+    index: WorkspaceIndex
+    changed: Collection[str] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """Who waits for an index. `cancelled`, which may wait, is asked before each piece of work, and before one begins
+    again since a text changed meanwhile."""
+
+    report: Report = lambda done, total, path: None
+    cancelled: Callable[[], bool] = lambda: False
+
+
+_NOBODY = Watch()
+
+
 def build_index(
     workspace: Workspace,
     folder: str | None,
     named: Sequence[Root] = (),
     *,
     paths: Sequence[str] | None = None,
-    previous: WorkspaceIndex | None = None,
-    changed: Collection[str] | None = None,
-    report: Report = lambda done, total, path: None,
-    cancelled: Callable[[], bool] = lambda: False,
+    earlier: Earlier | None = None,
+    watch: Watch = _NOBODY,
 ) -> WorkspaceIndex | None:
-    """The index of the launch files below `folder`; None when `cancelled()`, which may wait: it is asked before each
-    piece of work, and before one begins again since a text changed meanwhile.
+    """The index of the launch files below `folder`; None when the `watch` cancelled it.
 
-    `named` are the roots that the settings name, `paths` those launch files, where they are known. With `previous`,
-    only what depends on the files in `changed` is looked at again (None: everything). Runs in a thread of its own for
-    as long as it takes; never raises for what files contain.
+    `named` are the roots that the settings name, `paths` those launch files, where they are known. Runs in a thread of
+    its own for as long as it takes; never raises for what files contain.
     """
-    known = previous if previous is not None and changed is not None else WorkspaceIndex()
-    stale = frozenset(changed or ())
+    known = earlier.index if earlier is not None else WorkspaceIndex()
+    stale = frozenset(earlier.changed if earlier is not None else ())
+    cancelled = watch.cancelled
     workspace.look_at_results()
     if paths is None:
         paths = launch_files(folder, workspace) if folder is not None else []
-    maker = _Maker(workspace, known, stale, report, len(paths), cancelled)
+    maker = _Maker(workspace, known, stale, watch.report, len(paths), cancelled)
     for path in paths:
         if cancelled():
             return None

@@ -25,7 +25,7 @@ def resolve_node_names(
     for at, (node, interface) in enumerate(zip(tree.nodes, interfaces, strict=True)):
         name = _own_name(node, interface, known)
         if name is not None:
-            inferred = not interface.nodes or any(each.inferred for each in interface.nodes)
+            inferred = not interface.nodes or any(each.evidence.inferred for each in interface.nodes)
             nodes[at] = of_name(node, name, documents, inferred=inferred)
             changed = True
     return replace(tree, nodes=tuple(nodes)) if changed else tree

@@ -33,6 +33,7 @@ from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.offered import with_offered_fixes
 from preflight_analysis.findings.severities import Severities, adjusted
+from preflight_analysis.graph.bare_types import with_packages
 from preflight_analysis.graph.build import build_graph
 from preflight_analysis.graph.model import Graph
 from preflight_analysis.incremental.database import Cancelled, Database
@@ -405,7 +406,8 @@ class Workspace:
             whole = self._merged(managed, interfaces, analysis.documents, kept)
         db.leave_if_cancelled()
         seen = self.environment_of(tree.file)
-        graph = build_graph(managed, whole, project.external_topics, seen, analysis.documents, kept, self.sources)
+        typed = with_packages(whole, self.sources, seen, tree.generation, kept)
+        graph = build_graph(managed, typed, project.external_topics, seen, analysis.documents, kept)
         document, problems = located_problems(project)
         own = self.own_knowledge
         context = replace(

@@ -20,7 +20,7 @@ from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.tracing.schedule import processors
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.resolve_commands import resolve_commands
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.tree_json import tree_json
 from preflight_analysis.workspace.workspace import Workspace
@@ -142,7 +142,8 @@ def _answer(job: Job, around: _Surroundings, cancel: threading.Event, options: a
     if options.no_run:
         analysis = workspace.static(job.file, args)
     else:
-        analysis = resolve_commands(workspace, job.file, args, results, runner, cancel, only_launch_files=True)
+        by = Resolving(results, runner, cancel, only_launch_files=True)
+        analysis = resolve_commands(workspace, job.file, args, by)
     data = tree_json(analysis.tree, analysis.documents, analysis.findings)
     return dumps_json(with_paths(data, options, [workspace_of(job.file)]), indent=None)
 

@@ -64,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _view(analysis: Analysis, graph: Graph, args: argparse.Namespace) -> GraphView:
-    view = graph_view(graph, analysis.findings, analysis.documents)
+    view = graph_view(graph, analysis.findings, analysis.context)
     return view if args.builtin or args.format == "html" else view.without_builtin()
 
 

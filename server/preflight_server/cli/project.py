@@ -23,7 +23,7 @@ from preflight_analysis.tracing.similar import SimilarTraces
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.commands import CommandResults, run_commands
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS, resolve_together
+from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS, Resolving, resolve_together
 from preflight_analysis.workspace.run_results import NodeKey, RunResults, node_keys
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
@@ -127,7 +127,7 @@ class OpenWorkspace:
             return
         cancel = threading.Event()
         try:
-            resolve_together(self.workspace, waiting, self.results, self._runner, cancel, tried=self._tried)
+            resolve_together(self.workspace, waiting, Resolving(self.results, self._runner, cancel), tried=self._tried)
         except KeyboardInterrupt:
             cancel.set()
             raise

@@ -78,6 +78,12 @@ def _lines(found: Parameter, analysis: Analysis) -> Iterator[str]:
         where = place(lost.place, analysis.all_documents, os.getcwd())
         key = lost.use.section.key
         yield f"  {'no effect':<10}  {_shown(lost.param.value)} [{where}] section {key!r}: {lost.use.reason}"
+    for file in found.lost:
+        where = place(file.getter.location, analysis.all_documents, os.getcwd())
+        yield f"  {'no effect':<10}  {relative(file.used.path, os.getcwd())} [{where}]: {file.reason}"
+    for refusal in found.refusals:
+        where = place(refusal.place, analysis.all_documents, os.getcwd())
+        yield f"  {'refused':<10}  {refusal.what} [{where}]; {found.node} does not start"
     for each in found.unknowns:
         where = place(each.location, analysis.all_documents, os.getcwd())
         yield f"  {'unknown':<10}  may also be set here: {each.what} ({each.reason}) [{where}]"
@@ -128,6 +134,15 @@ def _json(found: Parameter, analysis: Analysis) -> dict[str, Any]:
             }
             for each in found.unapplied
         ],
+        "lost_files": [
+            {
+                "path": each.used.path,
+                "reason": each.reason,
+                **place_json(each.getter.location, analysis.all_documents),
+            }
+            for each in found.lost
+        ],
+        "refused": [{"reason": each.what, **place_json(each.place, analysis.all_documents)} for each in found.refusals],
         "unknown": [
             {"what": each.what, "reason": each.reason, **place_json(each.location, analysis.all_documents)}
             for each in found.unknowns

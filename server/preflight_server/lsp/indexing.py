@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.index_store import IndexStore, build_from_kept
-from preflight_analysis.workspace.indexing import build_index
+from preflight_analysis.workspace.indexing import Earlier, Watch, build_index
 from preflight_analysis.workspace.project_settings import ProjectSettings, read_project_settings
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -112,15 +112,9 @@ class Indexing:
         def work() -> WorkspaceIndex | None:
             folder, named = self._session.folder, self.named
             if folder is None or changed is not None:
-                return build_index(
-                    workspace,
-                    folder,
-                    named,
-                    previous=self.index,
-                    changed=changed,
-                    report=report,
-                    cancelled=self._gives_way_to_edits,
-                )
+                earlier = Earlier(self.index, changed) if changed is not None else None
+                watch = Watch(report, self._gives_way_to_edits)
+                return build_index(workspace, folder, named, earlier=earlier, watch=watch)
             return build_from_kept(self._store, workspace, folder, named, report=report, cancelled=self._gives_way)
 
         index = None

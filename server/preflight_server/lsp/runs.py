@@ -297,11 +297,10 @@ class Runs:
 
         def work() -> None:
             run_all(
-                lambda job, _cancel: job.run(tracer),
+                lambda job: job.run(tracer),
                 jobs,
                 alike=lambda job: likeness(job.request),
                 on_done=lambda index, interface: report(loop, one_done, index, interface),
-                cancel=batch.cancelled,
             )
 
         try:

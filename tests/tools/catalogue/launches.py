@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import re
 import tempfile
-import threading
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -32,7 +31,7 @@ from preflight_analysis.launch.recognize import LAUNCH_FOLDER, LAUNCH_SUFFIXES
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
-from preflight_analysis.workspace.resolve_commands import resolve_together
+from preflight_analysis.workspace.resolve_commands import Resolving, resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
@@ -141,7 +140,7 @@ class _Maker:
     def _run(self, paths: list[str]) -> None:
         for start in range(0, len(paths), _TOGETHER):
             roots = [Root.of(path, {}) for path in paths[start : start + _TOGETHER]]
-            resolve_together(self._workspace, roots, self._results, self._runner, threading.Event())
+            resolve_together(self._workspace, roots, Resolving(self._results, self._runner))
 
     def _actions(self, path: str) -> tuple[Action, ...] | None:
         if path.endswith(PYTHON_SUFFIX):

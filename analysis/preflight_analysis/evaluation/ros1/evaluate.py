@@ -238,7 +238,7 @@ def _group(state: State, scope: Scope, action: Action, default_machine: str | No
         return default_machine
     inside = scope.child(ns.text)
     inside.private_params = list(inside.private_params)
-    clear_params(state, scope, action, attributes, inside, ns.text)
+    clear_params(attributes, inside, ns.text)
     if not attributes.all_known:
         state.unknown("<group>", "its namespace is not known", scope, action.kind_span)
     return _actions(state, inside, action.children, default_machine)
@@ -259,7 +259,7 @@ def _include(state: State, scope: Scope, action: Action, default_machine: str | 
     if ns is None:
         return default_machine
     inside = scope.child(ns.text)
-    clear_params(state, scope, action, attributes, inside, ns.text)
+    clear_params(attributes, inside, ns.text)
     passed, tags = passed_args(state, scope, inside, action, pass_all)
     place = scope.location(file_attribute.value.span)
     origin = scope.origin(action.head_span)

@@ -36,7 +36,7 @@ def evaluate_node(state: State, scope: Scope, action: Action, default_machine: s
     if ns is None:
         return
     inside = scope.child(ns.text)
-    clear_params(state, scope, action, attributes, inside, ns.text, node=name.text)
+    clear_params(attributes, inside, ns.text, node=name.text)
     if names.is_private(name.text):
         _invalid_name(attributes, name.text, "a node's name cannot be private")
         return

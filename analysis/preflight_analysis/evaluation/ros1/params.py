@@ -6,7 +6,7 @@ import os
 import shlex
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, SpannedText
@@ -186,7 +186,16 @@ def _evaluate_rosparam(state: State, scope: Scope, action: Action, node: str | N
         if text is None:
             return
     if not state.outline:
-        _load(state, scope, action, text, file, full, bool(below), node)
+        _load(state, scope, action, text, _Target(full, bool(below), node))
+
+
+class _Target(NamedTuple):
+    """Where YAML is loaded: below the name `full`, which is that of a parameter if it is `named`; `node` has it in its
+    tag."""
+
+    full: str
+    named: bool
+    node: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,16 +240,9 @@ def _substituted(state: State, scope: Scope, action: Action, text: _YamlText, fu
     return replace(text, text=result.text, start=text.start if result.text == text.text else None)
 
 
-def _load(
-    state: State,
-    scope: Scope,
-    action: Action,
-    text: _YamlText,
-    file: str | None,
-    full: str,
-    named: bool,
-    node: str | None,
-) -> None:
+def _load(state: State, scope: Scope, action: Action, text: _YamlText, to: _Target) -> None:
+    full = to.full
+
     def refuse(message: str, span: Span | None = None) -> None:
         place = text.location(span) if span else None
         origin = scope.origin(action.head_span)
@@ -255,7 +257,7 @@ def _load(
         refuse(error.message, Span(error.offset, error.offset) if error.offset is not None else None)
         return
     value = {} if loaded.value is None else loaded.value
-    if not isinstance(value, dict) and not named:
+    if not isinstance(value, dict) and not to.named:
         message = "only a dictionary can be loaded without the attribute 'param'"
         refuse(message)
         return
@@ -273,7 +275,7 @@ def _load(
                 raise _RootValueError
             place = text.location(span) if span else None
             found: Origin = (*origin, place) if place is not None and outside else origin
-            state.set_param(Param(names.canonicalize(name), leaf, found, node, place))
+            state.set_param(Param(names.canonicalize(name), leaf, found, to.node, place))
         if stopped is not None:
             raise _BadKeyError(stopped.key)
     except _BadKeyError as error:

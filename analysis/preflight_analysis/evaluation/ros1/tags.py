@@ -113,16 +113,7 @@ def namespace_of(state: State, scope: Scope, action: Action, attributes: Attribu
     return ns
 
 
-def clear_params(
-    state: State,
-    scope: Scope,
-    action: Action,
-    attributes: Attributes,
-    inside: Scope,
-    ns: str,
-    *,
-    node: str | None = None,
-) -> None:
+def clear_params(attributes: Attributes, inside: Scope, ns: str, *, node: str | None = None) -> None:
     """The attribute `clear_params`: parameters below the namespace are deleted before the launch."""
     if not attributes.text("clear_params") or not attributes.convert("clear_params", False, values.to_flag):
         return
@@ -130,6 +121,7 @@ def clear_params(
         attributes.missing("ns" if node is None else "name")
         return
     cleared = inside.ns if node is None else names.as_namespace(names.join(inside.ns, node))
+    state, scope, action = attributes.state, attributes.scope, attributes.action
     state.clear_params.append(cleared)
     attribute = action.attribute("clear_params")
     if attribute is not None and attributes.all_known:

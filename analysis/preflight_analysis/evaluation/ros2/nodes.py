@@ -15,6 +15,7 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2.launched import check_launched
 from preflight_analysis.evaluation.ros2.param_files import EVERY
 from preflight_analysis.evaluation.ros2.params import (
+    NamedFile,
     Sources,
     allows_substitutions,
     file_source,
@@ -295,7 +296,8 @@ def _collect(performer: Performer, action: Action, to: Sources, *, must_exist: b
                 performer.state.uses.append(Use("file", location, result.text, target, Location.of_file(target)))
                 substitute = allows_substitutions(performer, child)
                 empty = _why_empty(file) if not result.text else None
-                to.add(file_source(performer, path, at, to, substitute=substitute, must_exist=must_exist, empty=empty))
+                named = NamedFile(path, at, empty)
+                to.add(file_source(performer, named, to, substitute=substitute, must_exist=must_exist))
         elif child.value("name") is not None:
             to.add(ParamSource(None, tuple(tag_params(performer, child, node)), origin))
 

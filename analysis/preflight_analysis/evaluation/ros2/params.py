@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import field
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Document, SpannedText
@@ -159,7 +159,7 @@ def pushed_source(performer: Performer, param: PushedParam, to: Sources, *, as_t
         value = Param(param.name, given, param.origin, to.owner)
         return ParamSource(None, (value,), param.origin, (EVERY,), pushed=True)
     path = os.path.join(performer.state.cwd, str(param.value))
-    return file_source(performer, path, param.origin, to, must_exist=True)
+    return file_source(performer, NamedFile(path, param.origin), to, must_exist=True)
 
 
 def _reread(text: str) -> Any:
@@ -170,29 +170,30 @@ def _reread(text: str) -> Any:
     return found if is_valid(found) else text
 
 
+class NamedFile(NamedTuple):
+    """A parameter file as a launch file names it. `empty` is why the path is an empty text, which is the current
+    folder."""
+
+    path: str
+    origin: Origin
+    empty: str | None = None
+
+
 def file_source(
-    performer: Performer,
-    path: str,
-    origin: Origin,
-    to: Sources,
-    *,
-    substitute: bool = False,
-    must_exist: bool,
-    empty: str | None = None,
+    performer: Performer, file: NamedFile, to: Sources, *, substitute: bool = False, must_exist: bool
 ) -> ParamSource | None:
     """What a parameter file gives to a node; None if it cannot be read, which is noted.
 
-    For `<node>` launch warns of a file that is not there and goes on, for a composable node it stops. `empty` is why
-    the path is an empty text, which is the current folder.
+    For `<node>` launch warns of a file that is not there and goes on, for a composable node it stops.
     """
-    state = performer.state
-    path = state.located(path)
+    state, origin = performer.state, file.origin
+    path = state.located(file.path)
     path = without_dots(state.files, path) or path
     found = state.read_text(path)
     if isinstance(found, Unreadable):
         fatal = must_exist or substitute
-        if empty:
-            state.problem(UnreadableParameterFile("", empty), origin, fatal=fatal)
+        if file.empty:
+            state.problem(UnreadableParameterFile("", file.empty), origin, fatal=fatal)
         else:
             state.unreadable_file(path, found, ParameterFileNotFound, UnreadableParameterFile, origin, fatal=fatal)
         if found.kind == "withheld":
@@ -208,18 +209,18 @@ def file_source(
     if is_unknown(text):
         state.note_unknown(path, "values in it are not known", origin[-1])
     made = state.text_made(path) is not None
-    file = read_made_param_file(text) if made or substitute else read_param_file(found)
-    if file.problem is not None:
-        message, span = file.problem
+    said = read_made_param_file(text) if made or substitute else read_param_file(found)
+    if said.problem is not None:
+        message, span = said.problem
         at = origin if made else (*origin, found.lines.location(path, span))
         fatal = to.composable or substitute
         state.problem(BadYaml(message), at, fatal=fatal)
     lines = None if substitute else found.lines
     if not (made or substitute):
-        return of_file(file, path, lines, origin, to)
+        return of_file(said, path, lines, origin, to)
     before = _document_before(performer, text) if made else None
     places: _Places = _places(before) if before is not None else {}
-    source = of_file(file, path, lines, origin, to, made_of=places if made else None)
+    source = of_file(said, path, lines, origin, to, made_of=places if made else None)
     source = source._replace(made_from=before.path if before is not None else None)
     if to.composable:
         return source

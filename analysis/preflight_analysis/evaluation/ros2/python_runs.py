@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.change import Change, change
@@ -249,11 +249,19 @@ def answered_questions(line: str, result: CommandResult) -> tuple[str, ...]:
     return tuple(_question_of(run["file"], text, run["env"], run["calls"], *more) for text in texts)
 
 
-def called(
-    state: Collector, context: Context, place: Place, number: str, name: str, what: str, at: Span
-) -> Answer | None:
-    """What a function, substitution or condition of the file's own gives; None if that is not known. `what` is
-    `execute` or `perform`."""
+class OwnCode(NamedTuple):
+    """A function, substitution or condition of the file's own: its number in the run, its name, what launch does with
+    it and where it stands."""
+
+    number: str
+    name: str
+    what: Literal["execute", "perform"]
+    at: Span
+
+
+def called(state: Collector, context: Context, place: Place, code: OwnCode) -> Answer | None:
+    """What code of the file's own gives; None if that is not known."""
+    number, name, what, at = code
     if place.run is None or not number.isdigit():
         state.note_unknown(name, "the launch file was not run", place.location(at))
         return None

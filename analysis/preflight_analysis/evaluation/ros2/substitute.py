@@ -33,7 +33,7 @@ from preflight_analysis.evaluation.resolved import Resolved
 from preflight_analysis.evaluation.ros2 import expressions
 from preflight_analysis.evaluation.ros2.context import Context
 from preflight_analysis.evaluation.ros2.place import Place
-from preflight_analysis.evaluation.ros2.python_runs import called
+from preflight_analysis.evaluation.ros2.python_runs import OwnCode, called
 from preflight_analysis.evaluation.ros2.state import State
 from preflight_analysis.evaluation.ros2.types import loaded
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
@@ -421,7 +421,7 @@ class Performer:
 
     def _own(self, part: Substitution) -> str:
         number, name = (self._word(part, index) for index in (0, 1))
-        answer = called(self.state, self.context, self.place, number, name, "perform", part.span)
+        answer = called(self.state, self.context, self.place, OwnCode(number, name, "perform", part.span))
         if answer is None or answer.text is None:
             raise _Failure
         if is_unknown(answer.text):

@@ -27,6 +27,7 @@ export type Channel = {
   builtin: boolean;
   external: boolean;
   findings: number[];
+  notes: string[];
   state: State;
 };
 export type Edge = {

@@ -241,7 +241,8 @@ export function detail(item, on) {
     const [first, second] = ENDPOINTS[channel.kind];
     const from = channel.external ? ", used outside of the launch" : "";
     parts.push(make("h2", {}, channel.name), make("p", { className: "dim" }, `${channel.kind}${from}`), alone);
-    parts.push(...channel.types.map((type) => make("p", {}, type)), ...findingsShown(channel.findings));
+    parts.push(...[...channel.types, ...channel.notes].map((text) => make("p", {}, text)));
+    parts.push(...findingsShown(channel.findings));
     for (const [title, isFirst] of /** @type {[string, boolean][]} */ ([
       [first, true],
       [second, false],

@@ -29,7 +29,7 @@ GRAPH = "rosPreflight/graph"
 def _view(analysis: Analysis, *, builtin: bool) -> GraphView:
     # Before anything is known of the nodes, they are shown all the same.
     graph = analysis.graph or build_graph(analysis.tree, [NOT_RUN] * len(analysis.tree.nodes_and_simulated))
-    view = graph_view(graph, analysis.findings, analysis.documents)
+    view = graph_view(graph, analysis.findings, analysis.context)
     return view if builtin else view.without_builtin()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from preflight_analysis.evaluation.resolved import Resolved
-from preflight_analysis.evaluation.ros2.python_runs import called
+from preflight_analysis.evaluation.ros2.python_runs import OwnCode, called
 from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.unknown_text import is_unknown, readable
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk, only_read
@@ -17,7 +17,7 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
     if number is None or name is None or walk.too_deep(performer.place, action):
         return
     place, context = performer.place, walk.context
-    answer = called(walk.state, context, place, number.text, name.text, "execute", action.head_span)
+    answer = called(walk.state, context, place, OwnCode(number.text, name.text, "execute", action.head_span))
     origin = place.origin(action.head_span)
     if answer is None:
         walk.any_change(performer.place)
