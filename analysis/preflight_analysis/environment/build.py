@@ -11,6 +11,8 @@ from preflight_analysis.dataclass import dataclass
 
 LISTS = "CMakeLists.txt"
 """The name of a build file of CMake."""
+BUILD_FILES = (LISTS, "setup.py", "setup.cfg")
+"""The files of a package that say how it is built and installed."""
 MADE = "<build>"
 """The folder, below that of the source, that stands for where CMake makes files."""
 
