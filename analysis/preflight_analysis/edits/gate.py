@@ -22,6 +22,7 @@ from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.yaml import parse_yaml, span_of
 from preflight_analysis.edits.edit import Edit, applied, by_file
+from preflight_analysis.environment.build import SETTINGS
 from preflight_analysis.environment.cmake_syntax import unbalanced
 from preflight_analysis.launch.python_source import PythonSource
 
@@ -29,7 +30,6 @@ RAISES = "ROS_PREFLIGHT_RAISE_REFUSED_EDITS"
 """The variable under which a refused edit raises."""
 _YAML_SUFFIXES = (".yaml", ".yml", ".rviz")
 _CMAKE = re.compile(r"(?:.*/)?CMakeLists\.txt\Z|.*\.cmake\Z")
-_INI = "setup.cfg"
 _MARKUP = re.compile("\ufeff?\\s*<")
 _log = logging.getLogger(__name__)
 
@@ -87,7 +87,7 @@ def _format(path: str, text: str) -> str | None:
         return "yaml"
     if _CMAKE.match(path):
         return "cmake"
-    if path.endswith(_INI):
+    if os.path.basename(path) == SETTINGS:
         return "ini"
     # Launch files, manifests, robot descriptions and worlds have many suffixes; all of them are XML.
     return "xml" if _MARKUP.match(text) else "yaml" if path.endswith(".launch") else None

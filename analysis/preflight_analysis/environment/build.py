@@ -11,7 +11,8 @@ from preflight_analysis.dataclass import dataclass
 
 LISTS = "CMakeLists.txt"
 """The name of a build file of CMake."""
-BUILD_FILES = (LISTS, "setup.py", "setup.cfg")
+SETUP, SETTINGS = "setup.py", "setup.cfg"
+BUILD_FILES = (LISTS, SETUP, SETTINGS)
 """The files of a package that say how it is built and installed."""
 MADE = "<build>"
 """The folder, below that of the source, that stands for where CMake makes files."""

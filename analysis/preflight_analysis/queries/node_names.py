@@ -37,7 +37,7 @@ def tags_of(context: QueryContext, tags: Iterable[Location]) -> Iterator[Locatio
     for tag in tags:
         facts = context.facts(tag.file)
         for mention in facts.mentions if facts else ():
-            if mention.kind == "node" and mention.action == tag.span:
+            if mention.entry.kind == "node" and mention.action == tag.span:
                 yield context.location(tag.file, mention.span)
 
 

@@ -10,6 +10,7 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
+from preflight_analysis.model.entry import Kind as EntryKind
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, named_at, published_at
 from preflight_analysis.queries.handed_over import is_handed_over, references_in
@@ -17,7 +18,6 @@ from preflight_analysis.queries.node_names import mentions_of, tags_of
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import Kind, NamedSymbol, annotated, own_parameter, settings_of, symbol_at
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
-from preflight_analysis.workspace import facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ def _packages(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]
 def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
         yield from _all(executable_at(context, name), declare=True)
-        yield from _mentioned(context, "executable", name)
+        yield from _mentioned(context, "program", *_parts(name))
 
 
 def executable_at(context: QueryContext, name: str) -> Iterator[Location]:
@@ -96,7 +96,7 @@ def executable_at(context: QueryContext, name: str) -> Iterator[Location]:
 def _components(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
         yield from _all(component_at(context, name), declare=True)
-        yield from _mentioned(context, "component", name)
+        yield from _mentioned(context, "component", *_parts(name))
 
 
 def component_at(context: QueryContext, name: str) -> Iterator[Location]:
@@ -157,7 +157,7 @@ def _annotations(
 
 def _variables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
-        yield from _mentioned(context, "env", name)
+        yield from _mentioned(context, "variable", name)
 
 
 def _machines(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
@@ -197,8 +197,13 @@ def made_at(context: QueryContext, what: Endpoint | ParamUse) -> Location | None
     return context.line(what.source_file, what.source_line)
 
 
-def _mentioned(context: QueryContext, kind: facts.Kind, name: str) -> Iterator[Reference]:
-    for path, mention in context.current.mentions(kind, name):
+def _parts(name: str) -> tuple[str, str]:
+    package, _, rest = name.partition("/")
+    return rest, package
+
+
+def _mentioned(context: QueryContext, kind: EntryKind, name: str, of: str = "") -> Iterator[Reference]:
+    for path, mention in context.current.mentions(kind, name, of):
         yield Reference(context.location(path, mention.span), False)
 
 

@@ -18,13 +18,12 @@ from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit, applied
 from preflight_analysis.edits.writer import writer_of
-from preflight_analysis.environment.build import LISTS
+from preflight_analysis.environment.build import LISTS, SETTINGS
 from preflight_analysis.environment.cmake_syntax import commands
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.suppression import read_suppressions
 
 _CMAKE = (LISTS, ".cmake")
-_INI = ".cfg"
 
 
 def suppress_on_line(document: Document, finding: Finding) -> Edit | None:
@@ -69,7 +68,7 @@ def _means_the_same(document: Document, text: str) -> bool:
         return before == after
     if document.path.endswith(_CMAKE):
         return commands(document.text) == commands(text)
-    if document.path.endswith(_INI):
+    if document.path.endswith(SETTINGS):
         return _options(document.text) == _options(text)
     if has_hash_comments(document.path, document.text):
         before_yaml, after_yaml = parse_yaml(document.path, document.text), parse_yaml(document.path, text)
