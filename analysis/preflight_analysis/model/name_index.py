@@ -17,7 +17,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.quoted import Program
 from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.environment.build import LISTS, SETTINGS, SETUP
+from preflight_analysis.environment.build import BUILD_FILES, LISTS, SETTINGS, SETUP
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.environment.package_files import files_in
@@ -41,7 +41,7 @@ from preflight_analysis.model.names_of_programs import names_of_program
 Files = Literal["launch", "robots", "yaml", "programs", "all"]
 _CPP = (".cpp", ".cc", ".cxx", ".hpp", ".h")
 _ROBOTS = (".xacro", ".urdf", ".srdf", ".sdf", ".world", ".gazebo")
-_RVIZ = ".rviz"
+RVIZ = ".rviz"
 _PROGRAMS = (".py", *_CPP, ".cfg", ".l", ".rs", ".js")
 _SUFFIXES: Mapping[Files, tuple[str, ...]] = {
     "robots": _ROBOTS,
@@ -93,7 +93,7 @@ def _mentions(db: Database, path: str, text: str) -> Iterator[Mention]:
         yield from names_of_setup(program) if name == SETUP else ()
     elif path.endswith(YAML_SUFFIXES):
         yield from names_of_yaml(text)
-    elif path.endswith(_RVIZ):
+    elif path.endswith(RVIZ):
         yield from names_of_rviz(text)
     elif name == LISTS:
         yield from names_of_cmake(text)
@@ -175,3 +175,16 @@ def own_folders(db: Database, environment: Environment) -> tuple[str, ...]:
     shares = {each.share for each in environment.own_packages}
     found = [share for share in sorted(shares) if os.path.dirname(share) not in shares]
     return tuple(found) if len(shares) <= _MOST_OWN else ()
+
+
+def named_in_packages(
+    db: Database, environment: Environment, kind: Kind, name: str, folders: Iterable[str] | None = None
+) -> Iterator[tuple[str, Mention]]:
+    """Where what describes and builds the packages of the workspace, or those in some folders, and their programs name
+    something, launch files left out."""
+    own = own_folders(db, environment)
+    for folder in sorted({each.share for each in environment.own_packages}) if folders is None else folders:
+        paths = [os.path.join(folder, each) for each in (MANIFEST, *BUILD_FILES)]
+        for path in dict.fromkeys((*paths, *((sources_in(db, folder) or ()) if folder in own else ()))):
+            if launch_format_on_disk(db, path) is None and any(each.text == name for each in named_in(db, path, kind)):
+                yield from ((path, m) for m in mentions_in(db, path) if m.entry[:2] == (kind, name))

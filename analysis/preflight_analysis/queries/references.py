@@ -11,6 +11,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
 from preflight_analysis.model.entry import Kind as EntryKind
+from preflight_analysis.model.name_index import RVIZ, mentions_in, named_in_packages
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, named_at, published_at
 from preflight_analysis.queries.handed_over import is_handed_over, references_in
@@ -66,12 +67,14 @@ def _packages(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]
         if (package := packages.get(name)) is not None:
             yield Reference(Location.of_file(package.manifest), True)
         yield from _mentioned(context, "package", name)
+        yield from _in_packages(context, "package", name)
 
 
 def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
         yield from _all(executable_at(context, name), declare=True)
         yield from _mentioned(context, "program", *_parts(name))
+        yield from _in_packages(context, "program", *_parts(name))
 
 
 def executable_at(context: QueryContext, name: str) -> Iterator[Location]:
@@ -97,6 +100,7 @@ def _components(context: QueryContext, symbol: NamedSymbol) -> Iterator[Referenc
     for name in symbol.names:
         yield from _all(component_at(context, name), declare=True)
         yield from _mentioned(context, "component", *_parts(name))
+        yield from _in_packages(context, "component", *_parts(name))
 
 
 def component_at(context: QueryContext, name: str) -> Iterator[Location]:
@@ -144,6 +148,15 @@ def _topics(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
         for connection, declares in connections(analysis.graph, symbol.names) if analysis.graph else ():
             if (place := made_at(context, connection.endpoint)) is not None:
                 yield Reference(place, declares)
+            if (named_by := connection.endpoint.named_by) is not None:
+                yield Reference(_value_of(context, named_by.place), declares)
+
+
+def _value_of(context: QueryContext, key: Location) -> Location:
+    """The topic that a display of RViz has behind a key; the key of anything else."""
+    behind = (m for m in mentions_in(context.workspace.sources.db, key.file) if m.span.start >= key.span.end)
+    first = min((m.span for m in behind if m.entry.kind == "topic"), default=None) if key.file.endswith(RVIZ) else None
+    return context.location(key.file, first) if first is not None else key
 
 
 def _annotations(
@@ -205,6 +218,15 @@ def _parts(name: str) -> tuple[str, str]:
 def _mentioned(context: QueryContext, kind: EntryKind, name: str, of: str = "") -> Iterator[Reference]:
     for path, mention in context.current.mentions(kind, name, of):
         yield Reference(context.location(path, mention.span), False)
+
+
+def _in_packages(context: QueryContext, kind: EntryKind, name: str, of: str = "") -> Iterator[Reference]:
+    """In what builds and describes the packages of the workspace, or the package `of` alone, and in their programs."""
+    environment, db = context.workspace.environment, context.workspace.sources.db
+    folders = [environment.packages[of].share] if of in environment.packages else [] if of else None
+    for path, mention in named_in_packages(db, environment, kind, name, folders):
+        declares = mention.entry.role == "declares" and kind != "component"
+        yield Reference(context.location(path, mention.span), declares)
 
 
 def _all(places: Iterable[Location], *, declare: bool = False) -> Iterator[Reference]:
