@@ -186,22 +186,22 @@ def _in_values(context: QueryContext, tree: LaunchTree, wanted: frozenset[str]) 
                 continue
             full = names.resolve(value, owner.name)
             if full in wanted:
-                place = _value_place(context, param, value)
+                place = value_at(context, param.place, value)
                 found = _part(value, full, full) if place is not None else None
                 at = place or param.place
                 yield NodeMention(full, at, _moved(found, at.span.start))
 
 
-def _value_place(context: QueryContext, param: Param, value: str) -> Location | None:
-    """Where the value of a parameter has a text, if it is certain that this is it."""
-    document = context.document(param.place.file)
-    place = value_place(param.place, value, document)
+def value_at(context: QueryContext, key: Location, value: str) -> Location | None:
+    """Where the value of a parameter, of which the name is at `key`, has a text, if it is certain that this is it."""
+    document = context.document(key.file)
+    place = value_place(key, value, document)
     if place is None or document is None or context.text(place) != value:
         return None
     launch_file = context.launch_file(place.file) if place.file in context.current.files else None
-    action = action_at(launch_file, param.place.span.start) if launch_file is not None else None
+    action = action_at(launch_file, key.span.start) if launch_file is not None else None
     if is_python(document.path, document.text):
-        return place if _LISTED.fullmatch(document.text, param.place.span.end, place.span.start) else None
+        return place if _LISTED.fullmatch(document.text, key.span.end, place.span.start) else None
     return place if launch_file is None or (action and action.head_span.contains(place.span.start)) else None
 
 

@@ -149,14 +149,14 @@ def _topics(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
             if (place := made_at(context, connection.endpoint)) is not None:
                 yield Reference(place, declares)
             if (named_by := connection.endpoint.named_by) is not None:
-                yield Reference(_value_of(context, named_by.place), declares)
+                yield Reference(displayed_at(context, named_by.place) or named_by.place, declares)
 
 
-def _value_of(context: QueryContext, key: Location) -> Location:
-    """The topic that a display of RViz has behind a key; the key of anything else."""
+def displayed_at(context: QueryContext, key: Location) -> Location | None:
+    """The topic that a display of RViz has behind a key; None of other files."""
     behind = (m for m in mentions_in(context.workspace.sources.db, key.file) if m.span.start >= key.span.end)
     first = min((m.span for m in behind if m.entry.kind == "topic"), default=None) if key.file.endswith(RVIZ) else None
-    return context.location(key.file, first) if first is not None else key
+    return context.location(key.file, first) if first is not None else None
 
 
 def _annotations(
