@@ -76,10 +76,6 @@ class Mention(NamedTuple):
     span: Span
     action: Span
 
-    def moved(self, by: int) -> Mention:
-        """The same where the text in front of it has become longer by so many characters."""
-        return Mention(self.entry, self.span.moved(by), self.action.moved(by))
-
 
 def mention(start: int, end: int, entry: Entry) -> Mention:
     """One outside of tags."""

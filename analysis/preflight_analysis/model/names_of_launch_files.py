@@ -49,8 +49,8 @@ _IN_TEXTS: tuple[tuple[str, re.Pattern[str], Kind], ...] = (
 
 def names_of_launch_file(file: LaunchFile) -> Iterator[Mention]:
     """Those of its tags and substitutions, with their places."""
-    if file.root is not None:
-        yield from file.root.gather(_of_action, file.generation, file.named is None)
+    for action in file.root.walk() if file.root is not None else ():
+        yield from _of_action(action, file.generation, file.named is None)
     for part in file.named or ():
         yield from _of_substitution(part, Span(0, 0))
 
