@@ -66,6 +66,11 @@ def generate_launch_description():
                 "include $(find arm)/launch/a.launch",
             },
         ),
+        (
+            "b.launch.xml",
+            '<launch><executable cmd="$(exec-in-pkg driver arm)"/></launch>',
+            {"program driver arm", "package arm"},
+        ),
         ("a.rviz", RVIZ, {"topic /scan use", "topic /map use", "frame odom use"}),
         (
             "CMakeLists.txt",

@@ -21,6 +21,8 @@ _ARGUMENT = re.compile(r"[\w./-]+")
 _ARGUMENTS = ("arg", "let")
 _FIXED = ("find", "find-pkg-share", "dirname")
 """Substitutions that give the same in every launch."""
+_IN_PACKAGE = "exec-in-pkg"
+_WORD = re.compile(r"\S+")
 _REMAPS = ("remap", "set_remap")
 _CONTAINERS = ("target", "target_container")
 _OF_VALUE: Mapping[ValueKind, tuple[Kind, str]] = {
@@ -53,6 +55,21 @@ def names_of_launch_file(file: LaunchFile) -> Iterator[Mention]:
         yield from _of_action(action, file.generation, file.named is None)
     for part in file.named or ():
         yield from _of_substitution(part, Span(0, 0))
+
+
+def packages_of_launch_file(file: LaunchFile) -> Iterator[tuple[str, Span]]:
+    """The packages among them: a tag that only moves is not looked at again."""
+    yield from file.root.gather(_packages_of, file.generation, file.named is None) if file.root is not None else ()
+    for part in file.named or ():
+        yield from _packages_among(_of_substitution(part, Span(0, 0)))
+
+
+def _packages_of(action: Action, generation: int, substitutions: bool) -> Iterator[tuple[str, Span]]:
+    return _packages_among(_of_action(action, generation, substitutions))
+
+
+def _packages_among(found: Iterable[Mention]) -> Iterator[tuple[str, Span]]:
+    return ((each.entry.text, each.span) for each in found if each.entry.kind == "package")
 
 
 def entries_of_launch_file(file: LaunchFile) -> Iterable[Entry]:
@@ -139,6 +156,11 @@ def _of_substitutions(value: Value, tag: Span) -> Iterator[Mention]:
 
 def _of_substitution(part: Substitution, tag: Span) -> Iterator[Mention]:
     name, span = first_word(part)
+    if part.command == _IN_PACKAGE and len(words := [*_WORD.finditer(part.arguments)]) > 1:
+        start, program, package = part.arguments_span.start, words[0][0], words[1][0]
+        places = [Span(start + word.start(), start + word.end()) for word in words]
+        yield Mention(Entry("program", program, of=package), places[0], tag)
+        yield Mention(Entry("package", package), places[1], tag)
     if part.command == COMPONENT:
         package, _, cls = name.partition("/")
         yield Mention(Entry("component", cls, of=package), span, tag)
