@@ -5,7 +5,7 @@ Restricted Damerau-Levenshtein distance: letters that are missing, too many, oth
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
@@ -22,7 +22,7 @@ def closest(name: str, others: Iterable[str]) -> list[str]:
     return [other for other, each in found.items() if each == min(found.values())]
 
 
-def within(name: str, others: Iterable[str], most: int, limit: int) -> list[str]:
+def within(name: str, others: Sequence[str], most: int, limit: int) -> list[str]:
     """Others that are at most so many edits away, at most `limit`, the nearest first: among many thousands in little
     time."""
     found = process.extract(name, others, scorer=OSA.distance, score_cutoff=most, limit=limit)
