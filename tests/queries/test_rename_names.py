@@ -99,6 +99,8 @@ SHOWN = """
       Displays:
         - {Class: rviz_default_plugins/LaserScan, Enabled: true, Name: /front/scan, Topic: {Value: /front/scan}}
         - {Class: rviz_default_plugins/LaserScan, Enabled: true, Name: B, Topic: {Value: /back/scan}}
+        - {Class: rviz_default_plugins/LaserScan, Enabled: false, Name: C, Topic: {Value: "/front/scan"}}
+        - {Class: rviz_default_plugins/LaserScan, Enabled: false, Name: D, Topic: {Value: scan}}
     //- interfaces
     {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"}}}
 """
@@ -107,7 +109,9 @@ SHOWN = """
 def test_a_topic_that_rviz_shows(tmp_path: Path) -> None:
     texts = renamed(tmp_path, SHOWN.replace("      PARAM\n", ""), "/front/scan_raw", "ament_cmake")
     assert 'to="/front/scan_raw"' in texts["main.launch"]
-    assert texts["p/a.rviz"].endswith("Name: /front/scan, Topic: {Value: /front/scan_raw}}")
+    first, second = texts["p/a.rviz"].split("\n")
+    assert first.endswith("Name: /front/scan, Topic: {Value: /front/scan_raw}}")
+    assert second.endswith('Name: C, Topic: {Value: "/front/scan_raw"}}')
 
 
 def test_a_topic_that_rviz_shows_in_another_launch(tmp_path: Path) -> None:

@@ -149,14 +149,15 @@ def _topics(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
             if (place := made_at(context, connection.endpoint)) is not None:
                 yield Reference(place, declares)
             if (named_by := connection.endpoint.named_by) is not None:
-                yield Reference(displayed_at(context, named_by.place) or named_by.place, declares)
+                shown = tuple(displayed_at(context, named_by.place.file, connection.endpoint.name))
+                yield from _all(shown or (named_by.place,), declare=declares)
 
 
-def displayed_at(context: QueryContext, key: Location) -> Location | None:
-    """The topic that a display of RViz has behind a key; None of other files."""
-    behind = (m for m in mentions_in(context.workspace.sources.db, key.file) if m.span.start >= key.span.end)
-    first = min((m.span for m in behind if m.entry.kind == "topic"), default=None) if key.file.endswith(RVIZ) else None
-    return context.location(key.file, first) if first is not None else None
+def displayed_at(context: QueryContext, config: str, topic: str) -> Iterator[Location]:
+    """Where a configuration of RViz names a topic."""
+    for entry, span, _ in mentions_in(context.workspace.sources.db, config) if config.endswith(RVIZ) else ():
+        if entry.kind == "topic" and entry.text == topic:
+            yield context.location(config, span)
 
 
 def _annotations(

@@ -167,34 +167,33 @@ def _named_by_values(
         raise RenameRefusedError("The nodes of this launch are not analysed yet")
     for connection, _ in connections(analysis.graph, frozenset(renamed)):
         if connection.remap is None and not connection.endpoint.builtin:
-            value = _value_of(context, analysis.tree, connection)
-            if value is None:
+            values = _values_of(context, analysis.tree, connection)
+            if not values:
                 place = made_at(context, connection.endpoint) or connection.node.location
                 raise RenameRefusedError(
                     f"{connection.node.name} uses '{connection.name}' without a remap, at {shown(context, place)}"
                 )
-            yield value, (connection.node.name, connection.name)
+            yield from ((value, (connection.node.name, connection.name)) for value in values)
     for old, new in renamed.items() if checks_new else ():
         if old != new and (met := next(connections(analysis.graph, frozenset({new})), None)) is not None:
             raise RenameRefusedError(f"'{new}' exists already: {met[0].node.name} uses it")
 
 
-def _value_of(context: QueryContext, tree: LaunchTree, connection: Connection) -> Location | None:
-    """The value that names an endpoint, if it does so for that node alone and no other launch reads it."""
-    named_by = connection.endpoint.named_by
-    if named_by is None:
-        return None
+def _values_of(context: QueryContext, tree: LaunchTree, connection: Connection) -> tuple[Location, ...]:
+    """The values that name an endpoint, if they do so for that node alone and no other launch reads them."""
+    named_by, name = connection.endpoint.named_by, connection.endpoint.name
     known = {analysis.launch for analysis in context.analyses}
-    if not known.issuperset(context.current.roots_touching(named_by.place.file)):
-        return None
+    if named_by is None or not known.issuperset(context.current.roots_touching(named_by.place.file)):
+        return ()
     if named_by.display:
-        return displayed_at(context, named_by.place)
+        return tuple(displayed_at(context, named_by.place.file, name))
     owners = {node.name for node in tree.nodes if any(param.place == named_by.place for param in node.params)}
     private = f"{connection.node.name}/"
     shared = [name for name, param in tree.params.items() if param.place == named_by.place]
     if owners - {connection.node.name} or not all(name.startswith(private) for name in shared):
-        return None
-    return value_at(context, named_by.place, connection.endpoint.name)
+        return ()
+    place = value_at(context, named_by.place, name)
+    return (place,) if place is not None else ()
 
 
 def _reached(trees: Iterable[LaunchTree], renamed: Mapping[str, str]) -> Mapping[Location, list[tuple[str, str]]]:
