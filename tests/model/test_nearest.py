@@ -1,5 +1,7 @@
 """Which names count as near."""
 
+from collections.abc import Callable
+
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -27,6 +29,90 @@ from preflight_analysis.model.nearest import is_word_more, likeness, nearest
 )
 def test_nearest(name: str, candidates: list[str], expected: str | None) -> None:
     assert nearest(name, candidates) == expected
+
+
+SORTS = {
+    "topic": ("/front/scan_raw", ["/front/imu", "/odom"]),
+    "node": ("/robot/map_server", ["/robot/amcl", "/rviz"]),
+    "parameter": ("max_velocity", ["rate", "base_frame"]),
+    "file": ("front_camera.launch", ["drive.launch", "maps.launch"]),
+    "argument": ("robot_name", ["rviz", "use_sim_time"]),
+    "package": ("arm_bringup", ["leg_description", "nav2_amcl"]),
+    "executable": ("lidar_driver", ["talker", "map_saver_cli"]),
+    "frame": ("front/base_footprint", ["odom", "front/laser"]),
+}
+"""A name of each sort, and others beside it."""
+
+
+def _of_leaf(name: str, change: Callable[[str], str]) -> str:
+    above, _, leaf = name.rpartition("/")
+    leaf, dot, suffix = leaf.partition(".")
+    return f"{above}/{change(leaf)}{dot}{suffix}".removeprefix("" if "/" in name else "/")
+
+
+def _words(leaf: str) -> list[str]:
+    return leaf.split("_")
+
+
+SLIPS: dict[str, Callable[[str], str]] = {
+    "a letter is missing": lambda leaf: leaf[:2] + leaf[3:],
+    "a letter too many": lambda leaf: leaf[:2] + leaf[1:],
+    "two letters are swapped": lambda leaf: leaf[:2] + leaf[3] + leaf[2] + leaf[4:],
+    "two letters": lambda leaf: leaf[:1] + leaf[2:-2] + leaf[-1:],
+    "another order": lambda leaf: "_".join(reversed(_words(leaf))),
+    "another order, in camel case": lambda leaf: "".join(word.capitalize() for word in reversed(_words(leaf))),
+    "camel case": lambda leaf: "".join(word.capitalize() for word in _words(leaf)),
+    "no underscore": lambda leaf: leaf.replace("_", ""),
+    "dash": lambda leaf: leaf.replace("_", "-"),
+    "plural": lambda leaf: f"{leaf}s",
+    "plural of the first word": lambda leaf: "s_".join(_words(leaf)),
+    "shortened": lambda leaf: "_".join(word[:3] for word in _words(leaf)),
+    "a number": lambda leaf: f"{leaf}1",
+}
+
+
+@pytest.mark.parametrize("sort", SORTS)
+@pytest.mark.parametrize("slip", SLIPS)
+def test_each_slip_of_each_sort_of_name(slip: str, sort: str) -> None:
+    name, others = SORTS[sort]
+    written = _of_leaf(name, SLIPS[slip])
+    assert written != name
+    assert nearest(written, [*others, name]) == name
+
+
+@pytest.mark.parametrize(
+    ("written", "name"),
+    [
+        ("front/scan_raw", "/front/scan_raw"),
+        ("/front/scan_raw/", "/front/scan_raw"),
+        ("/scan_raw", "/front/scan_raw"),
+        ("/robot/front/scan_raw", "/front/scan_raw"),
+        ("/front/lidar/scan_raw", "/front/scan_raw"),
+        ("/rear/scan_raw", "/front/scan_raw"),
+        ("/camera_1/scan_raw", "/camera_2/scan_raw"),
+        ("/base/max_velocity", "/drive/max_velocity"),
+        ("base_footprint", "front/base_footprint"),
+    ],
+)
+def test_slashes_levels_namespaces_and_numbers(written: str, name: str) -> None:
+    others = ["/front/imu", "/odom", "/scan"]
+    assert nearest(written, [*others, name]) == name
+    assert nearest(name, [*others, written]) == written
+
+
+@pytest.mark.parametrize(
+    ("written", "candidates"),
+    [
+        ("/scan_raw", ["/front/scan_raw", "/rear/scan_raw"]),
+        ("/left/rear/scan_raw", ["/front/upper/scan_raw"]),
+        ("/scan_raw", ["/a/b/scan_raw"]),
+        ("scan_raw", ["scan_filtered"]),
+        ("name_of_robot", ["robot_name"]),
+        ("s", ["t"]),
+    ],
+)
+def test_what_is_no_slip(written: str, candidates: list[str]) -> None:
+    assert nearest(written, candidates) is None
 
 
 @pytest.mark.parametrize(

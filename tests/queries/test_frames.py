@@ -61,6 +61,23 @@ def test_definition_and_references(tmp_path: Path, number: int, place: str) -> N
     assert ("main.launch:6 base" in found) == (number == 3)
 
 
+def test_a_configuration_of_rviz(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="tf2_ros" type="static_transform_publisher" name="s" args="0 0 1 0 0 0 $0map odom"/>
+          <node pkg="rviz" type="rviz" name="rviz" args="-d {folder}/a.rviz"/>
+        </launch>
+        //- a.rviz
+        Visualization Manager:
+          Global Options: {Fixed Frame: map}
+          Tools: [{Reference Frame: odom}]
+        """
+    workspace = create_workspace(tmp_path, text)
+    found = [workspace.shown(each.location) for each in references(workspace.context, workspace.offset)]
+    assert "a.rviz:2 map" in found
+    assert not [each for each in found if each.endswith("odom")]
+
+
 def test_a_parameter_file(tmp_path: Path) -> None:
     text = """
         <launch>

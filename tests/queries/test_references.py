@@ -8,9 +8,9 @@ from preflight_analysis.queries.references import references
 from support.workspace_harness import create_workspace
 
 
-def referred(tmp_path: Path, text: str) -> list[str]:
+def referred(tmp_path: Path, text: str, build_type: str | None = None) -> list[str]:
     """Where the thing at the cursor is named; declarations have a star."""
-    workspace = create_workspace(tmp_path, text)
+    workspace = create_workspace(tmp_path, text, build_type=build_type)
     return [
         workspace.shown(r.location) + ("*" if r.declares else "")
         for r in references(workspace.context, workspace.offset)
@@ -172,6 +172,89 @@ def test_package_and_executable(tmp_path: Path) -> None:
         "main.launch:2 talker.py",
         "other.launch:3 talker.py",
         "p/scripts/talker.py:1*",
+    ]
+
+
+BUILT = """
+    <launch>
+      <node pkg="%sp" exec="dri%sver" name="driver"/>
+      <node_container pkg="p" exec="driver" name="c" namespace="">
+        <composable_node pkg="p" plugin="p::Dri%sver" name="d"/>
+      </node_container>
+    </launch>
+    //- p/package.xml
+    <package format="3">
+      <name>p</name>
+      <depend>rclcpp</depend>
+    </package>
+    //- p/CMakeLists.txt
+    project(p)
+    find_package(rclcpp REQUIRED)
+    add_executable(driver src/a.cpp)
+    rclcpp_components_register_nodes(lib "p::Driver")
+    ament_target_dependencies(driver p)
+    //- p/src/a.cpp
+    auto share = ament_index_cpp::get_package_share_directory("p");
+    auto name = "driver";
+"""
+
+
+def test_what_builds_and_describes_a_package(tmp_path: Path) -> None:
+    found = [referred(tmp_path / str(n), BUILT % tuple("$0" if n == m else "" for m in range(3)), "ament_cmake")
+             for n in range(3)]  # fmt: skip
+    assert found == [
+        [
+            "main.launch:2 p",
+            "main.launch:3 p",
+            "main.launch:4 p",
+            "p/CMakeLists.txt:5 p",
+            "p/package.xml:1*",
+            "p/package.xml:2 p*",
+            "p/src/a.cpp:1 p",
+        ],
+        ["main.launch:2 driver", "main.launch:3 driver", "p/CMakeLists.txt:3 driver*", "p/src/a.cpp:1*"],
+        ["main.launch:4 p::Driver", "p/CMakeLists.txt:4 p::Driver"],
+    ]
+
+
+def test_an_entry_point(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="p" exec="dri$0ver" name="driver"/>
+        </launch>
+        //- p/package.xml
+        <package format="3"><name>p</name></package>
+        //- p/setup.py
+        setup(entry_points={'console_scripts': ['driver = p.driver:main']})
+        //- p/p/driver.py
+        def main():
+            print("driver = p:main")
+        """
+    assert referred(tmp_path, text, "ament_python") == [
+        "main.launch:2 driver",
+        "p/p/driver.py:1 def main():*",
+        "p/setup.py:1 driver*",
+    ]
+
+
+def test_a_topic_in_a_configuration_of_rviz(tmp_path: Path) -> None:
+    text = """
+        <launch>
+          <node pkg="p" exec="laser" name="laser"><remap from="scan" to="/front/s$0can"/></node>
+          <node pkg="rviz2" exec="rviz2" name="rviz" args="-d {folder}/p/a.rviz"/>
+        </launch>
+        //- p/a.rviz
+        Visualization Manager:
+          Displays:
+            - {Class: rviz_default_plugins/LaserScan, Enabled: true, Name: A, Topic: {Depth: 5, Value: /front/scan}}
+            - {Class: rviz_default_plugins/LaserScan, Enabled: true, Name: B, Topic: {Value: /back/scan}}
+        //- interfaces
+        {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"}}}
+        """
+    assert referred(tmp_path, text, "ament_cmake") == [
+        "main.launch:2 scan",
+        "main.launch:2 /front/scan",
+        "p/a.rviz:3 /front/scan",
     ]
 
 

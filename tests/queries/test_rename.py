@@ -110,6 +110,49 @@ def test_one_include_of_several_files(tmp_path: Path) -> None:
     assert sorted(texts) == ["a.xml", "b.xml", "main.launch"]
 
 
+MANAGED = """
+    <launch>
+      <node pkg="nav2_map_server" exec="map_server" name="map_s$0erver"/>
+      <node pkg="nav2_amcl" exec="amcl" name="amcl"/>
+      <node pkg="nav2_lifecycle_manager" exec="lifecycle_manager" name="manager">
+        PARAM
+      </node>
+    </launch>
+    //- m.yaml
+    manager:
+      ros__parameters:
+        node_names: ['map_server', "amcl"]
+        bond_timeout: 0.0  # of map_server
+"""
+
+
+@pytest.mark.parametrize(
+    ("param", "file", "after"),
+    [
+        ('<param name="node_names" value="[map_server, amcl]"/>', "main.launch", 'value="[maps, amcl]"'),
+        (
+            '<param from="{folder}/m.yaml"/>',
+            "m.yaml",
+            "node_names: ['maps', \"amcl\"]\n    bond_timeout: 0.0  # of map_s",
+        ),
+        ('<param name="node_names"><param name="x" value="map_server"/></param>', "main.launch", 'value="map_server"'),
+    ],
+)
+def test_a_node_whose_lifecycle_another_one_manages(tmp_path: Path, param: str, file: str, after: str) -> None:
+    texts = renamed(tmp_path, MANAGED.replace("PARAM", param), "maps", "ament_cmake")
+    assert 'exec="map_server" name="maps"' in texts["main.launch"]
+    assert after in texts[file]
+
+
+def test_a_managed_node_whose_name_is_made_up(tmp_path: Path) -> None:
+    text = MANAGED.replace("PARAM", '<param name="node_names" value="[$(var which), amcl]"/>').replace(
+        "<launch>", '<launch>\n      <arg name="which" default="map_server"/>'
+    )
+    assert refused(tmp_path, text, "maps", build_type="ament_cmake") == (
+        "The value at main.launch:6 contains the node's name by a substitution: rename it by hand"
+    )
+
+
 @pytest.mark.parametrize("new", ["", "a b", "1x", "a-b", "~x", "a/b", "ä", "_x", "true", "lambda", "pi"])
 def test_names_that_are_none_for_an_argument(tmp_path: Path, new: str) -> None:
     assert f"'{new}' is not a valid argument name" in refused(tmp_path, '<launch><arg name="$0x"/></launch>', new)

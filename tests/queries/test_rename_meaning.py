@@ -15,10 +15,10 @@ from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.problems import DuplicateNode
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.model.entry import Kind, Mention
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.rename import RenameRefusedError, rename
 from preflight_analysis.workspace.commands import CommandResults
-from preflight_analysis.workspace.facts import Kind, Mention
 from preflight_analysis.workspace.index import Root, WorkspaceIndex
 from preflight_analysis.workspace.indexing import build_index
 from preflight_analysis.workspace.sources import Sources
@@ -61,7 +61,7 @@ def renames(
 ) -> Iterator[tuple[str, Mention, tuple[Edit, ...]]]:
     """Each mention of these kinds: its file, itself, and what renames it."""
     for path, facts in index.files.items():
-        for mention in (m for m in facts.mentions if m.kind in kinds):
+        for mention in (m for m in facts.mentions if m.entry.kind in kinds):
             analyses = tuple(workspace.static(root.path, dict(root.args)) for root in index.roots_of(path))
             try:
                 edits = rename(QueryContext(path, analyses, index, workspace), mention.span.start, NEW)
@@ -128,9 +128,9 @@ def test_arguments(tmp_path: Path) -> None:
         index = index_of(workspace, tmp_path / case.stem)
         roots = tuple(index.entries)
         before = after(workspace, roots, ())
-        for path, mention, edits in renames(workspace, index, "arg-declaration", "arg-use", "arg-passed"):
+        for path, mention, edits in renames(workspace, index, "argument"):
             now = after(workspace, roots, edits)
-            assert without(mention.name, now) == without(mention.name, before), (case.name, path, mention)
+            assert without(mention.entry.text, now) == without(mention.entry.text, before), (case.name, path, mention)
             done += 1
     assert done > 60
 
@@ -143,9 +143,14 @@ def test_arguments_of_ros2(tmp_path: Path) -> None:
         index = index_of(workspace, folder)
         roots = tuple(index.entries)
         before = after(workspace, roots, ())
-        for path, mention, edits in renames(workspace, index, "arg-declaration", "arg-use", "arg-passed"):
+        for path, mention, edits in renames(workspace, index, "argument"):
             now = after(workspace, roots, edits)
-            assert without(mention.name, now) == without(mention.name, before), (number, path, mention, edits)
+            assert without(mention.entry.text, now) == without(mention.entry.text, before), (
+                number,
+                path,
+                mention,
+                edits,
+            )
             done += 1
     assert done > 100
 
@@ -171,7 +176,7 @@ def nodes_renamed(workspace: Workspace, index: WorkspaceIndex, case: str) -> int
     done, roots = 0, tuple(index.entries)
     before = after(workspace, roots, ())
     for path, mention, edits in renames(workspace, index, "node"):
-        if not mention.name.isidentifier():
+        if not mention.entry.text.isidentifier():
             continue  # the rename mends it
         tags = {(e.location.file, e.location.span.start) for e in edits}
         for was, now in zip(before, after(workspace, roots, edits), strict=True):
@@ -179,7 +184,7 @@ def nodes_renamed(workspace: Workspace, index: WorkspaceIndex, case: str) -> int
                 continue  # the rename mends it
             spans = [(n, n.tag.span_of(attribute)) for n in was.nodes for attribute in ("name", "test-name")]
             own = [n for n, span in spans if span is not None and (n.location.file, span.start) in tags]
-            own = [n for n in own if names.leaf(n.name) == mention.name and names.is_legal(n.name)]
+            own = [n for n in own if names.leaf(n.name) == mention.entry.text and names.is_legal(n.name)]
             new = {node.name: names.parent(node.name) + NEW for node in own}
             assert started(now, {}) == started(was, new), (case, path, mention, edits)
             done += bool(own)
@@ -200,8 +205,8 @@ def params_renamed(workspace: Workspace, index: WorkspaceIndex, case: str) -> in
     """How many renames of parameters changed nothing else."""
     done, roots = 0, tuple(index.entries)
     before = after(workspace, roots, ())
-    for path, mention, edits in renames(workspace, index, "param"):
-        leaf = re.split(r"[/~.]", mention.name)[-1]
+    for path, mention, edits in renames(workspace, index, "parameter"):
+        leaf = re.split(r"[/~.]", mention.entry.text)[-1]
         for was, now in zip(before, after(workspace, roots, edits), strict=True):
             assert renamed_back(now, leaf) == renamed_back(was, leaf), (case, path, mention, edits)
             done += 1

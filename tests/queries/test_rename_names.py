@@ -88,6 +88,52 @@ def test_a_topic_that_is_left_alone(tmp_path: Path, before: str, after: str, mes
     assert message in refused(tmp_path, text)
 
 
+SHOWN = """
+    <launch>
+      <node pkg="p" exec="laser" name="laser"><remap from="scan" to="/front/s$0can"/></node>
+      <node pkg="rviz2" exec="rviz2" name="rviz" args="-d {folder}/p/a.rviz"/>
+      PARAM
+    </launch>
+    //- p/a.rviz
+    Visualization Manager:
+      Displays:
+        - {Class: rviz_default_plugins/LaserScan, Enabled: true, Name: /front/scan, Topic: {Value: /front/scan}}
+        - {Class: rviz_default_plugins/LaserScan, Enabled: true, Name: B, Topic: {Value: /back/scan}}
+        - {Class: rviz_default_plugins/LaserScan, Enabled: false, Name: C, Topic: {Value: "/front/scan"}}
+        - {Class: rviz_default_plugins/LaserScan, Enabled: false, Name: D, Topic: {Value: scan}}
+    //- interfaces
+    {"/laser": {"publishers": {"scan": "sensor_msgs/msg/LaserScan"}}}
+"""
+
+
+def test_a_topic_that_rviz_shows(tmp_path: Path) -> None:
+    texts = renamed(tmp_path, SHOWN.replace("      PARAM\n", ""), "/front/scan_raw", "ament_cmake")
+    assert 'to="/front/scan_raw"' in texts["main.launch"]
+    first, second = texts["p/a.rviz"].split("\n")
+    assert first.endswith("Name: /front/scan, Topic: {Value: /front/scan_raw}}")
+    assert second.endswith('Name: C, Topic: {Value: "/front/scan_raw"}}')
+
+
+def test_a_topic_that_rviz_shows_in_another_launch(tmp_path: Path) -> None:
+    rviz = '<node pkg="rviz2" exec="rviz2" name="rviz" args="-d {folder}/p/a.rviz"/>'
+    other = f"//- other.launch\n    <launch>{rviz}</launch>\n    //- interfaces"
+    text = SHOWN.replace("      PARAM\n", "").replace("//- interfaces", other)
+    workspace = create_workspace(tmp_path, text, build_type="ament_cmake")
+    with pytest.raises(RenameRefusedError) as why:
+        rename(workspace.context, workspace.offset, "/front/scan_raw")
+    assert str(why.value).startswith("/rviz uses '/front/scan' without a remap, at main.launch:3")
+
+
+AMCL = '<node pkg="nav2_amcl" exec="amcl" name="amcl"><param name="scan_topic" value="VALUE"/></node>'
+
+
+@pytest.mark.parametrize("value", ["/front/scan", "front/scan"])
+def test_a_topic_that_a_parameter_names(tmp_path: Path, value: str) -> None:
+    text = SHOWN.replace("PARAM", AMCL.replace("VALUE", value))
+    found = renamed(tmp_path, text, "/front/scan_raw", "ament_cmake")["main.launch"]
+    assert f'<param name="scan_topic" value="{value}_raw"/>' in found
+
+
 def test_a_topic_name_that_is_none(tmp_path: Path) -> None:
     assert "is not a topic name" in refused(tmp_path, REMAPS % "", "5 words")
 

@@ -100,6 +100,7 @@ def test_a_component_leads_to_its_class(tmp_path: Path) -> None:
     assert [workspace.shown(each.location) for each in references(workspace.context, workspace.offset)] == [
         "main.launch.xml:3 p::Filter",
         "main.launch.xml:6 p::Filter",
+        "p/CMakeLists.txt:3 p::Filter",
         "p/src/filter.hpp:3 class Filter : public rclcpp::Node {",
     ]
 
@@ -231,6 +232,7 @@ def test_a_component_in_python_is_found_without_a_run(tmp_path: Path) -> None:
     assert [workspace.shown(each.location) for each in references(workspace.context, workspace.offset)] == [
         "main.launch.py:7 p::Filter",
         "other.launch.xml:2 p::Filter",
+        "p/CMakeLists.txt:3 p::Filter",
         made,
     ]
 
@@ -243,7 +245,11 @@ def test_a_component_in_python_is_described_once_the_file_was_run(tmp_path: Path
 
 def test_the_function_of_an_executable_is_among_its_references(tmp_path: Path) -> None:
     text = '//- main.launch.xml\n<launch>\n  <node pkg="p" exec="tal$0ker" name="a"/>\n</launch>\n' + PACKAGE
-    assert named_at(tmp_path, text) == ["main.launch.xml:2 talker", "p/p/talker.py:9 def start():"]
+    assert named_at(tmp_path, text) == [
+        "main.launch.xml:2 talker",
+        "p/p/talker.py:9 def start():",
+        "p/setup.py:2 talker",
+    ]
 
 
 def test_what_stands_beside_a_parameter_file_in_python_is_not_its_package(tmp_path: Path) -> None:

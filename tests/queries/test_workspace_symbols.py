@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from preflight_analysis.queries.workspace_symbols import LIMIT, workspace_symbols
+from pathlib import Path
+
+from preflight_analysis.queries.workspace_symbols import LIMIT, executables, workspace_symbols
 from preflight_analysis.workspace.facts import FileFacts
 from preflight_analysis.workspace.index import NodeEntry, Root, RootEntry, WorkspaceIndex
 from support.locations import location
+from support.workspace_harness import create_workspace
 
 
 def index_of(*names: str, files: tuple[str, ...] = ("/w/p/launch/main.launch",)) -> WorkspaceIndex:
@@ -31,6 +34,23 @@ def test_letters_in_their_order() -> None:
 def test_nodes_say_what_runs_and_files_where_they_are() -> None:
     node, file = (workspace_symbols(index_of("/talker"), (), "/w", query) for query in ("talker", "main"))
     assert [(s.kind, s.container) for s in (*node, *file)] == [("node", "p/t.py"), ("launch", "p/launch")]
+
+
+def test_executables_that_packages_make(tmp_path: Path) -> None:
+    workspace = create_workspace(
+        tmp_path,
+        """
+        <launch>$0</launch>
+        //- p/CMakeLists.txt
+        add_executable(lidar_driver src/a.cpp)
+        """,
+        build_type="ament_cmake",
+    )
+    context = workspace.context
+    symbols = workspace_symbols(context.current, (), str(tmp_path), "driver", executables(context))
+    assert [(each.name, each.kind, each.container) for each in symbols] == [("lidar_driver", "executable", "p")]
+    assert workspace.shown(symbols[0].location) == "p/CMakeLists.txt:1 lidar_driver"
+    assert workspace_symbols(context.current, (), str(tmp_path), "camera", executables(context)) == ()
 
 
 def test_many_nodes_are_too_many_to_be_read() -> None:

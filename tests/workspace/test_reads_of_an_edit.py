@@ -98,8 +98,8 @@ def test_an_edit_of_a_launch_file_looks_into_no_package_anew(tmp_path: Path, mon
 
     monkeypatch.setattr(Database, "_execute", noted)
     assert "PKG004" in {finding.rule for finding in workspace.analysed(path).findings}
-    assert "_said_of" in made
+    assert "said_of_package" in made
     made.clear()
     sources.open(path, f"{text}\n")
     workspace.analysed(path)
-    assert "_analysed" in made and "_said_of" not in made
+    assert "_analysed" in made and "said_of_package" not in made

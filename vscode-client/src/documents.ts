@@ -22,16 +22,20 @@ export const launchFiles: readonly LanguageFilter[] = [
   { scheme: "file", language: "python", pattern: "**/launch/**/*.py" },
 ];
 
+/** What says how a package is built: what is wrong there is shown once the server has started. */
+const buildFiles = { scheme: "file", pattern: "**/{CMakeLists.txt,setup.py,setup.cfg}" };
+
 /** Robot descriptions, which start the server too. Extensions call their language `xml`, `xacro` or `urdf`. */
 const robotDescriptions = { scheme: "file", pattern: "**/*.{xacro,urdf,srdf}" };
 
 /**
- * The documents that the server is told of: launch files, and what they may hand to their nodes. Which YAML is a
+ * The documents that the server is told of: launch files, what they may hand to their nodes, and build files. Which YAML is a
  * parameter file, and which XML a behavior tree, the server knows; all other it leaves alone.
  */
 export const servedFiles: readonly LanguageFilter[] = [
   ...launchFiles,
   robotDescriptions,
+  buildFiles,
   { scheme: "file", language: "yaml" },
   { scheme: "file", language: "xml" },
 ];

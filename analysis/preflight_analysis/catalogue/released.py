@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
-from rapidfuzz import process
-from rapidfuzz.distance import OSA
+from preflight_analysis.slips import within
 
 DISTRIBUTIONS: Mapping[int, Mapping[str, str]] = {
     1: {"indigo": "I", "kinetic": "K", "melodic": "M", "noetic": "N"},
@@ -59,8 +58,7 @@ def in_debian(name: str) -> str | None:
 @lru_cache(maxsize=1024)
 def nearest_released(name: str, generation: int, edits: int) -> tuple[str, ...]:
     """The packages of a generation, in whichever distribution, that are at most so many edits away; nearest first."""
-    near = process.extract(name, _names(generation), scorer=OSA.distance, score_cutoff=edits, limit=4)
-    return tuple(found for found, distance, _ in near if distance)
+    return tuple(within(name, _names(generation), edits, 4))
 
 
 @lru_cache(maxsize=2)

@@ -1,4 +1,4 @@
-"""`# preflight: ...` in YAML and Python: what a comment of an XML file says there."""
+"""`# preflight: ...` in YAML, Python and build files: what a comment of an XML file says there."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import LineIndex, Span
 
 MARK = "preflight:"
-_HASH_SUFFIXES = (".yaml", ".yml", ".py")
+_HASH_SUFFIXES = (".yaml", ".yml", ".py", ".cmake", "CMakeLists.txt", "setup.cfg")
 """Of files whose comments begin with a hash."""
 _COMMENT = re.compile(r"(?P<before>(?:^|(?<=\s)))#(?P<content>[ \t]*preflight:[^\r\n]*)", re.MULTILINE)
 _MORE = re.compile(r"[ \t]*#(?P<content>[^\r\n]*)")

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
 
+from preflight_analysis.documents.span import Span
+
 _TEXT = r""""(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'"""
 _OF_C = re.compile(rf"""//[^\n]*|/\*.*?(?:\*/|\Z)|R"\(.*?(?:\)"|\Z)|{_TEXT}|[()\[\]{{}},;]""", re.DOTALL)
 _OF_PYTHON = re.compile(
@@ -22,6 +24,8 @@ _DELLAC = re.compile(r"\s*(?:>((?:[^;()<>]|>[^;()<>]*<)*)<\s*)?(\w(?:\w|\.|::|>-
 """What is called, with its template, from the end: that is where it is looked for."""
 _FAR = 300
 """Characters of the name of a call with its template."""
+_MARKS_OF_RAW = 5
+"""Signs around `R"(...)"`, three of them before it."""
 _LAST = re.compile(r"\w+\Z")
 
 
@@ -45,6 +49,13 @@ class Quoted(NamedTuple):
         """The name of the call alone: `advertise`."""
         found = _LAST.search(self.call)
         return found[0] if found is not None else ""
+
+    @property
+    def place(self) -> Span:
+        """Where the text is, without its quotes."""
+        marks = self.end - self.start - len(self.text)
+        before = 3 if marks == _MARKS_OF_RAW else marks // 2
+        return Span(self.start + before, self.start + before + len(self.text))
 
 
 class Program:

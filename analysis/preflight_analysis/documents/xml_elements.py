@@ -8,13 +8,12 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections import Counter, deque
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.documents.document import Attribute, Element, Node, Text
 from preflight_analysis.documents.lazy_pattern import lazy_pattern
 from preflight_analysis.documents.span import Span
 from preflight_analysis.documents.xml_patterns import BLANK, END_TAG, NAME, SPACE, TEXT_SPECIAL, S, skip
 from preflight_analysis.documents.xml_source import XmlSource
+from preflight_analysis.slips import edits
 
 _TAG_MARK = lazy_pattern(f"<(/?)({NAME})(?:[^<>\"']|\"[^\"<]*\"|'[^'<]*')*?(/?)>")
 _TEXT_OF_TAG = lazy_pattern(f"(?<![\\w<])({NAME}){S}+{NAME}{S}*=")
@@ -259,4 +258,4 @@ def _start(node: Node) -> int:
 def _resembles(typed: str, meant: str) -> bool:
     """Whether an end tag's name is the element's name mistyped, or the beginning of it."""
     typed, meant = typed.lower(), meant.lower()
-    return meant.startswith(typed) or OSA.distance(typed, meant) <= max(1, len(meant) // 3)
+    return meant.startswith(typed) or edits(typed, meant) <= max(1, len(meant) // 3)

@@ -11,6 +11,8 @@ import logging
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
+from configparser import ConfigParser
+from configparser import Error as ConfigParserError
 from functools import lru_cache
 
 import yaml
@@ -20,6 +22,7 @@ from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.documents.yaml import parse_yaml, span_of
 from preflight_analysis.edits.edit import Edit, applied, by_file
+from preflight_analysis.environment.build import SETTINGS
 from preflight_analysis.environment.cmake_syntax import unbalanced
 from preflight_analysis.launch.python_source import PythonSource
 
@@ -84,6 +87,8 @@ def _format(path: str, text: str) -> str | None:
         return "yaml"
     if _CMAKE.match(path):
         return "cmake"
+    if os.path.basename(path) == SETTINGS:
+        return "ini"
     # Launch files, manifests, robot descriptions and worlds have many suffixes; all of them are XML.
     return "xml" if _MARKUP.match(text) else "yaml" if path.endswith(".launch") else None
 
@@ -98,6 +103,8 @@ def _mistakes(format_: str | None, text: str) -> tuple[Mistake, ...] | None:
         case "cmake":
             at = unbalanced(text)
             return ((at, "a bracket or a quote that is not closed"),) if at is not None else ()
+        case "ini":
+            return _of_ini(text)
         case "xml":
             return tuple((problem.span.start, problem.message) for problem in parse_xml("", text).problems)
     return None
@@ -119,6 +126,15 @@ def _given_twice(source: PythonSource, call: ast.Call) -> Iterator[Mistake]:
         if keyword.arg in names:
             yield source.keyword_span(keyword).start, f"keyword argument '{keyword.arg}' is there twice"
         names.update((keyword.arg,) if keyword.arg is not None else ())
+
+
+def _of_ini(text: str) -> tuple[Mistake, ...]:
+    try:
+        ConfigParser(interpolation=None).read_string(text)
+    except ConfigParserError as error:
+        line = getattr(error, "lineno", None) or 1
+        return ((LineIndex(text).line_start(line - 1), error.message),)
+    return ()
 
 
 def _of_yaml(text: str) -> tuple[Mistake, ...]:

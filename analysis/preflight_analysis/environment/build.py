@@ -11,6 +11,9 @@ from preflight_analysis.dataclass import dataclass
 
 LISTS = "CMakeLists.txt"
 """The name of a build file of CMake."""
+SETUP, SETTINGS = "setup.py", "setup.cfg"
+BUILD_FILES = (LISTS, SETUP, SETTINGS)
+"""The files of a package that say how it is built and installed."""
 MADE = "<build>"
 """The folder, below that of the source, that stands for where CMake makes files."""
 

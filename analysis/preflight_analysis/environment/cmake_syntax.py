@@ -29,6 +29,8 @@ class Word:
 
     text: str
     quoted: bool = False
+    at: int = field(default=0, compare=False)
+    """Where its text stands, without quotes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,11 +67,11 @@ def _flat(text: str) -> Iterator[Command]:
         elif word is not None and not depth:
             name, words, at = word.lower(), [], token.start()
         elif word is not None:
-            words.append(Word(word))
+            words.append(Word(word, at=token.start()))
         elif token["quoted"] is not None:
-            words.append(Word(re.sub(r"\\(.)", r"\1", token["quoted"]), True))
+            words.append(Word(re.sub(r"\\(.)", r"\1", token["quoted"]), True, token.start("quoted")))
         elif token["bracket"] is not None:
-            words.append(Word(token["bracket"], True))
+            words.append(Word(token["bracket"], True, token.start("bracket")))
 
 
 def _nested(flat: Iterator[Command], end: str | None, depth: int) -> tuple[Command, ...]:

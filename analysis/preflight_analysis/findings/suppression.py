@@ -8,7 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.document import Comment, Document, Element, Node
+from preflight_analysis.documents.hash_comments import MARK, has_hash_comments
 from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.xml import parse_xml
 from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.findings.finding import Finding
@@ -47,8 +49,10 @@ class Filtered:
 
 def read_suppressions(document: Document) -> tuple[tuple[Suppression, ...], tuple[Malformed, ...]]:
     """The suppressions in the comments of `document`, each at the place of its rule's id, in order."""
-    if "preflight:" not in document.text:
+    if MARK not in document.text:
         return (), ()  # nearly every file, on every keystroke
+    if not document.children and not has_hash_comments(document.path, document.text):
+        document = parse_xml(document.path, document.text)  # a text that nobody has parsed, such as a manifest
     found: list[Suppression] = []
     malformed: list[Malformed] = []
     ends_of_tags: dict[int, int] | None = None

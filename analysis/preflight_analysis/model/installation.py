@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location
+from preflight_analysis.environment.build import BUILD_FILES, LISTS
 from preflight_analysis.environment.installed_paths import (
     installed_at,
     installed_elsewhere,
@@ -19,7 +20,7 @@ from preflight_analysis.environment.installed_paths import (
 )
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
-from preflight_analysis.evaluation.tree import Use
+from preflight_analysis.evaluation.tree import LaunchNode, Use
 from preflight_analysis.model.context import Context
 
 _IN_PYTHON = ("get_package_share_directory", "get_package_share_path", "FindPackageShare")
@@ -39,7 +40,7 @@ class Installation(NamedTuple):
     @property
     def build_file(self) -> str:
         """The name of the file that says what is installed."""
-        return "setup.py" if self.package.build_type == "ament_python" else "CMakeLists.txt"
+        return "setup.py" if self.package.build_type == "ament_python" else LISTS
 
     @property
     def problem(self) -> str:
@@ -120,8 +121,18 @@ def is_by_share(context: Context, location: Location) -> bool:
 
 def packages_of(context: Context) -> tuple[Package, ...]:
     """The packages of the workspace that a launch has to do with."""
-    environment = context.environment
-    found = {package.name: package for file in context.launch_files if (package := package_around(environment, file))}
-    named = {node.package for node in context.tree.nodes} & environment.packages.keys()
+    return packages_in(context.environment, context.launch_files, context.tree.nodes)
+
+
+def packages_in(environment: Environment, files: Iterable[str], nodes: Iterable[LaunchNode]) -> tuple[Package, ...]:
+    """Those of launch files and of nodes."""
+    found = {package.name: package for file in files if (package := package_around(environment, file))}
+    named = {node.package for node in nodes} & environment.packages.keys()
     found |= {name: environment.packages[name] for name in sorted(named)}
     return tuple(package for package in found.values() if package.is_ament and not environment.is_installed(package))
+
+
+def build_files_of(disk: Disk, package: Package) -> tuple[str, ...]:
+    """The files that say how a package is built and installed."""
+    paths = (os.path.join(package.share, name) for name in BUILD_FILES)
+    return tuple(path for path in paths if disk.is_file(path))

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from preflight_analysis.documents.quoted import Program, Quoted
-from preflight_analysis.model.entry import JOINT, Entry
+from preflight_analysis.model.entry import JOINT, Entry, Mention, in_quotes, mention
 
 _TOPICS = {
     "Publisher": "offer",
@@ -21,6 +21,7 @@ _TOPICS = {
     "create_subscription": "use",
     "create_client": "use",
 }
+_OF_PACKAGE = ("FindPackageShare", "get_package_share_directory", "get_package_share_path", "get_path", "getPath")
 _NAME = re.compile(r"[~/]?\w[\w/]*")
 _TYPE_BEHIND = re.compile(r"\s*,\s*([\w.]+)")
 _TYPE_BEFORE = re.compile(r"\(\s*([\w.]+)\s*,\s*\Z")
@@ -67,22 +68,24 @@ _LONGEST = 20_000
 LIBRARY_OF_TREES = "behaviortree"
 
 
-def names_of_program(program: Program) -> Iterator[Entry]:
+def names_of_program(program: Program) -> Iterator[Mention]:
     """Those of a source of whatever language."""
-    of_trees = any(each in program.text for each in _TREES)
+    text, loads_yaml = program.text, _LOADS_YAML.search(program.text) is not None
     for each in program.quoted:
-        yield from (Entry("joint", found) for found in JOINT.findall(each.text))
+        yield from (in_quotes(each, Entry("joint", found)) for found in JOINT.findall(each.text))
+        if loads_yaml:
+            yield from (in_quotes(each, Entry("yaml-file", found)) for found in _YAML_FILE.findall(each.text))
         if _WRITTEN.fullmatch(each.text):
-            yield Entry("name", each.text)
-            yield from _of_call(program.text, each)
-    for given in _MACRO.findall(program.text):
-        yield from (Entry("name", word) for word in _WORD.findall(given))
-    if _ASKS_AT_ALL.search(program.text):
-        yield from (Entry("made", name) for name in _made(program.code))
-    if _LOADS_YAML.search(program.text):
-        yield from (Entry("yaml-file", found) for each in program.quoted for found in _YAML_FILE.findall(each.text))
-    if of_trees:
-        yield Entry("library", LIBRARY_OF_TREES)
+            yield in_quotes(each, Entry("name", each.text))
+            yield from (in_quotes(each, entry) for entry in _of_call(text, each))
+    for given in _MACRO.finditer(text):
+        start = given.start(1)
+        words = _WORD.finditer(given[1])
+        yield from (mention(start + word.start(), start + word.end(), Entry("name", word[0])) for word in words)
+    if _ASKS_AT_ALL.search(text):
+        yield from (mention(0, 0, Entry("made", name)) for name in _made(program.code))
+    if any(each in text for each in _TREES):
+        yield mention(0, 0, Entry("library", LIBRARY_OF_TREES))
         yield from _of_trees(program)
 
 
@@ -99,6 +102,8 @@ def _of_call(text: str, each: Quoted) -> Iterator[Entry]:
         if type_:
             name = each.text.strip("~/")
             yield Entry("topic", name, role, type=_OF_TYPE.split(type_)[-1].strip())
+    elif each.called in _OF_PACKAGE and each.nth == 0:
+        yield Entry("package", each.text)
     elif _ASKS.fullmatch(each.call) and _ASKED_OF.fullmatch(text[each.bracket : each.start][-_FAR:]):
         above, leaf = parts_of(each.text)
         any_ = not above and each.text[0] in "./"
@@ -131,7 +136,7 @@ def _part(term: str) -> str:
     return _FORMAT.sub(COMPUTED, found[1]) if found is not None else COMPUTED
 
 
-def _of_trees(program: Program) -> Iterator[Entry]:
+def _of_trees(program: Program) -> Iterator[Mention]:
     """https://www.behaviortree.dev/docs/tutorial-basics/tutorial_01_first_tree: `registerNodeType<Class>("Name")`,
     `registerBuilder<Class>("Name", ...)`; of BehaviorTree.ROS2 `CreateRosNodePlugin(Class, "Name")`."""
     text = program.text
@@ -143,16 +148,18 @@ def _of_trees(program: Program) -> Iterator[Entry]:
             cls = text[each.bracket + 1 : each.start].rpartition(",")[0]
         else:
             continue
-        yield Entry("tree-node", each.text, of=cls.strip().rpartition("::")[2])
+        yield in_quotes(each, Entry("tree-node", each.text, of=cls.strip().rpartition("::")[2]))
     classes = [(found.start(), found[1]) for found in _CLASS.finditer(text)]
     for found in _PORTS.finditer(text):
         cls = found["cls"] or next((name for at, name in reversed(classes) if at < found.start()), "")
         end = _end_of(text, found.end())
         body, own = text[found.end() : end], [each for each in ports if found.end() < each.start < end]
         whole = len(own) == len(_PORT.findall(body)) and _MORE_PORTS.search(body) is None
-        yield Entry("tree-class", cls, role="closed" if whole else "open")
+        yield mention(
+            *found.span("cls" if found["cls"] else 0), Entry("tree-class", cls, "closed" if whole else "open")
+        )
         for each in own:
-            yield Entry("tree-port", each.text, each.called, cls, " ".join(each.template.split()))
+            yield in_quotes(each, Entry("tree-port", each.text, each.called, cls, " ".join(each.template.split())))
 
 
 def _end_of(text: str, start: int) -> int:

@@ -7,9 +7,8 @@ from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Literal
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.evaluation import names
+from preflight_analysis.slips import edits
 
 Likeness = Literal["typo", "words"]
 """`typo`: a slip of the keyboard apart, or the same but for case and underscores. `words`: made of the same words."""
@@ -36,8 +35,9 @@ def cutoff(length: int) -> int:
 
 def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = str) -> str | None:
     """The candidate that `name` is most likely a misspelling of, else the only one of the same words in another order
-    (`resolution_fixed`, `fixed_resolution`) or shortened (`vel_limit`, `velocity_limit`); None if all are too far. Ties
-    go by alphabet.
+    (`resolution_fixed`, `fixed_resolution`), in the plural or shortened (`vel_limit`, `velocity_limit`), else the only
+    one that is in another namespace, or has one more or less (`/map_server`, `/robot/map_server`); None if all are too
+    far. Ties go by alphabet.
 
     Case, `-` against `_`, and what `key` removes do not count as edits.
     """
@@ -51,26 +51,45 @@ def nearest(name: str, candidates: Iterable[str], key: Callable[[str], str] = st
         limit = cutoff(max(len(wanted), len(other)))
         if abs(len(wanted) - len(other)) > limit:
             continue
-        distance = int(OSA.distance(wanted, other, score_cutoff=limit))
+        distance = edits(wanted, other, limit)
         if distance > limit:
             continue
-        rank = (distance, int(OSA.distance(name, candidate)), candidate)
+        rank = (distance, edits(name, candidate), candidate)
         if best is None or rank < best:
             best = rank
-    return best[2] if best else _reworded(name, candidates)
+    return best[2] if best else _only(name, candidates, is_reworded) or _only(name, candidates, _is_elsewhere)
 
 
-def _reworded(name: str, candidates: Iterable[str]) -> str | None:
-    found = [each for each in candidates if is_reworded(name, each)]
+def _only(name: str, candidates: Iterable[str], is_like: Callable[[str, str], bool]) -> str | None:
+    found = [each for each in candidates if is_like(name, each)]
     return found[0] if len(found) == 1 else None
 
 
-def is_reworded(name: str, other: str) -> bool:
-    """Whether names of several words have the same ones in another order, or some of them shortened or written out."""
-    words, others = words_in(name), words_in(other)
-    if name == other or len(words) != len(others) or len(words) < _SEVERAL:
+def _is_elsewhere(name: str, other: str) -> bool:
+    """Whether two graph names have the same last part, and one namespace is another or is missing."""
+    parts, others = segments(name), segments(other)
+    if name == other or parts[-1] != others[-1] or len(parts) + len(others) == 2:
         return False
-    return sorted(words) == sorted(others) or _is_shortened(words, others)
+    short, long = sorted((parts, others), key=len)
+    if len(short) == len(long):
+        return sum(a != b for a, b in zip(parts, others, strict=True)) == 1
+    rest = iter(long)
+    return len(long) == len(short) + 1 and all(part in rest for part in short)
+
+
+def is_reworded(name: str, other: str) -> bool:
+    """Whether names have the same words in another order or in the plural, or, of several, some of them shortened or
+    written out."""
+    words, others = camel_words(name), camel_words(other)
+    if words == others or len(words) != len(others):
+        return False
+    if sorted(map(_singular, words)) == sorted(map(_singular, others)):
+        return True
+    return len(words) >= _SEVERAL and _is_shortened(words, others)
+
+
+def _singular(word: str) -> str:
+    return f"{word[:-3]}y" if word.endswith("ies") else word.removesuffix("s")
 
 
 def _is_shortened(words: tuple[str, ...], others: tuple[str, ...]) -> bool:
@@ -92,7 +111,7 @@ def is_slip(name: str, other: str) -> bool:
     if numbers_in(name) != numbers_in(other):
         return False
     most = 2 if min(len(name), len(other)) >= _LONG else 1
-    return int(OSA.distance(folded(name), folded(other))) <= most
+    return edits(folded(name), folded(other)) <= most
 
 
 def nearest_slip(name: str, candidates: Iterable[str]) -> str | None:
@@ -134,8 +153,8 @@ def likeness(name: str, other: str) -> tuple[Likeness, int] | None:
     if mine != theirs and mine and theirs:
         return None
     if mine == theirs and _is_typo(name, other):
-        return "typo", int(OSA.distance(name, other))
-    return ("words", int(OSA.distance(name, other))) if _same_words(name, other) else None
+        return "typo", edits(name, other)
+    return ("words", edits(name, other)) if _same_words(name, other) else None
 
 
 def _is_typo(name: str, other: str) -> bool:
@@ -149,7 +168,7 @@ def _is_typo(name: str, other: str) -> bool:
     if len(words) != len(other_words):
         # A stray or missing letter may also split a word (`cmd_vell`, `c_md_vel`): judge the segment as a whole.
         one, other_one = map(squeezed, pairs[0])
-        return len(pairs) == 1 and min(len(one), len(other_one)) >= _SPLIT and bool(OSA.distance(one, other_one) <= 1)
+        return len(pairs) == 1 and min(len(one), len(other_one)) >= _SPLIT and edits(one, other_one, 1) <= 1
     different = [(a, b) for a, b in zip(words, other_words, strict=True) if a != b]
     return len(different) == 1 and all(_is_word_typo(a, b) for a, b in different)
 
@@ -159,7 +178,7 @@ def _is_word_typo(word: str, other: str) -> bool:
         return False
     if min(len(word), len(other)) >= _MIN_PREFIX and (word.startswith(other) or other.startswith(word)):
         return True
-    return bool(OSA.distance(word, other) <= cutoff(min(len(word), len(other))))
+    return edits(word, other) <= cutoff(min(len(word), len(other)))
 
 
 def _same_words(name: str, other: str) -> bool:
@@ -230,9 +249,10 @@ def without_numbers(name: str) -> str:
     return _NUMBER.sub("#", name)
 
 
-def camel_words(name: str) -> list[str]:
+@lru_cache(maxsize=_NAMES)
+def camel_words(name: str) -> tuple[str, ...]:
     """The words and numbers of a name, in lower case, of which each may begin with a capital: `maxVel`, `MPCRate`."""
-    return [word.lower() for word in _CAMEL_WORD.findall(name)]
+    return tuple([word.lower() for word in _CAMEL_WORD.findall(name)])
 
 
 def folded(name: str) -> str:

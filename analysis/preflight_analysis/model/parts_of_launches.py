@@ -25,4 +25,4 @@ def is_configured_elsewhere(context: Context, argument: str) -> bool:
     if not context.tree.ros.shared_configurations:
         return False
     included = Entry("file", os.path.basename(context.root)) in in_package(context, "file")
-    return included and Entry("argument", argument) in in_package(context, "argument")
+    return included and any(each.text == argument and each.role != "uses" for each in in_package(context, "argument"))

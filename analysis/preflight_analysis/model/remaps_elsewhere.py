@@ -13,7 +13,7 @@ from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.alike import Names
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import dangling_consumers, dangling_providers
-from preflight_analysis.model.entry import Entry
+from preflight_analysis.model.entry import GRAPH_NAME, Entry
 from preflight_analysis.model.name_index import around
 from preflight_analysis.model.names_in_sources import meant_in_sources
 from preflight_analysis.model.nearest import is_slip_of_words, likeness
@@ -98,9 +98,9 @@ class _Targets:
     def _several(self) -> Mapping[str, Names[tuple[str, int]]]:
         """Those of several files with that, by what a node puts before each (`_beginnings`), and by the rest."""
         found: dict[str, list[tuple[str, tuple[str, int]]]] = {"global": [], "private": [], "relative": []}
-        for (_, written, *_), count in self.counts.items():
+        for (_, written, role, *_), count in self.counts.items():
             kind = "global" if names.is_global(written) else "private" if names.is_private(written) else "relative"
-            if count >= _ENOUGH:
+            if count >= _ENOUGH and role == "to" and GRAPH_NAME.fullmatch(written):
                 found[kind].append((names.canonicalize(f"/{written.removeprefix('~')}"), (written, count)))
         return {kind: Names(written) for kind, written in found.items()}
 

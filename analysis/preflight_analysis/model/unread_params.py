@@ -7,8 +7,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import chain
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, Param
@@ -19,6 +17,7 @@ from preflight_analysis.model.nearest import likeness, nearest, share_words
 from preflight_analysis.model.param_matching import matched, sought_leaf
 from preflight_analysis.model.parameters import by_namespace, grouped, namespace_of
 from preflight_analysis.model.well_known import is_for_tools
+from preflight_analysis.slips import edits
 
 _PLUGIN = re.compile(r"""<plugin\b[^<>]{0,500}?\bname\s*=\s*["']([^"'<>]+)["']""")
 _CLASS = re.compile(r"\w+(?:/|::)\w+")
@@ -197,7 +196,7 @@ def _nearest_read(param: Param, holder: LaunchNode, reads: Iterable[ParamRead]) 
         other = read.name[len(holder.name) + 1 :]
         alike = likeness(relative, other)
         if alike is None and nearest(relative, [other]) is not None and relative.count("/") == other.count("/"):
-            alike = ("typo", int(OSA.distance(relative, other)))
+            alike = ("typo", edits(relative, other))
         if alike is None or (alike[0] == "words" and not fits(param.value, read)):
             continue
         ranked.append((0 if alike[0] == "typo" else 1, alike[1], read.name, read))

@@ -7,10 +7,13 @@ from collections.abc import Iterator, Sequence
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.evaluation.rviz import rviz_config_of
 from preflight_analysis.findings.markdown import code, escaped
 from preflight_analysis.frames.edges import plain
 from preflight_analysis.frames.model import Edge, Frames
+from preflight_analysis.model.context import Context
 from preflight_analysis.model.frames import frames_of, place_of_edge, place_of_mention, place_of_use
+from preflight_analysis.model.name_index import mentions_in
 from preflight_analysis.queries.hover_text import Hover
 from preflight_analysis.queries.places import place
 from preflight_analysis.queries.query_context import QueryContext
@@ -97,7 +100,17 @@ def named_at(symbol: FrameSymbol) -> tuple[Location, ...]:
     mine = (symbol.frame, symbol.space)
     uses = (place_of_use(context, use) for use in frames.uses if (use.frame, use.space) == mine)
     mentions = (place_of_mention(context, each) for each in frames.mentions if (each.frame, each.space) == mine)
-    return tuple(dict.fromkeys((*uses, *mentions)))
+    in_rviz = _in_rviz(context, symbol.frame) if not symbol.space else ()
+    return tuple(dict.fromkeys((*uses, *mentions, *in_rviz)))
+
+
+def _in_rviz(context: Context, frame: str) -> Iterator[Location]:
+    """Where the configurations of RViz that the launch starts name a frame."""
+    for path in dict.fromkeys(filter(None, map(rviz_config_of, context.tree.nodes))):
+        document = context.documents.get(path)
+        for entry, span, _ in mentions_in(context.disk.db, path) if document is not None else ():
+            if document is not None and entry.kind == "frame" and plain(entry.text) == frame:
+                yield document.location(span)
 
 
 def _edges(symbol: FrameSymbol) -> Sequence[Edge]:

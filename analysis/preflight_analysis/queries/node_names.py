@@ -6,19 +6,25 @@ import re
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.ros2.param_files import read_param_file
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param
+from preflight_analysis.evaluation.value_places import value_place
 from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
 from preflight_analysis.graph.annotations import annotated_names
+from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.launch.model import Action
+from preflight_analysis.model.meant import meant_in
 from preflight_analysis.model.section_reader import taken_by
 from preflight_analysis.queries.places import action_at
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import settings_of
 
 _WORD = re.compile(r"\S+")
+_LISTED = re.compile(r"""['"]?\s*:\s*[\[(]?\s*(?:['"][^'"\n]*['"]\s*,\s*)*['"]/?""")
+"""What stands between a key and a text of its value in Python."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +43,7 @@ def tags_of(context: QueryContext, tags: Iterable[Location]) -> Iterator[Locatio
     for tag in tags:
         facts = context.facts(tag.file)
         for mention in facts.mentions if facts else ():
-            if mention.kind == "node" and mention.action == tag.span:
+            if mention.entry.kind == "node" and mention.action == tag.span:
                 yield context.location(tag.file, mention.span)
 
 
@@ -51,6 +57,7 @@ def mentions_of(context: QueryContext, trees: Iterable[LaunchTree], wanted: froz
         for place, full in remap_names(tree):
             for node in _above(full, wanted):
                 yield NodeMention(node, place, _moved(_part(context.text(place), full, node), place.span.start))
+        yield from _in_values(context, tree, wanted)
         for owner in tree.nodes:
             yield from _in_annotation(context, owner, wanted)
             yield from _in_arguments(context, owner, wanted)
@@ -167,6 +174,35 @@ def _in_parameter_files(context: QueryContext, owner: LaunchNode) -> Iterator[No
             exact = written == name or written.endswith(f"/{name}")
             last = Span(key.end - len(name), key.end) if exact else None
             yield NodeMention(owner.name, document.location(key), last)
+
+
+def _in_values(context: QueryContext, tree: LaunchTree, wanted: frozenset[str]) -> Iterator[NodeMention]:
+    """The parameters whose values name nodes: `node_names` of a lifecycle manager."""
+    every = context.analyses[0].context.known if context.analyses else None
+    for owner, values in meant_in(tree, every, Kept()) if every is not None else ():
+        for meant in values:
+            value, param = meant.value, meant.param
+            if meant.meaning.kind != "node" or param is None or not isinstance(value, str) or not names.is_legal(value):
+                continue
+            full = names.resolve(value, owner.name)
+            if full in wanted:
+                place = value_at(context, param.place, value)
+                found = _part(value, full, full) if place is not None else None
+                at = place or param.place
+                yield NodeMention(full, at, _moved(found, at.span.start))
+
+
+def value_at(context: QueryContext, key: Location, value: str) -> Location | None:
+    """Where the value of a parameter, of which the name is at `key`, has a text, if it is certain that this is it."""
+    document = context.document(key.file)
+    place = value_place(key, value, document)
+    if place is None or document is None or context.text(place) != value:
+        return None
+    launch_file = context.launch_file(place.file) if place.file in context.current.files else None
+    action = action_at(launch_file, key.span.start) if launch_file is not None else None
+    if is_python(document.path, document.text):
+        return place if _LISTED.fullmatch(document.text, key.span.end, place.span.start) else None
+    return place if launch_file is None or (action and action.head_span.contains(place.span.start)) else None
 
 
 def _in_arguments(context: QueryContext, owner: LaunchNode, wanted: frozenset[str]) -> Iterator[NodeMention]:

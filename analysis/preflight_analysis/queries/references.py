@@ -10,6 +10,8 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.graph.model import ChannelKind, Connection, Graph
+from preflight_analysis.model.entry import Kind as EntryKind
+from preflight_analysis.model.name_index import RVIZ, mentions_in, named_in_packages
 from preflight_analysis.queries import shared_arguments
 from preflight_analysis.queries.frames import frame_at, named_at, published_at
 from preflight_analysis.queries.handed_over import is_handed_over, references_in
@@ -17,7 +19,6 @@ from preflight_analysis.queries.node_names import mentions_of, tags_of
 from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.queries.symbol_at import Kind, NamedSymbol, annotated, own_parameter, settings_of, symbol_at
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
-from preflight_analysis.workspace import facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +67,14 @@ def _packages(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]
         if (package := packages.get(name)) is not None:
             yield Reference(Location.of_file(package.manifest), True)
         yield from _mentioned(context, "package", name)
+        yield from _in_packages(context, "package", name)
 
 
 def _executables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
         yield from _all(executable_at(context, name), declare=True)
-        yield from _mentioned(context, "executable", name)
+        yield from _mentioned(context, "program", *_parts(name))
+        yield from _in_packages(context, "program", *_parts(name))
 
 
 def executable_at(context: QueryContext, name: str) -> Iterator[Location]:
@@ -96,7 +99,8 @@ def executable_at(context: QueryContext, name: str) -> Iterator[Location]:
 def _components(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
         yield from _all(component_at(context, name), declare=True)
-        yield from _mentioned(context, "component", name)
+        yield from _mentioned(context, "component", *_parts(name))
+        yield from _in_packages(context, "component", *_parts(name))
 
 
 def component_at(context: QueryContext, name: str) -> Iterator[Location]:
@@ -144,6 +148,16 @@ def _topics(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
         for connection, declares in connections(analysis.graph, symbol.names) if analysis.graph else ():
             if (place := made_at(context, connection.endpoint)) is not None:
                 yield Reference(place, declares)
+            if (named_by := connection.endpoint.named_by) is not None:
+                shown = tuple(displayed_at(context, named_by.place.file, connection.endpoint.name))
+                yield from _all(shown or (named_by.place,), declare=declares)
+
+
+def displayed_at(context: QueryContext, config: str, topic: str) -> Iterator[Location]:
+    """Where a configuration of RViz names a topic."""
+    for entry, span, _ in mentions_in(context.workspace.sources.db, config) if config.endswith(RVIZ) else ():
+        if entry.kind == "topic" and entry.text == topic:
+            yield context.location(config, span)
 
 
 def _annotations(
@@ -157,7 +171,7 @@ def _annotations(
 
 def _variables(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
     for name in symbol.names:
-        yield from _mentioned(context, "env", name)
+        yield from _mentioned(context, "variable", name)
 
 
 def _machines(context: QueryContext, symbol: NamedSymbol) -> Iterator[Reference]:
@@ -197,9 +211,23 @@ def made_at(context: QueryContext, what: Endpoint | ParamUse) -> Location | None
     return context.line(what.source_file, what.source_line)
 
 
-def _mentioned(context: QueryContext, kind: facts.Kind, name: str) -> Iterator[Reference]:
-    for path, mention in context.current.mentions(kind, name):
+def _parts(name: str) -> tuple[str, str]:
+    package, _, rest = name.partition("/")
+    return rest, package
+
+
+def _mentioned(context: QueryContext, kind: EntryKind, name: str, of: str = "") -> Iterator[Reference]:
+    for path, mention in context.current.mentions(kind, name, of):
         yield Reference(context.location(path, mention.span), False)
+
+
+def _in_packages(context: QueryContext, kind: EntryKind, name: str, of: str = "") -> Iterator[Reference]:
+    """In what builds and describes the packages of the workspace, or the package `of` alone, and in their programs."""
+    environment, db = context.workspace.environment, context.workspace.sources.db
+    folders = [environment.packages[of].share] if of in environment.packages else [] if of else None
+    for path, mention in named_in_packages(db, environment, kind, name, folders):
+        declares = mention.entry.role == "declares" and kind != "component"
+        yield Reference(context.location(path, mention.span), declares)
 
 
 def _all(places: Iterable[Location], *, declare: bool = False) -> Iterator[Reference]:

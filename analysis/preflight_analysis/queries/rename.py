@@ -266,7 +266,7 @@ def _is_argument(value: Value, name: str) -> bool:
 
 def _tags(context: QueryContext, place: Location, name: str) -> Iterator[Location]:
     facts = context.facts(place.file)
-    for mention in facts.named("arg-passed", name) if facts else ():
+    for mention in facts.named("argument", name, "passes") if facts else ():
         if mention.span == place.span:
             yield context.location(place.file, mention.action)
 

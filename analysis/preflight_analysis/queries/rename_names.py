@@ -1,4 +1,4 @@
-"""Renaming parameters and topics through launch files, parameter files and remaps.
+"""Renaming parameters and topics through launch files, parameter files, remaps and configurations of RViz.
 
 The sources of nodes are left alone: what a node itself calls by the old name stands in the way of a rename.
 """
@@ -12,8 +12,10 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchTree
+from preflight_analysis.graph.model import Connection
+from preflight_analysis.queries.node_names import value_at
 from preflight_analysis.queries.query_context import QueryContext
-from preflight_analysis.queries.references import connections, made_at
+from preflight_analysis.queries.references import connections, displayed_at, made_at
 from preflight_analysis.queries.rename_edit import RenameEdit, RenameRefusedError
 from preflight_analysis.queries.symbol_at import NamedSymbol, own_parameter, remaps_at, settings_of
 from preflight_analysis.workspace.workspace import Analysis
@@ -135,33 +137,63 @@ def topic_edits(context: QueryContext, symbol: NamedSymbol, new: str | None) -> 
         raise RenameRefusedError(f"'{context.text(at)}' is a name of the node itself: rename it in the source")
     if new is not None and (not new or not names.is_legal(new) or new.startswith("~")):
         raise RenameRefusedError(f"'{new}' is not a topic name: a letter, then letters, digits, underscores, slashes")
+    named = dict[Location, list[tuple[str, str]]]()
     for analysis in context.analyses:
-        _refuse_if_own(context, analysis, renamed, checks_new=new is not None)
+        for place, pair in _named_by_values(context, analysis, renamed, checks_new=new is not None):
+            named.setdefault(place, []).append(pair)
     while True:
-        reached = _reached(trees, renamed)
+        reached = {**_reached(trees, renamed), **named}
         wider = context.trees_around({place.file for place in reached})
         if len(wider) == len(trees):
             break
         trees = wider
     edits = dict(_targets(context, reached, renamed, context.text(at), new))
     return tuple(
-        RenameEdit(place, text, f"Remap to '{context.text(place)}' in {context.shown(place.file)}")
+        RenameEdit(
+            place,
+            text,
+            f"{'Topic' if place in named else 'Remap to'} '{context.text(place)}' in {context.shown(place.file)}",
+        )
         for place, text in edits.items()
     )
 
 
-def _refuse_if_own(context: QueryContext, analysis: Analysis, renamed: Mapping[str, str], *, checks_new: bool) -> None:
+def _named_by_values(
+    context: QueryContext, analysis: Analysis, renamed: Mapping[str, str], *, checks_new: bool
+) -> Iterator[tuple[Location, tuple[str, str]]]:
+    """The values of parameters and of RViz that give nodes one of the names, each with a node and its name there. A
+    name that a node has from elsewhere stands in the way."""
     if analysis.graph is None:
         raise RenameRefusedError("The nodes of this launch are not analysed yet")
     for connection, _ in connections(analysis.graph, frozenset(renamed)):
         if connection.remap is None and not connection.endpoint.builtin:
-            place = made_at(context, connection.endpoint) or connection.node.location
-            raise RenameRefusedError(
-                f"{connection.node.name} uses '{connection.name}' without a remap, at {shown(context, place)}"
-            )
+            values = _values_of(context, analysis.tree, connection)
+            if not values:
+                place = made_at(context, connection.endpoint) or connection.node.location
+                raise RenameRefusedError(
+                    f"{connection.node.name} uses '{connection.name}' without a remap, at {shown(context, place)}"
+                )
+            yield from ((value, (connection.node.name, connection.name)) for value in values)
     for old, new in renamed.items() if checks_new else ():
         if old != new and (met := next(connections(analysis.graph, frozenset({new})), None)) is not None:
             raise RenameRefusedError(f"'{new}' exists already: {met[0].node.name} uses it")
+
+
+def _values_of(context: QueryContext, tree: LaunchTree, connection: Connection) -> tuple[Location, ...]:
+    """The values that name an endpoint, if they do so for that node alone and no other launch reads them."""
+    named_by, name = connection.endpoint.named_by, connection.endpoint.name
+    known = {analysis.launch for analysis in context.analyses}
+    if named_by is None or not known.issuperset(context.current.roots_touching(named_by.place.file)):
+        return ()
+    if named_by.display:
+        return tuple(displayed_at(context, named_by.place.file, name))
+    owners = {node.name for node in tree.nodes if any(param.place == named_by.place for param in node.params)}
+    private = f"{connection.node.name}/"
+    shared = [name for name, param in tree.params.items() if param.place == named_by.place]
+    if owners - {connection.node.name} or not all(name.startswith(private) for name in shared):
+        return ()
+    place = value_at(context, named_by.place, name)
+    return (place,) if place is not None else ()
 
 
 def _reached(trees: Iterable[LaunchTree], renamed: Mapping[str, str]) -> Mapping[Location, list[tuple[str, str]]]:

@@ -80,15 +80,16 @@ class SharedArgument:
     def gives(self, inclusion: Inclusion) -> bool:
         """Whether an include names the argument."""
         facts = self._index.files.get(inclusion.includer)
-        return facts is not None and any(m.action == inclusion.tag.span for m in facts.named("arg-passed", self.name))
+        return facts is not None and any(
+            m.action == inclusion.tag.span for m in facts.named("argument", self.name, "passes")
+        )
 
     def is_mentioned(self, path: str) -> bool:
         """Whether a file declares the argument, sets or uses it."""
         facts = self._index.files.get(path)
         if facts is None:
             return False
-        kinds = ("arg-declaration", "arg-use")
-        written = any(m.kind in kinds and m.name == self.name for m in facts.mentions)
+        written = any(next(facts.named("argument", self.name, role), None) for role in ("declares", "uses"))
         return written or any(path in found.launch_files for found in self._substituted.values())
 
     def is_wanted(self, path: str) -> bool:
@@ -181,7 +182,7 @@ def declared_at(context: QueryContext, files: Iterable[str], name: str) -> Itera
     """The names of its `<arg>` tags."""
     for path in files:
         if (facts := context.facts(path)) is not None:
-            yield from (context.location(path, m.span) for m in facts.named("arg-declaration", name))
+            yield from (context.location(path, m.span) for m in facts.named("argument", name, "declares"))
 
 
 def used_at(
@@ -192,7 +193,7 @@ def used_at(
     files = tuple(files)
     for path in files:
         if (facts := context.facts(path)) is not None:
-            yield from (context.location(path, m.span) for m in facts.named("arg-use", name))
+            yield from (context.location(path, m.span) for m in facts.named("argument", name, "uses"))
     for found in substituted_files(context, trees, name).values():
         yield from (place for path in files for place in found.places if path in found.launch_files)
 
@@ -205,7 +206,7 @@ def given_at(context: QueryContext, files: Iterable[str], name: str) -> Iterator
             facts = context.facts(inclusion.includer)
             if facts is not None and inclusion.tag not in seen:
                 seen.add(inclusion.tag)
-                given = (m for m in facts.named("arg-passed", name) if m.action == inclusion.tag.span)
+                given = (m for m in facts.named("argument", name, "passes") if m.action == inclusion.tag.span)
                 yield from (context.location(inclusion.includer, m.span) for m in given)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import configparser
 from collections.abc import Iterator
 
 import yaml
@@ -17,8 +18,12 @@ from preflight_analysis.documents.yaml import parse_yaml
 from preflight_analysis.edits import layout
 from preflight_analysis.edits.edit import Edit, applied
 from preflight_analysis.edits.writer import writer_of
+from preflight_analysis.environment.build import LISTS, SETTINGS
+from preflight_analysis.environment.cmake_syntax import commands
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.suppression import read_suppressions
+
+_CMAKE = (LISTS, ".cmake")
 
 
 def suppress_on_line(document: Document, finding: Finding) -> Edit | None:
@@ -43,10 +48,9 @@ def _candidates(document: Document, offset: int, rule: str) -> Iterator[Edit]:
 
 
 def _parsed(path: str, text: str) -> Document:
-    if not has_hash_comments(path, text):
-        return parse_xml(path, text)
     lines = LineIndex(text)
-    return Document(path, text, digest(text), preflight_comments(text, lines), (), lines)
+    comments = preflight_comments(text, lines) if has_hash_comments(path, text) else ()
+    return Document(path, text, digest(text), comments, (), lines)
 
 
 def _covers(path: str, text: str, offset: int, rule: str) -> bool:
@@ -62,6 +66,10 @@ def _means_the_same(document: Document, text: str) -> bool:
     if is_python(document.path, document.text):
         before, after = _syntax(document.text), _syntax(text)
         return before == after
+    if document.path.endswith(_CMAKE):
+        return commands(document.text) == commands(text)
+    if document.path.endswith(SETTINGS):
+        return _options(document.text) == _options(text)
     if has_hash_comments(document.path, document.text):
         before_yaml, after_yaml = parse_yaml(document.path, document.text), parse_yaml(document.path, text)
         return _plain(before_yaml.node) == _plain(after_yaml.node)
@@ -74,6 +82,15 @@ def _syntax(text: str) -> str | None:
         return ast.dump(ast.parse(text))
     except (SyntaxError, ValueError, RecursionError):
         return None
+
+
+def _options(text: str) -> object:
+    parser = configparser.ConfigParser(interpolation=None, strict=False)
+    try:
+        parser.read_string(text)
+    except configparser.Error:
+        return None
+    return {name: dict(section) for name, section in parser.items()}
 
 
 def _plain(node: yaml.Node | None) -> object:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
@@ -10,11 +10,16 @@ from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, Param, Remap
 from preflight_analysis.graph.annotations import annotated_names
+from preflight_analysis.model.entry import Kind as EntryKind
+from preflight_analysis.model.entry import Mention
 from preflight_analysis.queries.places import action_at
 from preflight_analysis.queries.query_context import QueryContext
-from preflight_analysis.workspace.facts import Mention
 
 Kind = Literal["arg", "file", "package", "executable", "component", "node", "param", "topic", "env", "machine"]
+
+_OTHERS: Mapping[EntryKind, Kind] = {
+    "component": "component", "machine": "machine", "package": "package", "program": "executable", "variable": "env",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,30 +50,29 @@ def symbol_at(context: QueryContext, offset: int) -> NamedSymbol | None:
 
 def _of_mention(context: QueryContext, mention: Mention) -> NamedSymbol:
     place, tag = context.location(context.path, mention.span), context.location(context.path, mention.action)
-    literally = frozenset({mention.name})
-    match mention.kind:
-        case "arg-declaration" | "arg-use":
-            return NamedSymbol("arg", literally, mention.span, (context.path,))
-        case "arg-passed":
-            return NamedSymbol("arg", literally, mention.span, context.targets(tag))
+    kind, name, role, of, _ = mention.entry
+    literally = frozenset({f"{of}/{name}" if kind in ("program", "component") else name})
+    match kind:
+        case "argument":
+            files = context.targets(tag) if role == "passes" else (context.path,)
+            return NamedSymbol("arg", literally, mention.span, files)
         case "include":
             return NamedSymbol("file", literally, mention.span, context.targets(tag))
         case "node":
             return NamedSymbol(
                 "node", frozenset(n.name for t in context.trees for n in t.nodes if n.location == tag), place.span
             )
-        case "param":
+        case "parameter":
             full = frozenset(n for t in context.trees for n, p in settings_of(t) if p.name_location == place)
-            return NamedSymbol("param", full or _global(mention.name), place.span)
-        case "remap-from" | "remap-to":
+            return NamedSymbol("param", full or _global(of + name), place.span)
+        case "remap":
             full = frozenset(
                 names.resolve(remap.target, node.name)
                 for tree in context.trees
                 for node, remap in remaps_at(tree, place)
             )
-            return NamedSymbol("topic", full or _global(mention.name), place.span)
-        case kind:
-            return NamedSymbol(kind, literally, mention.span)
+            return NamedSymbol("topic", full or _global(name), place.span)
+    return NamedSymbol(_OTHERS[kind], literally, mention.span)
 
 
 def _global(name: str) -> frozenset[str]:

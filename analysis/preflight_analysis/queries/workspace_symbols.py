@@ -1,4 +1,4 @@
-"""Nodes, launch files and topics of the whole workspace by a part of their name."""
+"""Nodes, launch files, executables and topics of the whole workspace by a part of their name."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from typing import Literal
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
 from preflight_analysis.evaluation import names
+from preflight_analysis.model.installation import build_files_of
+from preflight_analysis.model.name_index import mentions_in
 from preflight_analysis.queries.places import shown_path
+from preflight_analysis.queries.query_context import QueryContext
 from preflight_analysis.workspace.index import WorkspaceIndex
 from preflight_analysis.workspace.workspace import Analysis
 
@@ -22,18 +25,24 @@ LIMIT = 500
 
 @dataclass(frozen=True, slots=True)
 class WorkspaceSymbol:
-    """Something with a name. `container` tells it from others of that name: a folder, an executable, a type."""
+    """Something with a name. `container` tells it from others of that name: a folder, an executable, a type, a
+    package."""
 
     name: str
-    kind: Literal["node", "launch", "topic"]
+    kind: Literal["node", "launch", "topic", "executable"]
     container: str
     location: Location
 
 
 def workspace_symbols(
-    index: WorkspaceIndex, analyses: Iterable[Analysis], folder: str | None, query: str
+    index: WorkspaceIndex,
+    analyses: Iterable[Analysis],
+    folder: str | None,
+    query: str,
+    made: Iterable[WorkspaceSymbol] = (),
 ) -> tuple[WorkspaceSymbol, ...]:
-    """At most `LIMIT` symbols that have the letters of `query` in that order, whatever their case, best first."""
+    """At most `LIMIT` symbols, those `made` by packages among them, that have the letters of `query` in that order,
+    whatever their case, best first."""
     letters = query.lower().replace(" ", "")
     # Each letter at its first place after the one before: unlike `.*`, this never goes back.
     matches = re.compile("".join(f"[^{re.escape(c)}]*{re.escape(c)}" for c in letters), re.DOTALL).match
@@ -42,7 +51,18 @@ def workspace_symbols(
         return matches(name.lower()) is not None
 
     found = itertools.chain(_files(index, folder, named), _nodes(index, named), _topics(analyses, named))
+    found = itertools.chain(found, (symbol for symbol in made if named(symbol.name)))
     return tuple(heapq.nsmallest(LIMIT, found, key=lambda symbol: _rank(symbol, letters)))
+
+
+def executables(context: QueryContext) -> Iterator[WorkspaceSymbol]:
+    """What the packages of the workspace make, as their build files say."""
+    sources = context.workspace.sources
+    for package in context.workspace.environment.own_packages:
+        for path in build_files_of(sources, package):
+            for entry, span, _ in mentions_in(sources.db, path):
+                if entry.kind == "program" and entry.role == "declares":
+                    yield WorkspaceSymbol(entry.text, "executable", package.name, context.location(path, span))
 
 
 def _rank(symbol: WorkspaceSymbol, letters: str) -> tuple[object, ...]:

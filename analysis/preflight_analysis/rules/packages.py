@@ -22,13 +22,13 @@ def check_packages(of_package: OfPackage) -> Check:
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for package in packages_of(context):
-            yield from _said_of(context.disk.db, of_package, rule, context.environment, package)
+            yield from said_of_package(context.disk.db, of_package, rule, context.environment, package)
 
     return check
 
 
 @query
-def _said_of(
+def said_of_package(
     db: Database, of_package: OfPackage, rule: Rule, environment: Environment, package: Package
 ) -> tuple[Finding, ...]:
     """What is said of one: it is made again where something that it was read from has changed."""

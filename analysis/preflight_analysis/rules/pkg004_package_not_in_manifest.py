@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterator, Mapping
-from itertools import chain
 
 from preflight_analysis.catalogue.released import distributions_with
 from preflight_analysis.documents.disk import Disk
@@ -15,19 +14,18 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.environment.packages import MANIFEST
-from preflight_analysis.evaluation.tags import tags_of
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.incremental.derived import derived
-from preflight_analysis.launch.model import Action, LaunchFile, Substitution
+from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.names_of_launch_files import packages_of_launch_file
 from preflight_analysis.model.problems import fix
 from preflight_analysis.model.python_imports import imported_tops
 from preflight_analysis.rules.further_reading import MANIFEST_2, MANIFEST_3, ROSDEP
 from preflight_analysis.rules.packages import check_packages
 from preflight_analysis.rules.rule import Rule
 
-_FINDS = ("find", "find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 _TEST_FOLDERS = ("test", "tests")
 _NOT_NODES = frozenset((*_TEST_FOLDERS, "launch", "build", "install", "log", "doc", "docs", "examples"))
 _MOST_FILES = 500
@@ -113,32 +111,11 @@ def _missing(launch_file: LaunchFile, environment: Environment) -> tuple[Package
 @derived
 def _used_packages(launch_file: LaunchFile) -> Mapping[str, Span]:
     """The packages that the file names, under whatever conditions, each with the first place."""
-    in_tags = launch_file.root.gather(_packages_of, launch_file.generation) if launch_file.root is not None else ()
-    # What a function of Python gives, such as get_package_share_directory, is a plain text in the actions.
-    in_functions = (found for part in launch_file.named or () for found in _found_by(part))
     first: dict[str, Span] = {}
-    for name, span in chain(in_tags, in_functions):
-        first.setdefault(name, span)
+    for name, span in packages_of_launch_file(launch_file):
+        if "$" not in name:
+            first.setdefault(name.strip("'\""), span)
     return first
-
-
-def _packages_of(action: Action, generation: int) -> Iterator[tuple[str, Span]]:
-    tags = tags_of(generation)
-    tag = tags.get(action.kind) or tags.get(action.kind.lower())
-    for attribute in action.attributes:
-        value = attribute.value
-        known = tag.attributes.get(attribute.name) if tag is not None else None
-        if known is not None and known.kind == "package" and value.is_literal:
-            yield value.text, value.span
-        for part in value.substitutions:
-            yield from _found_by(part)
-
-
-def _found_by(part: Substitution) -> Iterator[tuple[str, Span]]:
-    name = part.arguments.split()[-1:] if part.command in _FINDS else []
-    if name and "$" not in name[0]:
-        start = part.arguments_span.start + part.arguments.rindex(name[0])
-        yield name[0].strip("'\""), Span(start, start + len(name[0]))
 
 
 def _fixes(manifest: Document | Unreadable, owner: Package, name: str, file: str) -> tuple[Fix, ...]:

@@ -20,7 +20,6 @@ from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.model import Graph, ParamRead
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.entry import Entry
 from preflight_analysis.model.missing_params import missing_params
 from preflight_analysis.model.name_index import around
 from preflight_analysis.model.nearest import likeness, nearest
@@ -177,11 +176,8 @@ def _finding(rule: Rule, context: Context, read: ParamRead, meant: Param | None,
     node: LaunchNode = read.node
     reads = "reads it without a default" if read.use.mandatory else "reads it"
     if meant is None:
-        setters = (
-            0
-            if read.use.name.startswith("~")
-            else around(context, "parameter").get(Entry("parameter", names.leaf(read.name), "set"), 0)
-        )
+        leaf, known = names.leaf(read.name), around(context, "parameter") if not read.use.name.startswith("~") else {}
+        setters = sum(count for each, count in known.items() if (each.text, each.role) == (leaf, "set"))
         files = f"{setters} launch files nearby set" if setters > 1 else "a launch file nearby sets"
         nearby = f"; {files} a parameter of that name" if setters else ""
         return rule.claim(

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
 from preflight_analysis.evaluation.ros2.param_files import FileParam, read_param_file
@@ -25,6 +23,7 @@ from preflight_analysis.model.problems import rename
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.rules.further_reading import NAV2, PLUGINS
 from preflight_analysis.rules.rule import Rule
+from preflight_analysis.slips import closest
 
 
 class Wrong(NamedTuple):
@@ -80,8 +79,7 @@ def wrong_in(document: Document, plugins: Plugins) -> Iterator[Wrong]:
             name = param.name[len(loaded) + 1 :]
             if name in declared or name in elsewhere or any(map(name.endswith, _endings(elsewhere))):
                 continue
-            slips = {each: OSA.distance(name, each) for each in free if _is_near(name, each, values)}
-            near = [each for each, edits in slips.items() if edits == min(slips.values())]
+            near = closest(name, [each for each in free if _is_near(name, each, values)])
             if len(near) == 1:
                 yield Wrong(name, param.name_span, near[0], plugin)
 

@@ -111,7 +111,7 @@ def _options(rule: Rule) -> str:
             "\nTo suppress one finding, add a comment on its line or the line above.",
             "\nIn XML:\n",
             f"```xml\n<!-- preflight: ignore[{rule.id}] reason -->\n```",
-            "\nIn YAML and Python:\n",
+            f"\nIn {'YAML, Python and build files' if rule.of_package is not None else 'YAML and Python'}:\n",
             f"```yaml\n# preflight: ignore[{rule.id}] reason\n```",
         )
     )

@@ -7,7 +7,7 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from itertools import pairwise
@@ -17,6 +17,7 @@ from types import ModuleType
 import preflight_analysis.rules as package
 from preflight_analysis.catalogue.launches import catalogued_file
 from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
@@ -32,8 +33,10 @@ from preflight_analysis.findings.suppression import Filtered, apply_suppressions
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.model.catalogued import robots_by_catalogue
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.installation import build_files_of
 from preflight_analysis.model.problems import include_chain, numbered_problems
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
+from preflight_analysis.rules.packages import said_of_package
 from preflight_analysis.rules.rule import Rule, in_root
 
 _log = logging.getLogger(__name__)
@@ -73,8 +76,9 @@ def run_rules(
         said = {(finding.rule, finding.location) for finding in found}
         found += [each for each in context.of_branches if (each.rule, each.location) not in said]
     by_file = context.grouped(_file, "", found)
-    of_documents = context.each(read_suppressions, context.documents.values())
-    suppressions = {path: each for path, (each, _) in zip(context.documents, of_documents, strict=True) if each}
+    documents = {**context.documents, **_texts(context.disk, by_file.keys() - context.documents.keys())}
+    of_documents = context.each(read_suppressions, documents.values())
+    suppressions = {path: each for path, (each, _) in zip(documents, of_documents, strict=True) if each}
     chains = _first_chains(context)
     guessed = {unknown.location.file for unknown in context.tree.unknowns if unknown.decides}
     sorted_findings: list[Finding] = []
@@ -82,7 +86,7 @@ def run_rules(
         silenced = suppressions.get(path, ())
         here = context.whole(_alike, path, by_file.get(path, ()))
         here = context.one(_with_doubts, path, here, path in guessed, _why_set_aside(context, path, here))
-        document = context.documents[path] if silenced else None
+        document = documents[path] if silenced else None
         left = context.one(apply_suppressions, path, context.one(unique, path, here), silenced, document)
         judged = tuple(ran) if silenced else ()
         sorted_findings += context.one(_of_file, path, path, left, chains.get(path, ()), context.root, chosen, judged)
@@ -108,11 +112,26 @@ def found_in_loose_files(context: Context) -> Iterator[Finding]:
 
 
 def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[Package]) -> Iterator[Finding]:
-    """What is wrong with how packages are built and installed, whatever launch starts their nodes."""
+    """What is wrong with how packages are built and installed, whatever launch starts their nodes, without what is
+    suppressed."""
+    rules = tuple(rule for rule in all_rules() if rule.of_package is not None)
+    ran = tuple(rule.id for rule in rules)
     for each in packages:
-        for rule in all_rules():
+        by_file: dict[str, list[Finding]] = {path: [] for path in build_files_of(disk, each)}
+        for rule in rules:
             if rule.of_package is not None:
-                yield from rule.of_package(rule, disk, environment, each)
+                for finding in said_of_package(disk.db, rule.of_package, rule, environment, each):
+                    by_file.setdefault(finding.location.file, []).append(finding)
+        texts = _texts(disk, by_file)
+        for path, found in by_file.items():
+            document = texts.get(path)
+            silenced = read_suppressions(document)[0] if document is not None else ()
+            filtered = apply_suppressions(unique(found), silenced, document)
+            yield from (*filtered.kept, *_useless(all_rules(), filtered, ran))
+
+
+def _texts(disk: Disk, paths: Iterable[str]) -> dict[str, Document]:
+    return {path: text for path in sorted(paths) if isinstance(text := disk.text(path), Document)}
 
 
 def _of_branches(needs_graph: bool, pause: Callable[[], object]) -> Iterator[Rule]:
@@ -207,15 +226,19 @@ def _of_file(
 ) -> tuple[Finding, ...]:
     """What is said of one file, of what the rules `ran` found there and no comment silences."""
     left = [_in_context(finding, chain, root) for finding in filtered.kept]
-    judge = next((rule for rule in rules if rule.unused_suppression is not None), None)
-    if judge is not None and judge.unused_suppression is not None:
-        useless = (judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran)
-        left += [in_root(finding, root) for finding in useless]
+    left += [in_root(finding, root) for finding in _useless(rules, filtered, ran)]
     left, others = most_severe(left)
     counts = next((rule for rule in rules if rule.left_out is not None), None)
     if others and counts is not None and counts.left_out is not None:
         left.append(in_root(counts.left_out(counts, path, others), root))
     return tuple(sorted(left, key=_place))
+
+
+def _useless(rules: Iterable[Rule], filtered: Filtered, ran: Collection[str]) -> Iterator[Finding]:
+    """What is said of the comments that silenced nothing of the rules `ran`."""
+    judge = next((rule for rule in rules if rule.unused_suppression is not None), None)
+    if judge is not None and judge.unused_suppression is not None:
+        yield from (judge.unused_suppression(judge, unused) for unused in filtered.unused if unused.rule in ran)
 
 
 def _why_set_aside(context: Context, path: str, findings: Iterable[Finding]) -> str | None:

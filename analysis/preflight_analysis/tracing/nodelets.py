@@ -15,8 +15,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import chain
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.catkin_python import workspace_packages
@@ -26,6 +24,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
+from preflight_analysis.slips import edits
 from preflight_analysis.tracing.interface import Endpoint, Interface
 from preflight_analysis.tracing.request import TraceRequest, split_args
 
@@ -161,7 +160,7 @@ def why_not_there(found: Interface, request: TraceRequest, environment: Environm
 
 
 def _is_slip_of(name: str) -> Callable[[str], bool]:
-    return lambda other: OSA.distance(name, other, score_cutoff=_SLIP) <= _SLIP
+    return lambda other: edits(name, other, _SLIP) <= _SLIP
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,64 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import field
-from typing import Literal
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.tags import scopes_of, tags_of
+from preflight_analysis.evaluation.tags import scopes_of
 from preflight_analysis.generation import Generation, ros
-from preflight_analysis.launch.model import Action, ActionAttribute, LaunchFile, Substitution, Value
-from preflight_analysis.launch.references import COMPONENT, NAMES, Named, arg_references, first_word
-from preflight_analysis.launch.schema import Kind as ValueKind
-from preflight_analysis.launch.schema import Tag
-from preflight_analysis.launch.substitutions_ros2 import nested
+from preflight_analysis.launch.model import Action, LaunchFile, Value
+from preflight_analysis.model.entry import REFERRED, Kind, Mention
+from preflight_analysis.model.names_of_launch_files import names_of_launch_file
 from preflight_analysis.workspace.observations import Observation
-
-Kind = Literal[
-    "arg-declaration",
-    "arg-use",
-    "arg-passed",
-    "package",
-    "executable",
-    "component",
-    "include",
-    "node",
-    "param",
-    "remap-from",
-    "remap-to",
-    "env",
-    "machine",
-]
-"""`package`: in `pkg=` or `$(find)`; `executable`: `pkg/type` or, in ROS 2, `pkg/exec`;
-`component`: `pkg/plugin`; `include`: the text of `file=`, unresolved; `node`,
-`param` and remaps: the name as written; `env`: in `$(env)`, `$(optenv)` or an `<env>` tag; `machine`: declared or
-used."""
-
-_OF_VALUE: Mapping[ValueKind, Kind] = {
-    "package": "package",
-    "executable": "executable",
-    "component": "component",
-    "node": "node",
-    "launch-file": "include",
-    "parameter": "param",
-    "remap-from": "remap-from",
-    "remap-to": "remap-to",
-    "variable": "env",
-    "machine": "machine",
-}
-_OF_SUBSTITUTION: Mapping[Named | None, Kind] = {"package": "package", "variable": "env"}
-
-
-@dataclass(frozen=True, slots=True)
-class Mention:
-    """A name at a place. `action` is the start tag that it stands in: for `arg-passed` that of the include."""
-
-    kind: Kind
-    name: str
-    span: Span
-    action: Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,19 +46,17 @@ class FileFacts:
     observations: tuple[Observation, ...] = field(default=(), compare=False, repr=False)
     """What it was made from."""
 
-    def named(self, kind: Kind, name: str) -> Iterator[Mention]:
+    def named(self, kind: Kind, name: str, role: str = "") -> Iterator[Mention]:
         """The mentions of a name."""
-        return (m for m in self.mentions if m.kind == kind and m.name == name)
+        return (m for m in self.mentions if m.entry[:3] == (kind, name, role))
 
 
 def facts_of(launch_file: LaunchFile) -> FileFacts:
     """The facts of a file, whether well-formed or not."""
-    root, named = launch_file.root, launch_file.named
-    tags, scopes = tags_of(launch_file.generation), scopes_of(launch_file.generation)
-    mentions = tuple(_mentions(root, None, tags, substitutions=named is None)) if root is not None else ()
-    mentions += tuple(m for part in named or () for m in _of_substitution(part, Span(0, 0)))
+    root, scopes = launch_file.root, scopes_of(launch_file.generation)
+    mentions = tuple(each for each in names_of_launch_file(launch_file) if each.entry.kind in REFERRED)
     args = tuple(declaration(action) for action in _declarations(root, scopes)) if root is not None else ()
-    has_nodes = any(m.kind == "executable" for m in mentions)
+    has_nodes = any(each.entry.kind == "program" for each in mentions)
     passing_all = frozenset(_passing_all(root, ros(launch_file.generation))) if root is not None else frozenset[Span]()
     return FileFacts(launch_file.path, launch_file.document.version, args, mentions, has_nodes, passing_all)
 
@@ -140,52 +91,3 @@ def declaration(action: Action) -> ArgDeclaration:
     doc = texts.get("doc") or texts.get("description")
     choices = tuple(v.text for child in action.children if child.kind == "choice" and (v := child.value("value")))
     return ArgDeclaration(texts["name"], texts.get("default"), texts.get("value"), doc, span, choices)
-
-
-def _of_substitution(part: Substitution, action: Span) -> Iterator[Mention]:
-    named = NAMES.get(part.command)
-    kind: Kind | None = "arg-use" if named == "argument" else _OF_SUBSTITUTION.get(named)
-    if part.command == COMPONENT:
-        kind = "component"
-    if kind is not None:
-        yield Mention(kind, *first_word(part), action)
-
-
-def _mentions(
-    action: Action, parent: Action | None, tags: Mapping[str, Tag], *, substitutions: bool
-) -> Iterator[Mention]:
-    for attribute in action.attributes:
-        yield from _of_attribute(action, attribute, parent, tags)
-        if not substitutions:
-            continue
-        if attribute.value.problem is None and "$" in attribute.value.text:
-            for name, span in arg_references(attribute.value):
-                yield Mention("arg-use", name, span, action.head_span)
-            for part in nested(attribute.value.parts):
-                kind = _OF_SUBSTITUTION.get(NAMES.get(part.command))
-                if kind is not None:
-                    yield Mention(kind, *first_word(part), action.head_span)
-    if "$" in action.body.text:
-        for name, span in arg_references(action.body):
-            yield Mention("arg-use", name, span, action.head_span)
-    for child in action.children:
-        yield from _mentions(child, action, tags, substitutions=substitutions)
-
-
-def _of_attribute(
-    action: Action, attribute: ActionAttribute, parent: Action | None, tags: Mapping[str, Tag]
-) -> Iterator[Mention]:
-    tag = tags.get(action.kind)
-    known = tag.attributes.get(attribute.name) if tag is not None else None
-    if known is None or action.kind == "rosparam":  # whose `param` is what several parameters have in common
-        return
-    name, span = attribute.value.text, attribute.value.span
-    if known.kind == "argument":
-        passed = parent is not None and parent.kind == "include"
-        where = parent.head_span if passed and parent is not None else action.head_span
-        yield Mention("arg-passed" if passed else "arg-declaration", name, span, where)
-    elif (kind := _OF_VALUE.get(known.kind)) is not None:
-        if kind in ("executable", "component"):
-            package = action.value("pkg")
-            name = f"{package.text if package else ''}/{name}"
-        yield Mention(kind, name, span, action.head_span)

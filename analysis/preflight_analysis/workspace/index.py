@@ -12,7 +12,8 @@ from functools import cached_property
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.span import Location
-from preflight_analysis.workspace.facts import FileFacts, Kind, Mention
+from preflight_analysis.model.entry import Kind, Mention
+from preflight_analysis.workspace.facts import FileFacts
 from preflight_analysis.workspace.observations import Observation
 
 
@@ -113,9 +114,9 @@ class WorkspaceIndex:
         """What a file includes, in the order of its text."""
         return self._included.get(path, ())
 
-    def mentions(self, kind: Kind, name: str) -> Iterator[tuple[str, Mention]]:
-        """Each mention of a name in any file, with the file's path."""
-        yield from self._mentions.get((kind, name), ())
+    def mentions(self, kind: Kind, name: str, of: str = "") -> Iterator[tuple[str, Mention]]:
+        """Each mention of a name in any launch file, with the file's path."""
+        yield from self._mentions.get((kind, name, of), ())
 
     def nodes(self) -> Iterator[tuple[Root, NodeEntry]]:
         """The nodes of all roots."""
@@ -168,9 +169,10 @@ class WorkspaceIndex:
                 yield inclusion
 
     @cached_property
-    def _mentions(self) -> dict[tuple[Kind, str], list[tuple[str, Mention]]]:
-        found: dict[tuple[Kind, str], list[tuple[str, Mention]]] = {}
+    def _mentions(self) -> dict[tuple[Kind, str, str], list[tuple[str, Mention]]]:
+        found: dict[tuple[Kind, str, str], list[tuple[str, Mention]]] = {}
         for path, facts in self.files.items():
             for mention in facts.mentions:
-                found.setdefault((mention.kind, mention.name), []).append((path, mention))
+                kind, name, _, of, _ = mention.entry
+                found.setdefault((kind, name, of), []).append((path, mention))
         return found

@@ -13,7 +13,8 @@ from typing import Any, TypeVar, get_args
 
 from preflight_analysis.documents.disk import text_of
 from preflight_analysis.documents.span import LineIndex, Location, Span
-from preflight_analysis.workspace.facts import ArgDeclaration, FileFacts, Kind, Mention
+from preflight_analysis.model.entry import Entry, Kind, Mention
+from preflight_analysis.workspace.facts import ArgDeclaration, FileFacts
 from preflight_analysis.workspace.index import Inclusion, NodeEntry, Root, RootEntry, WorkspaceIndex
 from preflight_analysis.workspace.observations import Observation, World
 from preflight_analysis.workspace.sources import Sources
@@ -88,13 +89,14 @@ class _Writer:
         return all(self._sources.digest(path) == version for path, version in versions.items())
 
     def _facts(self, facts: FileFacts, written: Iterable[Inclusion]) -> list[Any]:
-        mentions = facts.mentions
+        mentions, entries = facts.mentions, _Numbered()
+        numbers = [entries.number(m.entry) for m in mentions]
         return [
             self._paths.number(facts.path),
             [self._observations.number(each) for each in facts.observations],
             [[a.name, a.default, a.value, a.doc, *a.span, *a.choices] for a in facts.args],
-            [_KINDS.index(m.kind) for m in mentions],
-            [m.name for m in mentions],
+            [[_KINDS.index(kind), *texts] for kind, *texts in entries.all()],
+            numbers,
             [offset for m in mentions for offset in (*m.span, *m.action)],
             facts.has_nodes,
             sorted(facts.passing_all),
@@ -186,9 +188,10 @@ class _Reader:
         return self._facts(kept), [self._inclusion(each, None) for each in kept[8]]
 
     def _facts(self, kept: Sequence[Any]) -> FileFacts:
-        path, seen, args, kinds, names, offsets, has_nodes, passing_all, _ = kept
+        path, seen, args, known, numbers, offsets, has_nodes, passing_all, _ = kept
         at = iter(map(Span, *_offsets(offsets)))
-        named = zip((_KINDS[kind] for kind in kinds), _texts(names), at, at, strict=True)
+        entries = [Entry(_KINDS[kind], *_texts(texts)) for kind, *texts in known]
+        named = zip((entries[number] for number in numbers), at, at, strict=True)
         return FileFacts(
             self._paths[path],
             self._sources.digest(self._paths[path]),

@@ -45,6 +45,7 @@ from preflight_analysis.interfaces.plugins import PluginIndex
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.behavior_trees import trees_of
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.installation import build_files_of, packages_in
 from preflight_analysis.robot.sources import documents_of
 from preflight_analysis.rules.registry import found_in_branch, found_in_loose_files, found_in_packages, run_rules
 from preflight_analysis.source.analyse import SourceAnalysis
@@ -374,7 +375,7 @@ class Workspace:
 
     def findings_of_packages(self, packages: Iterable[Package]) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
         """What is wrong with how packages are built that no launch has to do with, and the texts of the files."""
-        found = tuple(found_in_packages(self.sources, self.environment, packages))
+        found = adjusted(found_in_packages(self.sources, self.environment, packages), self.settings.severities)
         texts = {path: self.sources.text(path) for path in {each.location.file for each in found}}
         documents = {path: text for path, text in texts.items() if isinstance(text, Document)}
         return with_offered_fixes(found, self.sources.content), documents
@@ -483,7 +484,9 @@ class Workspace:
         one_of_folder = {os.path.dirname(path): path for path in launch_files}
         around = map(self._manifest_around, one_of_folder.values())
         manifests = {manifest for manifest in around if manifest is not None}
-        for path in (*tree.inputs, *sorted(manifests)):
+        packages = packages_in(self.environment_of(tree.file), launch_files, tree.nodes)
+        build_files = (path for package in packages for path in build_files_of(self.sources, package))
+        for path in (*tree.inputs, *sorted(manifests), *build_files):
             if path not in documents:
                 text = self.sources.text(path)
                 if not isinstance(text, Unreadable):

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from preflight_analysis.documents.hash_comments import has_hash_comments
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.findings.fingerprint import fingerprints
 from preflight_analysis.findings.policy import EFFECTS, limit_in_words
@@ -119,7 +120,7 @@ def _lines(finding: Finding, report: Report) -> Iterator[str]:
     for fix in finding.fixes:
         yield f"Fix: {printable(fix.title)}"
         yield from _edits(fix, report)
-    comment = "# {}" if finding.location.file.endswith((".py", ".yaml", ".yml")) else "<!-- {} -->"
+    comment = "# {}" if has_hash_comments(finding.location.file, "") else "<!-- {} -->"
     suppressed = comment.format(f"preflight: ignore[{finding.rule}] the reason")
     yield f"Suppress it with a comment on its line or the line above: {suppressed}"
 

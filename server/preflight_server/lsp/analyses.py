@@ -24,6 +24,7 @@ from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.resolve_commands import MAX_ROUNDS
 from preflight_analysis.workspace.workspace import Analysis, Workspace
 
+from preflight_server.lsp.launch_documents import is_build_file
 from preflight_server.lsp.rounds import Round, Snapshot, branches_of
 
 if TYPE_CHECKING:
@@ -233,12 +234,18 @@ class Analyses:
             {root: session.runs.results(root) for root in asked},
             frozenset((*selected.values(), *session.indexing.named)),
             dict(selected),
+            self._build_files(),
             self._last,
             only_news,
             self._server.texts,
             self._shows_related,
             self._server.shown_pages,
         )
+
+    def _build_files(self) -> list[str]:
+        """The open ones of this folder."""
+        texts, of = self._server.texts, self._server.session_of
+        return [each.path for each in texts if each.path and is_build_file(each) and of(each.uri) is self._session]
 
     def _commit(self, round_: Round) -> None:
         self._last = round_
@@ -250,6 +257,7 @@ class Analyses:
             for path in self._session.choice.open
             if any(path in inputs for inputs in current)
         }
+        clean |= {path: [] for path in self._build_files()}
         self._server.publisher.update(self._session, {**clean, **round_.diagnostics}, self._edited)
         for callback in self._server.after_analysis:
             callback()

@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from preflight_server.lsp.launch_documents import is_served
+from preflight_server.lsp.launch_documents import is_build_file, is_served
 from preflight_server.lsp.session import PAUSE_AFTER_TYPING, Session
 from preflight_server.lsp.settings import Settings
 from preflight_server.lsp.text_store import OpenDocument
@@ -121,7 +121,7 @@ class Folders:
             return
         for session in self:
             session.leaves(path)
-            if session.shows(path) or session.depends_on(path):
+            if session.shows(path) or session.depends_on(path) or is_build_file(document):
                 session.closed(path)
 
     def configure(self, settings: Settings, of_folder: Mapping[Session, Settings] | None = None) -> None:

@@ -3,10 +3,12 @@ calls it."""
 
 from __future__ import annotations
 
+import os
 import re
 
 from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.xml_text import document_element
+from preflight_analysis.environment.build import BUILD_FILES
 from preflight_analysis.launch.recognize import is_yaml, launch_format
 from preflight_analysis.workspace.handed_over import ROBOTS
 
@@ -47,6 +49,11 @@ def is_handed_over(document: OpenDocument) -> bool:
         return True
     tag = document_element(document.text)
     return tag == "robot" or (tag == "root" and _TREE.search(document.text) is not None)
+
+
+def is_build_file(document: OpenDocument) -> bool:
+    """Whether it may say how a package is built: what is found in it is shown, whatever launch starts its nodes."""
+    return document.path is not None and os.path.basename(document.path) in BUILD_FILES
 
 
 def is_served(document: OpenDocument) -> bool:

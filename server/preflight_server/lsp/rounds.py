@@ -6,15 +6,19 @@ import logging
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from itertools import groupby
 
 from lsprotocol import types
 from preflight_analysis.dataclass import dataclass
+from preflight_analysis.documents.span import Span
+from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.findings.contexts import RootFindings, causes_first, lacks_once
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.lack import Missing, missing
 from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.incremental.kept import Kept
+from preflight_analysis.model.installation import packages_of
 from preflight_analysis.workspace.branches import Branches
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.merged import CRASH, counting, merged
@@ -72,6 +76,8 @@ class Snapshot:
     """Roots that count though others include them."""
     selected: Mapping[str, Root]
     """The root that the user chose for a file to be shown in."""
+    build_files: Collection[str]
+    """Those that are open: what is found in them is shown, whatever launches are."""
     before: Round | None
     only_news: bool
     """Whether `before` is all there is to tell where the roots that are asked for are what they were."""
@@ -110,13 +116,15 @@ class Snapshot:
         changed = {root: frozenset(_changed_files(workspace, analysis)) for root, analysis in others.items()}
         analyses = {root: either[root] for root in self.wanted if root in (either := {**others, **asked})}
         failures += [failure for analysis in asked.values() for failure in analysis.failures]
-        return replace(self._published(analyses, changed), failures=tuple(failures), preliminary=preliminary)
+        return replace(self._published(workspace, analyses, changed), failures=tuple(failures), preliminary=preliminary)
 
     def _is_known(self, asked: Mapping[Root, Analysis], before: Round) -> bool:
         same = (asked.get(root) is before.analyses.get(root) for root in self.asked)
         return all(same) and before.outdated.isdisjoint(self.asked)
 
-    def _published(self, analyses: Mapping[Root, Analysis], changed: Mapping[Root, frozenset[str]]) -> Round:
+    def _published(
+        self, workspace: Workspace, analyses: Mapping[Root, Analysis], changed: Mapping[Root, frozenset[str]]
+    ) -> Round:
         """The findings of all roots by file, of a file for which the user chose a root those in that one. Files that
         are not open are read for their lines. `changed` has the files that are not what a root was made of."""
         kept = Kept(self.before.kept if self.before is not None else None)
@@ -131,6 +139,12 @@ class Snapshot:
         documents = {
             path: document for root in newest_last for path, document in shown_roots[root].all_documents.items()
         }
+        said = {package.share for each in shown_roots.values() for package in packages_of(each.context)}
+        around = (package_around(workspace.environment, path) for path in self.build_files)
+        others = {package.share: package for package in around if package and package.share not in said}
+        of_packages, texts = workspace.findings_of_packages(others.values())
+        findings |= {path: tuple(found) for path, found in groupby(sorted(of_packages, key=_place), key=_file)}
+        documents = {**texts, **documents}
         before = self.before.converter if self.before is not None else None
         converter = Converter(self.texts, documents, related=self.shows_related, pages=self.pages, before=before)
         shown = {path: kept.get(lacks_once, path, found) for path, found in findings.items()}
@@ -141,6 +155,14 @@ class Snapshot:
         kept.end()
         outdated = frozenset(root for root, files in changed.items() if files)
         return Round(analyses, outdated, shown, lacks, diagnostics, kept, converter)
+
+
+def _file(finding: Finding) -> str:
+    return finding.location.file
+
+
+def _place(finding: Finding) -> tuple[str, Span]:
+    return finding.location.file, finding.location.span
 
 
 def _changed_files(workspace: Workspace, analysis: Analysis) -> Iterator[str]:

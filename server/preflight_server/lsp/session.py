@@ -30,6 +30,7 @@ from preflight_server.lsp.buffers import Buffers
 from preflight_server.lsp.convert import Converter
 from preflight_server.lsp.indexing import Indexing
 from preflight_server.lsp.launch_documents import (
+    is_build_file,
     is_handed_over,
     is_launch_file,
     is_python_launch_file,
@@ -133,15 +134,15 @@ class Session:
             return
         if is_served(document):
             self.choice.to_front(document.path)
-            if self.folder is None and (is_launch_file(document) or is_handed_over(document)):
-                # An editor that opened a file and no folder: the workspace is the one around the file.
-                self.folder = workspace_of(document.path)
-                self._forget_workspace()
-                self.indexing.changed(None)
         elif self.shows(document.path) or not is_xml(document) or self.depends_on(document.path):
             self.choice.leave(document.path)
         else:
             return  # XML that has nothing to do with any launch
+        if self.folder is None and (is_launch_file(document) or is_handed_over(document) or is_build_file(document)):
+            # An editor that opened a file and no folder: the workspace is the one around the file.
+            self.folder = workspace_of(document.path)
+            self._forget_workspace()
+            self.indexing.changed(None)
         self._touch(document.path, document.path, quiet=quiet)
 
     def closed(self, path: str) -> None:

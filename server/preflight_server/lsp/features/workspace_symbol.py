@@ -1,10 +1,11 @@
-"""`workspace/symbol`: nodes, launch files and topics by name."""
+"""`workspace/symbol`: nodes, launch files, executables and topics by name."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
+from preflight_analysis.queries.workspace_symbols import executables
 from preflight_analysis.queries.workspace_symbols import workspace_symbols as query
 
 from preflight_server.lsp.query_contexts import converter_for, workspace_query_context
@@ -13,7 +14,12 @@ if TYPE_CHECKING:
     from preflight_server.lsp.app import PreflightServer
     from preflight_server.lsp.session import Session
 
-_KINDS = {"node": types.SymbolKind.Class, "launch": types.SymbolKind.File, "topic": types.SymbolKind.Event}
+_KINDS = {
+    "node": types.SymbolKind.Class,
+    "launch": types.SymbolKind.File,
+    "topic": types.SymbolKind.Event,
+    "executable": types.SymbolKind.Function,
+}
 
 
 def register(server: PreflightServer) -> None:
@@ -38,7 +44,7 @@ def register(server: PreflightServer) -> None:
         context = await workspace_query_context(session)
 
         def work() -> list[types.SymbolInformation]:
-            found = query(context.current, context.analyses, session.folder, query_)
+            found = query(context.current, context.analyses, session.folder, query_, executables(context))
             converter = converter_for(ls, context, (symbol.location for symbol in found))
             return [
                 types.SymbolInformation(
