@@ -119,6 +119,7 @@ class Analysis:
     def _judgement(self) -> tuple[tuple[Finding, ...], tuple[Failure, ...]]:
         failures: list[Failure] = []
         found = run_rules(self.context, failures=failures)
+        self.context.kept.end()
         if self.tree.edited:
             found = [each for each in found if not self._of_replaced_text(each)]
         return adjusted(found, self.severities), tuple(failures)
