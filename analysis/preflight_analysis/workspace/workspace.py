@@ -203,6 +203,10 @@ class Workspace:
         """Those that most launch files of the environment's generation see."""
         return _executables(self.sources.db, self, self._common)
 
+    def executables_in(self, environment: Environment) -> ExecutableIndex:
+        """Those that launch files see which see that environment."""
+        return ExecutableIndex(environment, self.sources)
+
     @property
     def _common(self) -> Environment:
         """What most launch files of the environment's generation see."""
@@ -509,7 +513,7 @@ def _meaning(db: Database, environment: Environment, packages: tuple[Package, ..
 
 @query
 def _executables(db: Database, workspace: Workspace, environment: Environment) -> ExecutableIndex:
-    return ExecutableIndex(environment, workspace.sources)
+    return workspace.executables_in(environment)
 
 
 @query
