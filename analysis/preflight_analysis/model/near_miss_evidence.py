@@ -58,7 +58,7 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
     for connection in channel.consumers:
         if connection.node is own:
             return  # it knows that name
-    is_enough = alike is not None and (alike[0] == "typo" or says_enough(consumer.name, channel.name, mine or ""))
+    is_enough = alike is not None and (alike[0] == "typo" or _says_enough(consumer.name, channel.name, mine or ""))
     short_name, long_name = sorted((consumer.name, channel.name), key=len)
     how_far = len(long_name) - len(short_name)
     may_be_slash = below and long_name.endswith(short_name)
@@ -107,9 +107,12 @@ def _is_slash(short: Connection, long: Connection) -> bool:
     return absolute and relative and namespace != "/" and long.name == namespace.rstrip("/") + short.name
 
 
-def says_enough(name: str, other: str, type_: str) -> bool:
+def _says_enough(name: str, other: str, type_: str) -> bool:
     """Whether like words suffice: for a generic type only if the whole shorter name ends the longer one."""
-    if not type_.startswith(GENERIC_PACKAGES):
-        return True
+    return not type_.startswith(GENERIC_PACKAGES) or is_end_of(name, other)
+
+
+def is_end_of(name: str, other: str) -> bool:
+    """Whether one of two names, of several parts, ends the other one."""
     short, long = sorted((name, other), key=len)
     return short.count("/") >= 2 and long.endswith(short)

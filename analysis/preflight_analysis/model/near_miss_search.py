@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from typing import NamedTuple
 
-from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
 from preflight_analysis.evaluation import names
@@ -21,7 +20,7 @@ from preflight_analysis.model.channels import channels_of, of_all_kinds
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import GENERIC_PACKAGES, all_dangling_consumers
 from preflight_analysis.model.near_miss import EVIDENCE, NearMiss, given_name
-from preflight_analysis.model.near_miss_evidence import Rank, best_rank, dangles, known_type, near_miss, says_enough
+from preflight_analysis.model.near_miss_evidence import Rank, best_rank, dangles, is_end_of, known_type, near_miss
 from preflight_analysis.model.nearest import share_words
 
 
@@ -54,10 +53,10 @@ class _Offers(NamedTuple):
 
 class _Like(NamedTuple):
     """The names of channels that are like a name: those that may be so by any evidence but for words, and those that
-    have words in common, each behind its distance, the nearest first."""
+    have words in common, the nearest first."""
 
     close: frozenset[str] = frozenset()
-    words: tuple[tuple[float, str], ...] = ()
+    words: tuple[str, ...] = ()
 
 
 class _Found(NamedTuple):
@@ -105,7 +104,7 @@ def _judged(
             close += offered.before_remaps(sought)[:1]
         if not close and not like.words:
             continue
-        words = tuple([offered.by_name[name] for _, name in like.words])
+        words = tuple([offered.by_name[name] for name in like.words])
         near = context.one(_meant, id(consumer), consumer, tuple(close), words)
         if near is None or (graph.blind and not near.strong) or offered.is_ambiguous(near, sought):
             continue
@@ -155,10 +154,10 @@ def _found(before: Before[_Found] | None, sought: tuple[_Sought, ...], offers: t
     found: dict[_Sought, _Like] = {}
     for each in sought:
         like = known.get(each)
-        if like is None or (gone and (gone & like.close or any(name in gone for _, name in like.words))):
+        if like is None or (gone and not (gone.isdisjoint(like.close) and gone.isdisjoint(like.words))):
             like = pools.like(each)
         elif came and (more := new.like(each)) != _NOTHING:
-            like = _Like(like.close | more.close, tuple(sorted({*like.words, *more.words})))
+            like = _Like(like.close | more.close, _nearest_first(each.name, {*like.words, *more.words}))
         found[each] = like
     return _Found(found, among)
 
@@ -189,9 +188,13 @@ class _Pools:
             return _Like(frozenset([other for _, other in pool.typos(name)]))
         close = frozenset(chain(pool.close(name), pool.named(name), pool.named(sought.below) if sought.below else ()))
         alike = {other for other, channel in pool.alike(name) if other == channel}
-        words = [other for other in alike if says_enough(name, other, sought.type)]
-        ranked = process.extract(name, words, scorer=OSA.distance, limit=None) if words else ()
-        return _Like(close, tuple(sorted([(distance, other) for other, distance, _ in ranked])))
+        if sought.type.startswith(GENERIC_PACKAGES):
+            alike = {other for other in alike if is_end_of(name, other)}
+        return _Like(close, _nearest_first(name, alike))
+
+
+def _nearest_first(name: str, others: Iterable[str]) -> tuple[str, ...]:
+    return tuple(sorted(sorted(others), key=partial(OSA.distance, name)))
 
 
 class _Offered:
