@@ -12,7 +12,10 @@ message. `//- /path` starts another file, the first one is `/main.launch` and is
 folder a package; there is always a package `p` in `/p`, and every executable of every package exists. All findings of
 all files are compared with the expectations: nothing may be missing and nothing extra.
 
-Interfaces come from annotations in the launch files or from a section `//- interfaces` with JSON by node name:
+A `Workspace` analyses it, as for users, with the files of the fixture as open buffers; a `.ros-preflight.yaml` among
+them has its settings.
+
+What runs told of the nodes is in annotations in the launch files or in a section `//- interfaces` with JSON by name:
 `{"/talker": {"publishers": {"chatter": "std_msgs/String"}, "params": {"~rate": 10}}}`, see `interface_from_json`.
 Without either there is no graph.
 
