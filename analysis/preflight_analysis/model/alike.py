@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator
-from functools import lru_cache
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from functools import cached_property, lru_cache
 from itertools import chain
 from typing import Any, Generic, TypeVar
 
@@ -33,16 +33,26 @@ class Names(Generic[T]):
 
     def __init__(self, items: Iterable[tuple[str, T]]) -> None:
         self._by_key: dict[Hashable, list[tuple[str, T]]] = {}
-        self._by_word: dict[Hashable, list[int]] = {}
         self._items = [*items]
-        self._sizes = [len(plain_words(name)) for name, _ in self._items]
-        for at, (name, _) in enumerate(self._items):
+        for item in self._items:
+            name = item[0]
             for key in (*typo_keys(name), *_leaf_keys(name), ("n", name), *_level_keys(name)):
-                self._by_key.setdefault(key, []).append(self._items[at])
+                self._by_key.setdefault(key, []).append(item)
+
+    @cached_property
+    def _sizes(self) -> list[int]:
+        """Of how many words each is."""
+        return [len(plain_words(name)) for name, _ in self._items]
+
+    @cached_property
+    def _by_word(self) -> Mapping[Hashable, list[int]]:
+        found: dict[Hashable, list[int]] = {}
+        for at, (name, _) in enumerate(self._items):
             numbers = numbers_in(name)
             for word in plain_words(name):
                 for key in ((word, numbers), word):
-                    self._by_word.setdefault(key, []).append(at)
+                    found.setdefault(key, []).append(at)
+        return found
 
     def typos(self, name: str) -> Iterator[tuple[str, T]]:
         """Those that may be a typo away, with their names; some more than once."""
@@ -65,8 +75,6 @@ class Names(Generic[T]):
         """Those that are others and have the same last part or enough words in common, with their names, where not both
         have numbers that differ: `nearest.likeness`, but for typos. Some more than once."""
         numbers, words, common = numbers_in(name), plain_words(name), Counter[int]()
-        leaf = names.leaf(name)
-        own = (("l", leaf, numbers), ("l", leaf, ())) if numbers else (("l", leaf),)
         for word in words:
             keys: tuple[Hashable, ...] = ((word, numbers), (word, ())) if numbers else (word,)
             for key in keys:
@@ -74,7 +82,13 @@ class Names(Generic[T]):
         mine, sizes = len(words), self._sizes
         enough = {size: _enough(mine, size) for size in {*sizes}}
         of_words = (self._items[at] for at, count in common.items() if count >= enough[sizes[at]])
-        return (found for found in chain(self._having(own), of_words) if found[0] != name)
+        return chain(self.ending_alike(name), (found for found in of_words if found[0] != name))
+
+    def ending_alike(self, name: str) -> Iterator[tuple[str, T]]:
+        """Those of them that have the same last part."""
+        leaf, numbers = names.leaf(name), numbers_in(name)
+        own = (("l", leaf, numbers), ("l", leaf, ())) if numbers else (("l", leaf),)
+        return (found for found in self._having(own) if found[0] != name)
 
     def named(self, name: str) -> Iterator[T]:
         """Those of that very name."""

@@ -44,11 +44,13 @@ class _Offer(NamedTuple):
 
 
 class _Offers(NamedTuple):
-    """A channel, and what its providers call it before remaps, with their types."""
+    """A channel, what its providers call it before remaps, with their types, and of one that has one side alone the
+    side, the type and the last part of the name of each end."""
 
     channel: Channel
     offers: tuple[_Offer, ...]
     given: tuple[tuple[str | None, str], ...]
+    lone: tuple[tuple[str, str, str], ...]
 
 
 class _Like(NamedTuple):
@@ -138,9 +140,18 @@ def _sought(consumer: Connection) -> _Sought:
 def _offers(channel: Channel) -> _Offers:
     ends = [(known_type(end), end) for end in channel.providers]
     offers = [_Offer(name, channel.name, type_) for type_, end in ends for name in _names(channel, end)]
-    return _Offers(
-        channel, tuple(dict.fromkeys(offers)), tuple({(type_, given_name(end)): None for type_, end in ends})
-    )
+    given = dict.fromkeys((type_, given_name(end)) for type_, end in ends)
+    return _Offers(channel, tuple(dict.fromkeys(offers)), tuple(given), tuple(_lone_ends(channel)))
+
+
+def _lone_ends(channel: Channel) -> Iterator[tuple[str, str, str]]:
+    leaf = names.leaf(channel.name)
+    for side, ends, others in (
+        ("providers", channel.providers, channel.consumers),
+        ("consumers", channel.consumers, channel.providers),
+    ):
+        if not others:
+            yield from ((side, end.endpoint.type or "", leaf) for end in ends)
 
 
 def _found(before: Before[_Found] | None, sought: tuple[_Sought, ...], offers: tuple[_Offer, ...]) -> _Found:
@@ -187,10 +198,12 @@ class _Pools:
         if sought.type is None:
             return _Like(frozenset([other for _, other in pool.typos(name)]))
         close = frozenset(chain(pool.close(name), pool.named(name), pool.named(sought.below) if sought.below else ()))
-        alike = {other for other, channel in pool.alike(name) if other == channel}
+        alike: Iterator[tuple[str, str]]
         if sought.type.startswith(GENERIC_PACKAGES):
-            alike = {other for other in alike if is_end_of(name, other)}
-        return _Like(close, _nearest_first(name, alike))
+            alike = ((other, channel) for other, channel in pool.ending_alike(name) if is_end_of(name, other))
+        else:
+            alike = pool.alike(name)
+        return _Like(close, _nearest_first(name, {other for other, channel in alike if other == channel}))
 
 
 def _nearest_first(name: str, others: Iterable[str]) -> tuple[str, ...]:
@@ -202,7 +215,7 @@ class _Offered:
 
     def __init__(self, offers: Sequence[_Offers]) -> None:
         self._offers = [each for each in offers if each.offers]
-        self._channels = [each.channel for each in offers]
+        self._all = offers
         self.all = tuple([offer for each in self._offers for offer in each.offers])
         self.by_name = {each.channel.name: each.channel for each in self._offers}
 
@@ -230,13 +243,7 @@ class _Offered:
 
     @cached_property
     def _lone(self) -> Counter[tuple[str, str, str]]:
-        return Counter(
-            (side, end.endpoint.type or "", names.leaf(each.name))
-            for each in self._channels
-            if not each.providers or not each.consumers
-            for side, ends in (("providers", each.providers), ("consumers", each.consumers))
-            for end in ends
-        )
+        return Counter(chain.from_iterable([each.lone for each in self._all]))
 
     def is_ambiguous(self, near: NearMiss, sought: _Sought) -> bool:
         """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
