@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from operator import itemgetter
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -11,7 +12,8 @@ from preflight_analysis.graph.domains import Domains
 from preflight_analysis.graph.model import Channel, Connection, Graph
 from preflight_analysis.incremental.kept import Kept
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.near_miss import NearMiss
+from preflight_analysis.model.near_miss import EVIDENCE, NearMiss
+from preflight_analysis.model.near_miss_evidence import best_rank, known_type
 from preflight_analysis.model.near_miss_search import near_misses
 from preflight_analysis.tracing.interface import Endpoint
 
@@ -92,3 +94,23 @@ def test_edits_one_by_one(seed: int) -> None:
         assert _told(again) == _told(near_misses(_context(channels, nodes), "topics"))
         found += len(again)
     assert found
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_of_all_channels_none_fits_better(seed: int) -> None:
+    """But for remaps at one side, of which several speak for nothing."""
+    made = random.Random(seed)
+    nodes = [SimpleNamespace(name=_name(made)) for _ in range(25)]
+    channels = _channels([_end(made, nodes) for _ in range(300)])
+    compared = 0
+    for near in near_misses(_context(channels, nodes), "topics"):
+        consumer, wanted = near.consumer, known_type(near.consumer)
+        if wanted is None:
+            continue
+        among = [each for each in channels.values() if {wanted, None} & {known_type(end) for end in each.providers}]
+        ranked = ((rank, each) for each in among if (rank := best_rank(consumer, each, consumer.node)) is not None)
+        rank, channel = min(ranked, key=itemgetter(0))
+        if EVIDENCE[rank[2]] != "remap":
+            assert (near.provider, near.likeness) == (channel.providers[rank[-1]], EVIDENCE[rank[2]])
+            compared += 1
+    assert compared

@@ -68,8 +68,9 @@ _TRUE = """
 
 
 def test_silent_where_the_settings_say_that_something_else_tells_the_time() -> None:
-    check(_TRUE + _INTERFACES, external=["/clock"])
-    assert [f.rule for f in findings_of(_TRUE + _INTERFACES, external=["/scan"])] == ["LCH030"]
+    settings = "\n        //- /workspace/.ros-preflight.yaml\n        external: {{topics: [{}]}}"
+    check(_TRUE + settings.format("/clock") + _INTERFACES)
+    assert [f.rule for f in findings_of(_TRUE + settings.format("/scan") + _INTERFACES)] == ["LCH030"]
 
 
 def test_a_node_that_waits_for_the_time_does_not_hide_that_nobody_tells_it() -> None:

@@ -117,6 +117,8 @@ _CLASSIC = """
     </launch>
     //- /gazebo_ros/package.xml
     <package format="3"><name>gazebo_ros</name></package>
+    //- /workspace/.ros-preflight.yaml
+    external: {{topics: [/robot_description]}}
     //- interfaces
     {{"/a": {{}}}}
 """

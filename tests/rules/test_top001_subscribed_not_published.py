@@ -607,3 +607,17 @@ def test_a_name_that_a_costmap_puts_below_its_own(tmp_path: Path, topic: str, fo
     analysis = package_elsewhere.analysed(tmp_path, text, "a.launch.xml", "jazzy", **{"nav.yaml": params})
     told = [each for each in run_rules(analysis.context) if each.rule == "TOP001" and "scan'" in each.message]
     assert [(each.severity, "did you mean '/front/scan'" in each.message) for each in told] == found
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_a_name_that_another_one_has_below_its_namespace(order: tuple[int, int]) -> None:
+    nodes = ('<node pkg="p" type="t" name="one"/>', '<node pkg="p" type="t" name="two" ns="z"/>')
+    given = {
+        "/one": {"publishers": {"speed": "geometry_msgs/Twist"}},
+        "/z/two": {"publishers": {"speed": "geometry_msgs/Twist"}},
+        "/user": {"subscribers": {"speeed": "geometry_msgs/Twist"}},
+    }
+    user = '<node pkg="p" type="t" name="user"/>'
+    launch = f"<launch>{''.join(nodes[at] for at in order)}{user}</launch>\n//- interfaces\n{json.dumps(given)}"
+    (finding,) = [each for each in findings_of(launch) if each.rule == "TOP001"]
+    assert "did you mean '/speed'" in finding.message

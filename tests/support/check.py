@@ -12,7 +12,10 @@ message. `//- /path` starts another file, the first one is `/main.launch` and is
 folder a package; there is always a package `p` in `/p`, and every executable of every package exists. All findings of
 all files are compared with the expectations: nothing may be missing and nothing extra.
 
-Interfaces come from annotations in the launch files or from a section `//- interfaces` with JSON by node name:
+A `Workspace` analyses it, as for users, with the files of the fixture as open buffers; a `.ros-preflight.yaml` among
+them has its settings.
+
+What runs told of the nodes is in annotations in the launch files or in a section `//- interfaces` with JSON by name:
 `{"/talker": {"publishers": {"chatter": "std_msgs/String"}, "params": {"~rate": 10}}}`, see `interface_from_json`.
 Without either there is no graph.
 
@@ -28,31 +31,21 @@ import re
 import textwrap
 from collections.abc import Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import PurePosixPath
 from typing import Any
 
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
-from preflight_analysis.documents.reading import Unreadable
-from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.edit import Edit
+from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
-from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Executable, Package
-from preflight_analysis.evaluation.commands import CommandResult
-from preflight_analysis.evaluation.inversion import arguments_and_variables
-from preflight_analysis.evaluation.launch import evaluate_launch
-from preflight_analysis.evaluation.surroundings import Surroundings
+from preflight_analysis.evaluation.commands import CommandResult, KnownResults
 from preflight_analysis.evaluation.tree import LaunchTree
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.graph.annotations import read_annotation
-from preflight_analysis.graph.build import build_graph
-from preflight_analysis.interfaces.declared import annotated
-from preflight_analysis.interfaces.merge import with_part
-from preflight_analysis.interfaces.plugins import PluginIndex
 from preflight_analysis.model.context import Context
-from preflight_analysis.robot.sources import documents_of
-from preflight_analysis.rules.registry import found_in_branch, run_rules
+from preflight_analysis.rules.registry import run_rules
 from preflight_analysis.tracing.interface import (
     NOT_RUN,
     SEEN,
@@ -68,8 +61,8 @@ from preflight_analysis.tracing.interface import (
     Role,
     Unsure,
 )
-from preflight_analysis.workspace.branches import WhatIf, branches_of
 from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.workspace import Workspace
 
 from support.claims import undeclared
 from support.fix_property import Launch, tries
@@ -111,40 +104,28 @@ class Fixture:
     expected: tuple[Expectation, ...]
 
 
-class _Results:
-    """What the fixture says of its commands."""
-
-    edition = 0
-    placeholder: str | None = None
-
-    def __init__(self, given: Mapping[str, Any]) -> None:
-        self._given = given
-
-    def result(self, line: str) -> CommandResult | None:
-        data = self._given.get(line)
-        if data is None:
-            return None
-        tail = tuple(data.get("stderr_tail", ()))
-        return CommandResult(data.get("status", "done"), data.get("output", ""), data.get("reason", ""), tail)
-
-    def answering(self, question: str) -> tuple[str, ...]:
-        return ()
-
-
-class _EveryExecutable:
+class _EveryExecutable(ExecutableIndex):
     """Whatever a known package is asked for is there."""
 
-    def __init__(self, environment: Environment) -> None:
-        self._environment = environment
+    def __init__(self, environment: Environment, disk: Disk) -> None:
+        super().__init__(environment, disk)
+        self._packages = environment.packages
 
     def find(self, package: str, name: str) -> Executable:
-        found = self._environment.packages.get(package)
+        found = self._packages.get(package)
         if found is None:
             return Executable(None)
         path = f"{found.share}/{name}"
         return Executable(path, (path,), found.share)
 
     component = find
+
+
+class _Workspace(Workspace):
+    """The packages of a fixture."""
+
+    def executables_in(self, environment: Environment) -> ExecutableIndex:
+        return _EveryExecutable(environment, self.sources)
 
 
 def read_fixture(text: str) -> Fixture:
@@ -171,7 +152,6 @@ def analyse(
     fixture: Fixture,
     args: Mapping[str, str] | None = None,
     why_not_run: str | None = None,
-    external: Sequence[str] = (),
     sources: Sources | None = None,
     branches: bool = False,
     edited: bool = False,
@@ -181,67 +161,24 @@ def analyse(
     sources = sources or Sources()
     for path, text in fixture.files.items():
         sources.open(path, text)
-    given = dict(args or {})
-    context = replace(_evaluated(fixture, sources, given, frozenset()), why_not_run=why_not_run)
+    results = {line: _result(data) for line, data in fixture.commands.items()}
+    workspace = _Workspace(environment_of(fixture), sources, "/", KnownResults(None, results, {}, None))
+    analysis = workspace.evaluated(fixture.root, args)
     if branches:
-        ask = partial(_what_if, fixture, sources)
-        ask_params = partial(_params_if, fixture, sources)
-        found = branches_of(context.tree, context.launch_files, given, ask, ask_params)
-        documents = {**found.documents, **context.documents}
-        context = replace(context, documents=documents, of_branches=tuple(each for each, _ in found.findings))
-    tree = context.tree
+        analysis = analysis.with_branches(workspace.branches(analysis))
+    tree = analysis.tree
     annotated = any(read_annotation(node.action)[0] for node in tree.nodes)
     if fixture.interfaces is None and not annotated:
-        return context
+        return replace(analysis.context, why_not_run=why_not_run)
     said = fixture.interfaces or {}
     if branches or edited:
         said = {name: said[name] for name in said if any(node.name == name for node in tree.nodes)}
-    interfaces = [*interfaces_of(tree, said), *(NOT_RUN for _ in tree.simulated)]
-    graph = build_graph(tree, interfaces, external, documents=context.documents)
-    return replace(context, graph=graph)
+    return workspace.with_interfaces(analysis, interfaces_of(tree, said), why_not_run).context
 
 
-def _what_if(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> WhatIf:
-    context = _evaluated(fixture, sources, args, assumed)
-    return WhatIf(context.tree, context.documents, context.launch_files, tuple(found_in_branch(context)))
-
-
-def _params_if(
-    fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]
-) -> list[Finding]:
-    context = _evaluated(fixture, sources, args, assumed)
-    nodes = {node.name for node in context.tree.nodes}
-    said = {name: each for name, each in (fixture.interfaces or {}).items() if name in nodes}
-    interfaces = [*interfaces_of(context.tree, said), *(NOT_RUN for _ in context.tree.simulated)]
-    graph = build_graph(context.tree, interfaces, documents=context.documents)
-    return found_in_branch(replace(context, graph=graph))
-
-
-def _evaluated(fixture: Fixture, sources: Sources, args: Mapping[str, str], assumed: frozenset[Location]) -> Context:
-    environment = environment_of(fixture)
-    executables, results = _EveryExecutable(environment), _Results(fixture.commands)
-    given, variables = arguments_and_variables(args)
-    within = Surroundings(sources, executables, environment, "/", results)
-    tree = evaluate_launch(fixture.root, given, within, assumed=assumed, variables=variables)
-    documents: dict[str, Document] = {}
-    launch_files = {}
-    manifests = (package.manifest for path in tree.files if (package := package_around(environment, path)) is not None)
-    for path in (*tree.files, *tree.inputs, *manifests):
-        if path in documents or path not in fixture.files:
-            continue
-        launch_file = sources.launch_file(path, tree.generation) if path in tree.files else None
-        if launch_file is not None and not isinstance(launch_file, Unreadable):
-            launch_files[path] = launch_file
-            documents[path] = launch_file.document
-        else:
-            text = sources.text(path)
-            if isinstance(text, Document):
-                documents[path] = text
-    documents = {**documents_of(tree, sources, environment), **documents}
-    index = ExecutableIndex(environment, sources)
-    return Context(
-        fixture.root, tree, documents, launch_files, environment, index, PluginIndex(environment, sources), sources
-    )
+def _result(data: Mapping[str, Any]) -> CommandResult:
+    tail = tuple(data.get("stderr_tail", ()))
+    return CommandResult(data.get("status", "done"), data.get("output", ""), data.get("reason", ""), tail)
 
 
 def findings_of(text: str, **options: Any) -> list[Finding]:
@@ -402,9 +339,7 @@ def _evidence_of(data: Mapping[str, Any], name: str) -> Evidence:
 def interfaces_of(tree: LaunchTree, given: Mapping[str, Any]) -> list[Interface]:
     unknown = set(given) - {node.name for node in tree.nodes}
     assert not unknown, f"the fixture has interfaces of nodes that are not there: {unknown}"
-    runs = [interface_from_json(given[node.name]) if node.name in given else NOT_RUN for node in tree.nodes]
-    pairs = [(node, run, annotated(node, run)) for node, run in zip(tree.nodes, runs, strict=True)]
-    return [with_part(node.name, run, part) if part is not None else run for node, run, part in pairs]
+    return [interface_from_json(given[node.name]) if node.name in given else NOT_RUN for node in tree.nodes]
 
 
 def environment_of(fixture: Fixture) -> Environment:
@@ -415,7 +350,10 @@ def environment_of(fixture: Fixture) -> Environment:
             name = next(iter(re.findall(r"<name>(.*)</name>", text)), folder.parent.name)
             dependencies = frozenset(re.findall(r"depend>(.*)</", text))
             packages[name] = Package(name, str(folder.parent), path, dependencies)
-    return Environment(1, "noetic", {}, ("/",), packages, {}, (), (), "/usr/bin/python3")
+    workspace = next(
+        (str(path.parent) for path in map(PurePosixPath, fixture.files) if path.name == SETTINGS_FILE), None
+    )
+    return Environment(1, "noetic", {}, ("/",), packages, {}, (), (), "/usr/bin/python3", workspace=workspace)
 
 
 def _as_expectation(finding: Finding, context: Context) -> Expectation:

@@ -6,6 +6,8 @@ import json
 from collections.abc import Mapping
 
 _PACKAGES = ("robot_state_publisher", "tf2_ros", "robot_localization")
+_OUTSIDE = ("/joint_states", "/robot_description", "/set_pose", "/odometry/filtered", "/scan", "/map_metadata", "/pose")
+"""Topics that are no matter here."""
 EKF = """<node pkg="robot_localization" exec="ekf_node" name="ekf"><param name="publish_tf" value="false"/>
 <param name="base_link_frame" value="{}"/>{}</node>"""
 """A node that asks for the frame of the base and broadcasts none, with more in its tag."""
@@ -17,7 +19,10 @@ def fixture(lines: str, interfaces: Mapping[str, object] | None = None, files: s
     """A fixture with these lines in `<launch>`, and what is seen of the nodes."""
     packages = "".join(f"\n//- /{name}/package.xml\n<package><name>{name}</name></package>" for name in _PACKAGES)
     graph = f"\n//- interfaces\n{json.dumps(interfaces)}" if interfaces is not None else ""
-    return f"//- /main.launch.xml\n<launch>\n{lines}\n</launch>{packages}{graph}{files}"
+    settings = (
+        f"\n//- /workspace/.ros-preflight.yaml\nexternal: {{topics: {json.dumps([*_OUTSIDE, '/slam_toolbox/*'])}}}"
+    )
+    return f"//- /main.launch.xml\n<launch>\n{lines}\n</launch>{packages}{settings}{graph}{files}"
 
 
 def static(name: str, parent: str, child: str, more: str = "") -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 import struct
+import threading
 from collections.abc import Iterator
 
 import pytest
@@ -47,6 +48,7 @@ def publisher(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[FakePublisher, 
     listening = Listening()
     made = FakePublisher(listening)  # type: ignore[arg-type]
     yield made, listening
+    made._listening.shutdown(socket.SHUT_RDWR)
     made._listening.close()
 
 
@@ -106,3 +108,16 @@ def test_a_flood_of_requests_has_an_end(publisher: tuple[FakePublisher, Listenin
         made.publish(f"/topic{number}")
     assert len(made._rounds["/move/result"]) == fake_publisher.MAX_ROUNDS
     assert len(made._rounds) == fake_publisher.MAX_TOPICS
+
+
+def test_who_is_closed_waits_for_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    raised: list[object] = []
+    monkeypatch.setattr(threading, "excepthook", raised.append)
+    before = {*threading.enumerate()}
+    made = FakePublisher(Listening())  # type: ignore[arg-type]
+    (waiting,) = {*threading.enumerate()} - before
+    made._listening.shutdown(socket.SHUT_RDWR)
+    made._listening.close()
+    waiting.join(20)
+    assert not waiting.is_alive()
+    assert not raised

@@ -15,7 +15,11 @@ T = TypeVar("T")
 
 def taken_over(tree: LaunchTree, before: LaunchTree) -> LaunchTree:
     """The tree with the nodes, parameters and includes of an earlier one where they are equal: what was kept of those
-    is found again by the objects themselves."""
+    is found again by the objects themselves.
+
+    Parts of a launch (`Database.part_answered`) are such objects already, but what is wrong in itself is no part: a
+    node whose package is not found is evaluated anew at each edit.
+    """
     # Most are the same objects anyway: to look at them is quicker than to compare them.
     kept_nodes: dict[int, LaunchNode] = {}
     if new_nodes := _others(tree.nodes, before.nodes):

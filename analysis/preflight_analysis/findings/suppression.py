@@ -43,7 +43,7 @@ class Malformed:
 class Filtered:
     """Findings that are left, and the suppressions that silenced nothing."""
 
-    kept: tuple[Finding, ...]
+    left: tuple[Finding, ...]
     unused: tuple[Suppression, ...]
 
 

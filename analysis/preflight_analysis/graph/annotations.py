@@ -28,6 +28,7 @@ from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.graph.actions import actions_of
+from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import Action
 from preflight_analysis.tracing.interface import Endpoint, Interface, Outcome, ParamUse, Role
 
@@ -120,6 +121,7 @@ def _groups(action: Action) -> list[_Tag]:
     return groups
 
 
+@derived
 def read_annotation(action: Action) -> tuple[Interface | None, tuple[AnnotationProblem, ...]]:
     """The interface that is annotated in a node's tag, None if there is no annotation, and what is malformed in it."""
     problems: list[AnnotationProblem] = []

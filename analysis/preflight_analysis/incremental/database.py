@@ -360,7 +360,11 @@ class Database:
         self, key: Hashable, make: Callable[[], tuple[V, Mapping[Any, object]]], look: Callable[[Any], object]
     ) -> V:
         """As `part`, where `make` also depends on the answers to questions, which it gives with the value. `look` tells
-        what they are now."""
+        what they are now.
+
+        No query of its own (`Query.answered`): what a part adds depends on those before it, which only the walk that is
+        under way can answer, and where it is wrong it is evaluated in its place.
+        """
         making = self._thread.making[-1]
         known = (*making.parts[-1].get(key, ()), *making.cell.parts.get(key, ()))
         if known:

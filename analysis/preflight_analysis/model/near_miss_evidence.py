@@ -58,12 +58,12 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
     for connection in channel.consumers:
         if connection.node is own:
             return  # it knows that name
-    says_enough = alike is not None and (alike[0] == "typo" or _says_enough(consumer.name, channel.name, mine or ""))
+    is_enough = alike is not None and (alike[0] == "typo" or _says_enough(consumer.name, channel.name, mine or ""))
     short_name, long_name = sorted((consumer.name, channel.name), key=len)
     how_far = len(long_name) - len(short_name)
     may_be_slash = below and long_name.endswith(short_name)
     has_level = below and extra_level(short_name, long_name) is not None
-    if not (may_be_slash or has_level or says_enough or one_sided):
+    if not (may_be_slash or has_level or is_enough or one_sided):
         return
     for number, provider in enumerate(channel.providers):
         if provider.endpoint.builtin or provider.node is own:
@@ -84,7 +84,7 @@ def _fitting(consumer: Connection, channel: Channel, own: LaunchNode | None) -> 
         if known and has_level:
             yield number, "level", how_far
             continue
-        if alike is not None and says_enough and (alike[0] == "typo" or (known and lone)):
+        if alike is not None and is_enough and (alike[0] == "typo" or (known and lone)):
             yield number, *alike
 
 
@@ -109,7 +109,10 @@ def _is_slash(short: Connection, long: Connection) -> bool:
 
 def _says_enough(name: str, other: str, type_: str) -> bool:
     """Whether like words suffice: for a generic type only if the whole shorter name ends the longer one."""
-    if not type_.startswith(GENERIC_PACKAGES):
-        return True
+    return not type_.startswith(GENERIC_PACKAGES) or is_end_of(name, other)
+
+
+def is_end_of(name: str, other: str) -> bool:
+    """Whether one of two names, of several parts, ends the other one."""
     short, long = sorted((name, other), key=len)
     return short.count("/") >= 2 and long.endswith(short)

@@ -3,25 +3,69 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
-from operator import itemgetter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from functools import cached_property, partial
+from itertools import chain
 from typing import NamedTuple
 
+from rapidfuzz.distance import OSA
+
 from preflight_analysis.evaluation import names
-from preflight_analysis.graph.model import Channel, ChannelKind, Connection
+from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.model.alike import Names
-from preflight_analysis.model.channels import channels_of
+from preflight_analysis.model.channels import channels_of, of_all_kinds
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.dangling import GENERIC_PACKAGES, all_dangling_consumers
-from preflight_analysis.model.near_miss import NearMiss, given_name
-from preflight_analysis.model.near_miss_evidence import Rank, best_rank, known_type, near_miss
+from preflight_analysis.model.near_miss import EVIDENCE, NearMiss, given_name
+from preflight_analysis.model.near_miss_evidence import Rank, best_rank, dangles, is_end_of, known_type, near_miss
 from preflight_analysis.model.nearest import share_words
 
-_FEW = 16
-"""Channels that are others than before: where there are more, all consumers are looked at again."""
+
+class _Sought(NamedTuple):
+    """What the search for the other end of a consumer looks at: its name, that below the namespace of its node, that
+    before the remap, and its type."""
+
+    name: str
+    below: str | None
+    given: str
+    type: str | None
+
+
+class _Offer(NamedTuple):
+    """What a channel may be found by: its name, or what it is called below the namespace of one who offers it, and a
+    type of its providers, None where that is not known."""
+
+    name: str
+    channel: str
+    type: str | None
+
+
+class _Offers(NamedTuple):
+    """A channel, what its providers call it before remaps, with their types, and of one that has one side alone the
+    side, the type and the last part of the name of each end."""
+
+    channel: Channel
+    offers: tuple[_Offer, ...]
+    given: tuple[tuple[str | None, str], ...]
+    lone: tuple[tuple[str, str, str], ...]
+
+
+class _Like(NamedTuple):
+    """The names of channels that are like a name: those that may be so by any evidence but for words, and those that
+    have words in common, the nearest first."""
+
+    close: frozenset[str] = frozenset()
+    words: tuple[str, ...] = ()
+
+
+class _Found(NamedTuple):
+    """What is like each name, among what is offered."""
+
+    like: Mapping[_Sought, _Like]
+    among: AbstractSet[_Offer]
 
 
 @derived
@@ -30,130 +74,178 @@ def near_misses(context: Context, kind: ChannelKind) -> tuple[NearMiss, ...]:
 
     Where what is not known of some node may well be the other end, only strong evidence counts.
     """
-    graph, consumers = context.graph, all_dangling_consumers(context)[kind]
-    if graph is None or not consumers:
-        return ()
+    return _all_near_misses(context)[kind]
+
+
+@derived
+def _all_near_misses(context: Context) -> Mapping[ChannelKind, tuple[NearMiss, ...]]:
+    graph, consumers = context.graph, all_dangling_consumers(context)
+    if graph is None or not any(consumers.values()):
+        return dict.fromkeys(consumers, ())
     # Of one name in several domains the first one.
-    channels = tuple(each for each in channels_of(context)[kind] if not (graph.domains.by_node and each.domain))
-    near = tuple(context.whole(_found, kind, tuple(consumers), channels, graph.blind > 0).near.values())
-    if not graph.domains.by_node:
-        return near
-    return tuple(each for each in near if graph.domains.apart(each.consumer.node, each.provider.node) is None)
+    channels = {
+        kind: tuple(each for each in some if not (graph.domains.by_node and each.domain)) if consumers[kind] else ()
+        for kind, some in channels_of(context).items()
+    }
+    offers, sought = of_all_kinds(context, _offers, channels), of_all_kinds(context, _sought, consumers)
+    found: dict[ChannelKind, tuple[NearMiss, ...]] = {}
+    for kind in channels:
+        offered = _Offered(offers[kind])
+        like = context.whole(_found, kind, tuple(dict.fromkeys(sought[kind])), offered.all).like
+        ends = ((end, each, like[each]) for end, each in zip(consumers[kind], sought[kind], strict=True))
+        found[kind] = tuple(_judged(context, graph, offered, ends))
+    return found
 
 
-class _Choice(NamedTuple):
-    """The channel that a consumer was most likely meant for, and how well it fits; None where none does."""
-
-    consumer: Connection
-    best: tuple[Channel, Rank] | None
-
-    @property
-    def near(self) -> NearMiss | None:
-        """What that says."""
-        return near_miss(self.consumer, *self.best) if self.best is not None else None
-
-
-class _Found(NamedTuple):
-    """By the ids of the consumers."""
-
-    choices: Mapping[int, _Choice]
-    near: Mapping[int, NearMiss]
+def _judged(
+    context: Context, graph: Graph, offered: _Offered, consumers: Iterable[tuple[Connection, _Sought, _Like]]
+) -> Iterator[NearMiss]:
+    for consumer, sought, like in consumers:
+        close = [offered.by_name[name] for name in sorted(like.close)] if like.close else []
+        if sought.type is not None:
+            close += offered.before_remaps(sought)[:1]
+        if not close and not like.words:
+            continue
+        words = tuple([offered.by_name[name] for name in like.words])
+        near = context.one(_meant, id(consumer), consumer, tuple(close), words)
+        if near is None or (graph.blind and not near.strong) or offered.is_ambiguous(near, sought):
+            continue
+        if not graph.domains.by_node or graph.domains.apart(consumer.node, near.provider.node) is None:
+            yield near
 
 
-def _found(
-    before: Before[_Found] | None, consumers: tuple[Connection, ...], channels: tuple[Channel, ...], blind: bool
-) -> _Found:
-    """What a consumer was meant for is what it was, unless that channel went or one that came fits better."""
-    (_, last, _), was = before if before is not None else (((), (), False), _Found({}, {}))
-    gone = {*map(id, last)}
-    new = [each for each in channels if id(each) not in gone]
-    gone.difference_update(map(id, channels))
-    offered, came = _Offered(channels), _Offered(new)
-    known = was.choices if len(new) <= _FEW else {}
-    choices: dict[int, _Choice] = {}
-    for consumer in consumers:
-        choice = known.get(id(consumer))
-        if choice is None or choice.consumer is not consumer or (choice.best and id(choice.best[0]) in gone):
-            choice = _Choice(consumer, offered.best(consumer))
+def _meant(consumer: Connection, close: tuple[Channel, ...], words: tuple[Channel, ...]) -> NearMiss | None:
+    """The best of the channels that are like a consumer."""
+    best: tuple[Rank, Channel] | None = None
+    for channel in close:
+        rank = best_rank(consumer, channel, consumer.node)
+        if rank is not None and (best is None or rank < best[0]):
+            best = rank, channel
+    if best is None or best[0] >= _BY_WORDS:
+        fitting = ((best_rank(consumer, each, consumer.node), each) for each in words if dangles(each))
+        nearest = next(((rank, each) for rank, each in fitting if rank is not None), None)
+        if nearest is not None and (best is None or nearest[0] < best[0]):
+            best = nearest
+    return near_miss(consumer, best[1], best[0]) if best is not None else None
+
+
+_BY_WORDS: Rank = (True, False, EVIDENCE.index("words"), 0, "", 0)
+"""No rank of names that have but words in common is better."""
+
+
+def _sought(consumer: Connection) -> _Sought:
+    return _Sought(consumer.name, _below(consumer), given_name(consumer), known_type(consumer))
+
+
+def _offers(channel: Channel) -> _Offers:
+    ends = [(known_type(end), end) for end in channel.providers]
+    offers = [_Offer(name, channel.name, type_) for type_, end in ends for name in _names(channel, end)]
+    given = dict.fromkeys((type_, given_name(end)) for type_, end in ends)
+    return _Offers(channel, tuple(dict.fromkeys(offers)), tuple(given), tuple(_lone_ends(channel)))
+
+
+def _lone_ends(channel: Channel) -> Iterator[tuple[str, str, str]]:
+    leaf = names.leaf(channel.name)
+    for side, ends, others in (
+        ("providers", channel.providers, channel.consumers),
+        ("consumers", channel.consumers, channel.providers),
+    ):
+        if not others:
+            yield from ((side, end.endpoint.type or "", leaf) for end in ends)
+
+
+def _found(before: Before[_Found] | None, sought: tuple[_Sought, ...], offers: tuple[_Offer, ...]) -> _Found:
+    """What is like each name. Not asked by name, as each depends on all names that are offered: what is like one is
+    what it was without those that went, and with those that came."""
+    among = frozenset(offers)
+    was = before[1] if before is not None else _Found({}, frozenset())
+    came, gone = among - was.among, {each.channel for each in was.among - among}
+    known = was.like if len(came) <= _FEW else {}
+    pools, new = _Pools(among), _Pools(came)
+    found: dict[_Sought, _Like] = {}
+    for each in sought:
+        like = known.get(each)
+        if like is None or (gone and not (gone.isdisjoint(like.close) and gone.isdisjoint(like.words))):
+            like = pools.like(each)
+        elif came and (more := new.like(each)) != _NOTHING:
+            like = _Like(like.close | more.close, _nearest_first(each.name, {*like.words, *more.words}))
+        found[each] = like
+    return _Found(found, among)
+
+
+_FEW = 16
+"""Names that come: where there are more, what is like each name is looked for again."""
+_NOTHING = _Like()
+
+
+class _Pools:
+    """Names that are offered, by type."""
+
+    def __init__(self, offers: Iterable[_Offer]) -> None:
+        self._offers = offers
+        self._pools: dict[str | None, Names[str]] = {}
+
+    def _pool(self, type_: str | None) -> Names[str]:
+        """The names that a consumer of that type may be meant for, each with that of its channel."""
+        if type_ not in self._pools:
+            some = [each for each in self._offers if type_ is None or each.type is None or each.type == type_]
+            self._pools[type_] = Names(dict.fromkeys((each.name, each.channel) for each in some))
+        return self._pools[type_]
+
+    def like(self, sought: _Sought) -> _Like:
+        """What is like a name."""
+        name, pool = sought.name, self._pool(sought.type)
+        if sought.type is None:
+            return _Like(frozenset([other for _, other in pool.typos(name)]))
+        close = frozenset(chain(pool.close(name), pool.named(name), pool.named(sought.below) if sought.below else ()))
+        alike: Iterator[tuple[str, str]]
+        if sought.type.startswith(GENERIC_PACKAGES):
+            alike = ((other, channel) for other, channel in pool.ending_alike(name) if is_end_of(name, other))
         else:
-            better = came.best(consumer) if new else None
-            if better is not None and (choice.best is None or better[1] < choice.best[1]):
-                choice = _Choice(consumer, better)
-        choices[id(consumer)] = choice
-    near: dict[int, NearMiss] = {}
-    for key, choice in choices.items():
-        said = was.near.get(key) if known.get(key) is choice else None
-        said = said or choice.near
-        if said is not None and not (blind and not said.strong) and not offered.is_ambiguous(said):
-            near[key] = said
-    return _Found(choices, near)
+            alike = pool.alike(name)
+        return _Like(close, _nearest_first(name, {other for other, channel in alike if other == channel}))
+
+
+def _nearest_first(name: str, others: Iterable[str]) -> tuple[str, ...]:
+    return tuple(sorted(sorted(others), key=partial(OSA.distance, name)))
 
 
 class _Offered:
-    """What is offered, by what it may be taken for."""
+    """What is offered of a kind, by what it may be taken for."""
 
-    def __init__(self, channels: Sequence[Channel]) -> None:
-        self._channels = channels
-        self._pairs: dict[str | None, list[Channel]] = {}
-        for each in channels:
-            for type_ in {known_type(end) for end in each.providers}:
-                self._pairs.setdefault(type_, []).append(each)
-        self._pools: dict[str | None, Names[Channel]] = {}
+    def __init__(self, offers: Sequence[_Offers]) -> None:
+        self._offers = [each for each in offers if each.offers]
+        self._all = offers
+        self.all = tuple([offer for each in self._offers for offer in each.offers])
+        self.by_name = {each.channel.name: each.channel for each in self._offers}
 
-    def _pool(self, type_: str | None) -> Names[Channel]:
-        if type_ not in self._pools:
-            self._pools[type_] = Names(
-                (name, each) for each in self._pairs.get(type_, ()) for name in _names(each, type_)
-            )
-        return self._pools[type_]
-
-    def _like(self, consumer: Connection) -> Mapping[str, Channel]:
-        """The channels that a consumer may be meant for, by their names."""
-        type_ = known_type(consumer)
-        if type_ is None:
-            every = (self._pool(each).typos(consumer.name) for each in self._pairs)
-            return {name: channel for found in every for name, channel in found.items()}
-        pools = [self._pool(each) for each in (type_, None) if each in self._pairs]
-        found = (*(each for pool in pools for each in _like(pool, consumer)), *self._before_remaps(consumer)[:1])
-        return {channel.name: channel for channel in found}
-
-    def _before_remaps(self, consumer: Connection) -> Sequence[Channel]:
+    def before_remaps(self, sought: _Sought) -> Sequence[Channel]:
         """What had the name of the consumer before a remap at one of the two."""
-        return self._given.get((known_type(consumer), given_name(consumer)), ())
+        return self._given.get((sought.type, sought.given), ())
 
     @cached_property
     def _given(self) -> Mapping[tuple[str | None, str], Sequence[Channel]]:
         """The channels of each type by the names that their providers have before remaps."""
         found: dict[tuple[str | None, str], list[Channel]] = {}
-        for type_, some in self._pairs.items():
-            for each in some:
-                for name in {given_name(end) for end in each.providers if known_type(end) == type_}:
-                    found.setdefault((type_, name), []).append(each)
+        for each in self._offers:
+            for key in each.given:
+                found.setdefault(key, []).append(each.channel)
         return found
-
-    def best(self, consumer: Connection) -> tuple[Channel, Rank] | None:
-        """The best of those that are like it, and how well it fits."""
-        among = self._like(consumer).values()
-        ranks = ((each, best_rank(consumer, each, consumer.node)) for each in among)
-        return min(((each, rank) for each, rank in ranks if rank is not None), key=itemgetter(1), default=None)
 
     @cached_property
     def _kinds(self) -> Counter[tuple[str, str]]:
         return Counter(
-            (type_, names.leaf(each.name)) for type_, some in self._pairs.items() if type_ is not None for each in some
+            (type_, names.leaf(each.channel.name))
+            for each in self._offers
+            for type_ in {each.type for each in each.offers}
+            if type_ is not None
         )
 
     @cached_property
     def _lone(self) -> Counter[tuple[str, str, str]]:
-        return Counter(
-            (side, end.endpoint.type or "", names.leaf(each.name))
-            for each in self._channels
-            if not each.providers or not each.consumers
-            for side, ends in (("providers", each.providers), ("consumers", each.consumers))
-            for end in ends
-        )
+        return Counter(chain.from_iterable([each.lone for each in self._all]))
 
-    def is_ambiguous(self, near: NearMiss) -> bool:
+    def is_ambiguous(self, near: NearMiss, sought: _Sought) -> bool:
         """Whether the last name alone speaks for it, or a namespace, and others of the type have it too: which of them
         was meant, if any?"""
         type_, leaf = near.consumer.endpoint.type or "", names.leaf(near.consumer.name)
@@ -161,25 +253,16 @@ class _Offered:
             spaces = map(names.parent, (near.consumer.name, near.provider.name))
             return self._kinds[type_, leaf] > 1 and not share_words(*spaces)
         if near.likeness == "remap":
-            return len(self._before_remaps(near.consumer)) != 1
+            return len(self.before_remaps(sought)) != 1
         if near.likeness not in ("slash", "level") or not type_.startswith(GENERIC_PACKAGES):
             return False
         return any(self._lone[side, type_, leaf] > 1 for side in ("providers", "consumers"))
 
 
-def _names(channel: Channel, type_: str | None) -> Iterator[str]:
-    """That of the channel, and what it is called below the namespaces of those who offer it."""
+def _names(channel: Channel, end: Connection) -> Iterator[str]:
     yield channel.name
-    for end in channel.providers:
-        if end.remap is None and known_type(end) == type_ and (below := _below(end)) is not None:
-            yield below
-
-
-def _like(pool: Names[Channel], consumer: Connection) -> Iterator[Channel]:
-    yield from pool.alike(consumer.name).values()
-    below = _below(consumer)
-    yield from pool.named(below) if below is not None else ()
-    yield from pool.named(consumer.name)
+    if end.remap is None and (below := _below(end)) is not None:
+        yield below
 
 
 def _below(end: Connection) -> str | None:

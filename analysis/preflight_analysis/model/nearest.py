@@ -170,10 +170,12 @@ def _is_typo(name: str, other: str) -> bool:
         one, other_one = map(squeezed, pairs[0])
         return len(pairs) == 1 and min(len(one), len(other_one)) >= _SPLIT and edits(one, other_one, 1) <= 1
     different = [(a, b) for a, b in zip(words, other_words, strict=True) if a != b]
-    return len(different) == 1 and all(_is_word_typo(a, b) for a, b in different)
+    return len(different) == 1 and all(is_word_typo(a, b) for a, b in different)
 
 
-def _is_word_typo(word: str, other: str) -> bool:
+@lru_cache(maxsize=_NAMES)
+def is_word_typo(word: str, other: str) -> bool:
+    """Whether one of two words is the other with a slip, or its beginning."""
     if min(len(word), len(other)) < 3:
         return False
     if min(len(word), len(other)) >= _MIN_PREFIX and (word.startswith(other) or other.startswith(word)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from itertools import chain
 from typing import NamedTuple
@@ -85,8 +85,8 @@ def matched(context: Context) -> Matched | None:
     groups = by_namespace(context)
     columns = groups.values(), [asked_in.get(space, ()) for space in groups]
     unread = zip(groups, context.each_row(_unread, columns, searched), strict=True)
-    of_nodes = {*nodes}
-    found = ((_holder(space, of_nodes, names_asked), params) for space, params in unread if params)
+    holders = _Holders({*nodes}, names_asked)
+    found = ((holders.of(space), params) for space, params in unread if params)
     held = [Held(holder, params) for holder, params in found if holder is not None]
     return Matched(
         tuple(_unset(context, asked, made)),
@@ -144,24 +144,31 @@ def _unread(params: tuple[Param, ...], asked: tuple[str, ...], searched: frozens
     )
 
 
-def _holder(space: str, nodes: AbstractSet[str], asked: Mapping[str, None]) -> str | None:
-    """The full name of the node whose the parameters of a namespace are, `NOBODY`; None where somebody asks for them as
-    a whole."""
-    holder = NOBODY
-    while space:
-        if space in asked:
-            return None
-        if space in nodes and holder == NOBODY:
-            holder = space
-        space = _namespace(space)
-    return holder
+class _Holders:
+    """Of namespaces the full name of the node whose the parameters in them are, `NOBODY`; None where somebody asks for
+    them as a whole."""
+
+    def __init__(self, nodes: AbstractSet[str], asked: Mapping[str, None]) -> None:
+        self._nodes = nodes
+        self._asked = asked
+        self._found: dict[str, str | None] = {"": NOBODY}
+
+    def of(self, space: str) -> str | None:
+        """That of one; thousands have few around them."""
+        if space in self._found:
+            return self._found[space]
+        above = self.of(_namespace(space))
+        holder = None if above is None or space in self._asked else space if space in self._nodes else above
+        self._found[space] = holder
+        return holder
 
 
-def _unset(context: Context, asked: Iterable[Asked], made: AbstractSet[str]) -> Iterator[tuple[ParamRead, ...]]:
-    params, there = context.tree.params, {*namespaces_around(context), *made}
+def _unset(context: Context, asked: Sequence[Asked], made: AbstractSet[str]) -> Iterator[tuple[ParamRead, ...]]:
+    requested = chain.from_iterable([each.requested for each in asked])
+    left = {*requested}.difference(context.tree.params, namespaces_around(context), made)
     for each in asked:
-        new = [name for name in each.requested if name not in params and name not in there]
-        there.update(new)
+        new = [] if left.isdisjoint(each.requested) else [name for name in each.requested if name in left]
+        left.difference_update(new)
         yield tuple([each.requested[name] for name in new])
 
 

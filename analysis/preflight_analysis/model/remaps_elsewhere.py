@@ -111,7 +111,7 @@ class _Targets:
     def alike(self, name: str, node: str) -> Iterator[tuple[int, str]]:
         """The targets of several files of which the full name is a slip, and how many files have each."""
         for kind, rest in _beginnings(name, node):
-            for other, (written, count) in self._several[kind].typos(rest).items():
+            for other, (written, count) in self._several[kind].typos(rest):
                 alike = likeness(rest, other)
                 if alike is not None and alike[0] == "typo" and is_slip_of_words(rest, other):
                     yield count, written

@@ -5,9 +5,8 @@ from __future__ import annotations
 import ast
 import inspect
 from collections.abc import Iterator, Mapping
-from functools import cache
 from importlib import import_module
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from preflight_analysis.rules.rule import Rule
 
@@ -25,29 +24,43 @@ def fix_availability(rule: Rule) -> Availability:
     """`sometimes`: where the writer of the file's format can make it. `never`: no finding of the rule is made with
     fixes."""
     entries = (each for each in (rule.check, rule.unused_suppression, rule.left_out) if each is not None)
-    reached: dict[tuple[str, str], ast.stmt] = {}
+    sources = _Sources()
     for entry in entries:
-        _reach(entry.__module__, entry.__qualname__.partition(".")[0], reached)
-    calls = (call for each in reached.values() for call in _calls(each) if _makes_finding(call))
+        sources.reach(entry.__module__, entry.__qualname__.partition(".")[0])
+    calls = (call for each in sources.reached.values() for call in _calls(each) if _makes_finding(call))
     return "sometimes" if any(each.arg == "fixes" for call in calls for each in call.keywords) else "never"
 
 
-def _reach(module: str, name: str, reached: dict[tuple[str, str], ast.stmt]) -> None:
-    """Adds a definition of a module, and all definitions of the rules that it names."""
-    definition = _definitions(module).get(name)
-    if definition is None or (module, name) in reached:
-        return
-    reached[module, name] = definition
-    imported = _imported(module)
-    for used in {node.id for node in ast.walk(definition) if isinstance(node, ast.Name)} - {*_MAKERS}:
-        _reach(imported.get(used, module), used, reached)
+class _Sources:
+    """The modules of the rules, as far as one of them reaches."""
+
+    def __init__(self) -> None:
+        self.reached: dict[tuple[str, str], ast.stmt] = {}
+        self._modules: dict[str, _Module] = {}
+
+    def reach(self, module: str, name: str) -> None:
+        """Adds a definition of a module, and all definitions of the rules that it names."""
+        if module not in self._modules:
+            tree = ast.parse(inspect.getsource(import_module(module)))
+            self._modules[module] = _Module(_definitions(tree), _imported(tree))
+        there = self._modules[module]
+        definition = there.definitions.get(name)
+        if definition is None or (module, name) in self.reached:
+            return
+        self.reached[module, name] = definition
+        for used in {node.id for node in ast.walk(definition) if isinstance(node, ast.Name)} - {*_MAKERS}:
+            self.reach(there.imported.get(used, module), used)
 
 
-@cache
-def _definitions(module: str) -> Mapping[str, ast.stmt]:
+class _Module(NamedTuple):
+    definitions: Mapping[str, ast.stmt]
+    imported: Mapping[str, str]
+
+
+def _definitions(tree: ast.Module) -> Mapping[str, ast.stmt]:
     """The functions, classes and tables of a module."""
     found: dict[str, ast.stmt] = {}
-    for node in _tree(module).body:
+    for node in tree.body:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             found[node.name] = node
         elif isinstance(node, ast.Assign):
@@ -55,10 +68,9 @@ def _definitions(module: str) -> Mapping[str, ast.stmt]:
     return found
 
 
-@cache
-def _imported(module: str) -> Mapping[str, str]:
+def _imported(tree: ast.Module) -> Mapping[str, str]:
     """The names that a module imports from the rules, each with its module."""
-    imports = (node for node in _tree(module).body if isinstance(node, ast.ImportFrom))
+    imports = (node for node in tree.body if isinstance(node, ast.ImportFrom))
     of_rules = ((each, each.module) for each in imports if each.module and each.module.startswith(_HOME))
     return {alias.name: home for each, home in of_rules for alias in each.names}
 
@@ -70,8 +82,3 @@ def _calls(definition: ast.stmt) -> Iterator[ast.Call]:
 def _makes_finding(call: ast.Call) -> bool:
     name = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
     return name in _MAKERS
-
-
-@cache
-def _tree(module: str) -> ast.Module:
-    return ast.parse(inspect.getsource(import_module(module)))

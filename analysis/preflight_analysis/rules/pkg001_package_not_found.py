@@ -91,8 +91,7 @@ def _finding(
     if change is not None:
         renamed, near = None, _at(context, change.path)
     if near is None:
-        became = change.told(None) if change is not None and change.path is None else ""
-        return _not_here(rule, context, name, location, related, became, stops=stops)
+        return _not_here(rule, context, name, location, related, stops=stops)
     fixes = rename(context, location, name, near)
     hint = did_you_mean(near)
     if renamed is not None:
@@ -124,10 +123,9 @@ def _at(context: Context, manifest: str | None) -> str | None:
 
 
 def _not_here(
-    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], became: str, *, stops: bool
+    rule: Rule, context: Context, name: str, location: Location, related: Iterable[Related], *, stops: bool
 ) -> Finding:
-    """Of a package that nothing is near to: what is released, or named by a manifest, is missing on this machine.
-    `became`: what git says of it."""
+    """Of a package that nothing is near to: what is released, or named by a manifest, is missing on this machine."""
     having = distributions_with(name, context.tree.generation)
     lack: Lack | None = lack_of_package(context, name)
     meant: str | None = None
@@ -159,8 +157,11 @@ def _not_here(
             meant, lack = near.name if near is not None else None, None
             text += did_you_mean(meant)
             is_sure = meant is not None
+    change = _change_of(context, name, location.file)
+    if change is not None and change.path is None:
+        text += change.told(None)
     return rule.claim(
-        text + became,
+        text,
         location,
         subject=Subject("package", name),
         kind="invalid" if is_placeholder else "absent" if meant is None else "near",

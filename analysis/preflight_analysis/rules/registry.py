@@ -9,7 +9,7 @@ import re
 from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 from itertools import pairwise
 from operator import is_
 from types import ModuleType
@@ -38,6 +38,7 @@ from preflight_analysis.model.problems import include_chain, numbered_problems
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files
 from preflight_analysis.rules.packages import said_of_package
 from preflight_analysis.rules.rule import Rule, in_root
+from preflight_analysis.tracing.once_per_process import once_per_process
 
 _log = logging.getLogger(__name__)
 _GRAVE = ("error", "warning")
@@ -46,7 +47,7 @@ _MOST_CONTEXTS = 5
 _RULE_MODULE = re.compile(r"[a-z]{3}\d{3}_")
 
 
-@cache
+@once_per_process
 def all_rules() -> tuple[Rule, ...]:
     """Every rule, sorted by id. Raises `TypeError` for a rule module without `RULE`, `ValueError` for a doubled id."""
     rules = sorted((_rule_of(module) for module in _modules()), key=lambda rule: rule.id)
@@ -90,7 +91,6 @@ def run_rules(
         left = context.one(apply_suppressions, path, context.one(unique, path, here), silenced, document)
         judged = tuple(ran) if silenced else ()
         sorted_findings += context.one(_of_file, path, path, left, chains.get(path, ()), context.root, chosen, judged)
-    context.kept.end()
     return sorted_findings
 
 
@@ -127,7 +127,7 @@ def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[P
             document = texts.get(path)
             silenced = read_suppressions(document)[0] if document is not None else ()
             filtered = apply_suppressions(unique(found), silenced, document)
-            yield from (*filtered.kept, *_useless(all_rules(), filtered, ran))
+            yield from (*filtered.left, *_useless(all_rules(), filtered, ran))
 
 
 def _texts(disk: Disk, paths: Iterable[str]) -> dict[str, Document]:
@@ -225,7 +225,7 @@ def _of_file(
     ran: tuple[str, ...],
 ) -> tuple[Finding, ...]:
     """What is said of one file, of what the rules `ran` found there and no comment silences."""
-    left = [_in_context(finding, chain, root) for finding in filtered.kept]
+    left = [_in_context(finding, chain, root) for finding in filtered.left]
     left += [in_root(finding, root) for finding in _useless(rules, filtered, ran)]
     left, others = most_severe(left)
     counts = next((rule for rule in rules if rule.left_out is not None), None)

@@ -121,6 +121,7 @@ class Analysis:
     def _judgement(self) -> tuple[tuple[Finding, ...], tuple[Failure, ...]]:
         failures: list[Failure] = []
         found = run_rules(self.context, failures=failures)
+        self.context.kept.end()
         if self.tree.edited:
             found = [each for each in found if not self._of_replaced_text(each)]
         return adjusted(found, self.severities), tuple(failures)
@@ -203,6 +204,10 @@ class Workspace:
     def executables(self) -> ExecutableIndex:
         """Those that most launch files of the environment's generation see."""
         return _executables(self.sources.db, self, self._common)
+
+    def executables_in(self, environment: Environment) -> ExecutableIndex:
+        """Those that launch files see which see that environment."""
+        return ExecutableIndex(environment, self.sources)
 
     @property
     def _common(self) -> Environment:
@@ -513,7 +518,7 @@ def _meaning(db: Database, environment: Environment, packages: tuple[Package, ..
 
 @query
 def _executables(db: Database, workspace: Workspace, environment: Environment) -> ExecutableIndex:
-    return ExecutableIndex(environment, workspace.sources)
+    return workspace.executables_in(environment)
 
 
 @query

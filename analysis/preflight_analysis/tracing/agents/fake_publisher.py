@@ -15,6 +15,7 @@ import socket
 import struct
 import threading
 import time
+from contextlib import suppress
 
 from .stub_master import Master
 from .tcpros import header, read_header
@@ -79,9 +80,10 @@ class FakePublisher:
             return any(time.monotonic() - since < _LONGEST for since in self._waiting.values())
 
     def _accept(self) -> None:
-        while True:
-            connection = self._listening.accept()[0]
-            threading.Thread(target=self._serve, args=(connection,), daemon=True).start()
+        with suppress(OSError):  # the socket was closed
+            while True:
+                connection = self._listening.accept()[0]
+                threading.Thread(target=self._serve, args=(connection,), daemon=True).start()
 
     def _serve(self, connection: socket.socket) -> None:
         topic = ""
