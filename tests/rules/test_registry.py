@@ -75,7 +75,7 @@ def test_rules_are_sorted_and_named_as_their_files() -> None:
     assert files == {rule.id for rule in rules}
     assert len({rule.name for rule in rules}) == len(rules)
     for rule in rules:
-        assert re.fullmatch(r"(LCH|ARG|PKG|PRM|TOP|SRV|ACT|QOS|GRF|TRC|URD|FRM|CTL|MVT|BRG|BTR)\d{3}", rule.id)
+        assert re.fullmatch(r"(LCH|ARG|PKG|PRM|TOP|SRV|ACT|QOS|GRF|TRC|URD|FRM|CTL|MVT|BRG|BTR|DEV)\d{3}", rule.id)
         assert re.fullmatch(r"[a-z]+(-[a-z]+)*", rule.name)
         assert all((rule.what, rule.why, rule.example, rule.instead))
     assert rule_by_id("TOP001") in rules

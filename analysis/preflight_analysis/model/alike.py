@@ -8,8 +8,6 @@ from functools import cached_property, lru_cache
 from itertools import chain
 from typing import Any, Generic, TypeVar
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.evaluation import names
 from preflight_analysis.model.nearest import (
     is_word_typo,
@@ -20,6 +18,7 @@ from preflight_analysis.model.nearest import (
     squeezed,
     words_in,
 )
+from preflight_analysis.slips import edits
 
 T = TypeVar("T")
 _NAMES = 8192
@@ -62,7 +61,7 @@ class Names(Generic[T]):
                 if key[0] == "w":
                     is_slip = is_word_typo(words[key[1]], words_in(found[0])[key[1]])
                 else:
-                    is_slip = OSA.distance(letters, squeezed(found[0]), score_cutoff=1) <= 1
+                    is_slip = edits(letters, squeezed(found[0]), 1) <= 1
                 if is_slip:
                     yield found
 

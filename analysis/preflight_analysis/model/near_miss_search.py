@@ -9,8 +9,6 @@ from functools import cached_property, partial
 from itertools import chain
 from typing import NamedTuple
 
-from rapidfuzz.distance import OSA
-
 from preflight_analysis.evaluation import names
 from preflight_analysis.graph.model import Channel, ChannelKind, Connection, Graph
 from preflight_analysis.incremental.derived import derived
@@ -22,6 +20,7 @@ from preflight_analysis.model.dangling import GENERIC_PACKAGES, all_dangling_con
 from preflight_analysis.model.near_miss import EVIDENCE, NearMiss, given_name
 from preflight_analysis.model.near_miss_evidence import Rank, best_rank, dangles, is_end_of, known_type, near_miss
 from preflight_analysis.model.nearest import share_words
+from preflight_analysis.slips import edits
 
 
 class _Sought(NamedTuple):
@@ -207,7 +206,7 @@ class _Pools:
 
 
 def _nearest_first(name: str, others: Iterable[str]) -> tuple[str, ...]:
-    return tuple(sorted(sorted(others), key=partial(OSA.distance, name)))
+    return tuple(sorted(sorted(others), key=partial(edits, name)))
 
 
 class _Offered:
