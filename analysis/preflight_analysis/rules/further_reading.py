@@ -29,9 +29,7 @@ FORMATS = (
     f"[ROS 2: Using XML, YAML, and Python for launch files]({_DOCS}/How-To-Guides/Launch-file-different-formats.html)"
 )
 FRAMES = "[Frames](../frames.md)"
-DEVIANT_BEHAVIOR = (
-    "[Engler et al.: Bugs as deviant behavior (SOSP 2001)](https://web.stanford.edu/~engler/deviant-sosp-01.pdf)"
-)
+DEVIANT_BEHAVIOR = "[Engler et al.: inferring errors in systems code (SOSP 2001)](https://web.stanford.edu/~engler/deviant-sosp-01.pdf)"
 LARGE_PROJECTS = (
     f"[ROS 2: Managing large projects]({_DOCS}/Tutorials/Intermediate/Launch/Using-ROS2-Launch-For-Large-Projects.html)"
 )
