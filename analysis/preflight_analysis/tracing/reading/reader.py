@@ -1,0 +1,292 @@
+"""What a Python launch file makes, or what a call of its own code gives, as it is read: the answer that a run gives
+(`agents/fake_launch/main.py`), without one.
+
+`unread` of the answer is what only a run tells; without any, the answer is that of a run.
+"""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import logging
+import os
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import lru_cache
+from typing import Any
+
+from preflight_analysis.tracing.agents import anything
+from preflight_analysis.tracing.agents.anything import AnyBase, Anything, is_unknown, marked, readable, unknown_text
+from preflight_analysis.tracing.agents.fake_launch import (
+    actions,
+    ament,
+    base,
+    conditions,
+    events,
+    library,
+    nav2_common,
+    reads,
+    rewrites,
+    substitutions,
+)
+from preflight_analysis.tracing.agents.fake_launch.base import RECORDER, LaunchDescription
+from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
+from preflight_analysis.tracing.reading.around import Around, Context
+from preflight_analysis.tracing.reading.files import Disk, Files, Path
+from preflight_analysis.tracing.reading.values import NotRead, Raised, check_whole
+
+_FUNCTION = "generate_launch_description"
+MAX_TEXT = 300_000
+MAX_ASKED = 300
+"""Conditions that are not known."""
+MAX_FRAMES = 30
+_LOCK = threading.RLock()
+"""The fakes have what they remember in one place."""
+_FIRST = next(RECORDER.count)
+"""The number of what is made first: importing the fakes makes some."""
+_NOT_OF_PROGRAM = (base._AGENTS, base._STANDARD_LIBRARY, "<frozen")
+_log = logging.getLogger(__name__)
+
+
+@lru_cache(maxsize=16)
+def _parsed(text: str) -> ast.Module | None:
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        return None
+
+
+def read(
+    job: Mapping[str, Any],
+    disk: Disk,
+    roots: tuple[str, ...],
+    folders: tuple[str, ...],
+    variables: Mapping[str, str],
+) -> dict[str, Any] | None:
+    """The answer to a request (`evaluation.ros2.python_runs.parse_request`), None where it is not read at all.
+
+    `roots` are the folders of which files may be read, `folders` those of Python modules, `variables` those of the
+    environment that a run has besides the ones that the request gives.
+    """
+    tree = _parsed(job["text"]) if len(job["text"]) <= MAX_TEXT else None
+    if tree is None:
+        return None
+    with _LOCK, _Fakes(job) as fakes:
+        try:
+            return fakes.answer(tree, lambda unknown: Files(disk, roots, unknown), folders, variables)
+        except (NotRead, TooMuchError, RecursionError, MemoryError) as error:
+            _log.debug("%s is not read: %s %s", job["file"], type(error).__name__, error)
+            return None
+
+
+class _Services:
+    """What the fakes have in the place of modules of Python, in a reading."""
+
+    def __init__(self, **names: Any) -> None:
+        vars(self).update(names)
+
+
+class _Fakes:
+    """The fakes, while they are used for one reading."""
+
+    def __init__(self, job: Mapping[str, Any]) -> None:
+        self.job = job
+        self.around: Around | None = None
+        self._asked = 0
+
+    def __enter__(self) -> _Fakes:
+        vars(RECORDER).clear()
+        RECORDER.__init__()  # type: ignore[misc]
+        anything._asked.clear()
+        anything.on_use.clear()
+        anything.on_condition[:] = [self._guess]
+        RECORDER.count = itertools.count(_FIRST)
+        RECORDER.file = self.job["file"]
+        RECORDER.packages = dict(self.job["packages"])
+        vars(RECORDER).update(
+            place=self._place,
+            place_of=lambda frame: self._place(),
+            asks_for=lambda variable, frame: None,
+            looks_for=lambda path, found, frame: None,
+        )
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        anything.on_condition.clear()
+        vars(RECORDER).clear()
+        RECORDER.__init__()  # type: ignore[misc]
+
+    def _place(self) -> list[int] | None:
+        return None if self.around is None else self.around.interpreter.place_in(RECORDER.file)
+
+    def _guess(self, name: str, frame: Any, answer: bool) -> bool:
+        if frame.f_code.co_filename.startswith(_NOT_OF_PROGRAM):
+            return answer
+        self._asked += 1
+        if self._asked > MAX_ASKED:
+            raise NotRead("too many conditions are not known")
+        RECORDER.note_guess(name, frame)
+        return answer
+
+    def answer(
+        self,
+        tree: ast.Module,
+        files: Callable[[Any], Files],
+        folders: tuple[str, ...],
+        variables: Mapping[str, str],
+    ) -> dict[str, Any]:
+        """The answer of a run."""
+        job = self.job
+        known = {**job.get("given", {}), **variables, **job["env"]}
+        self.around = around = Around(job, files, folders, known)
+        result: dict[str, Any]
+        with _in_fakes(around):
+            try:
+                result = self._run(around, tree)
+                failed = False
+            except Raised as raised:
+                result, failed = {"error": _error_record(raised)}, True
+        if failed and (RECORDER.guessed or around.asked_unset or RECORDER.unknown):
+            around.unknown(str(result["error"]["type"]), "it may be another one in a run")
+        result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
+        result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
+        result["assumed"], result["unmatched"], result["files"] = [], RECORDER.unmatched, around.files.written
+        result["unread"] = [[name, reason, place] for (name, reason, _), place in around.unread.items()]
+        return result
+
+    def _run(self, around: Around, tree: ast.Module) -> dict[str, Any]:
+        job, environment = self.job, dict.copy(around.environment)
+        contents: dict[str, Any] = {"__name__": "python_launch_file", "__file__": job["file"]}
+        around.interpreter.run_module(tree, job["file"], contents)
+        description = self._description(around, contents)
+        if isinstance(description, (Anything, AnyBase)):
+            description = LaunchDescription([description])
+        if not isinstance(description, LaunchDescription):
+            kind = type(description).__name__
+            raise Raised(
+                TypeError(f"generate_launch_description() gives back a '{kind}' in place of a LaunchDescription")
+            )
+        result = {"actions": _described(description.entities), "env": _changed(around, environment)}
+        for call in job["calls"]:
+            RECORDER.begin()
+            result = self._call(around, call)
+        return result
+
+    def _description(self, around: Around, contents: dict[str, Any]) -> Any:
+        function = contents.get(_FUNCTION)
+        if function is None:
+            raise NotRead("it has no function for a description")
+        return around.interpreter.call(function, (), {})
+
+    def _call(self, around: Around, call: Mapping[str, Any]) -> dict[str, Any]:
+        thing = RECORDER.made.get(call["id"])
+        if thing is None or type(thing).__name__ != call["name"]:
+            raise NotRead("what is called is another thing")
+        context = Context()
+        before = {name: marked(value) for name, value in call["configurations"].items()}
+        context.launch_configurations = given = reads.Configurations(before)
+        context.extend_globals(
+            {"current_launch_file_path": call["file"], "current_launch_file_directory": os.path.dirname(call["file"])}
+        )
+        around.files.given.update(call["files"])
+        dict.update(around.environment, call["env"])
+        environment = dict.copy(around.environment)
+        if call["what"] == "perform":
+            return {"text": self._performed(around, thing, context)}
+        made = around.interpreter._native(self._executed, thing, context)
+        after = dict(context.launch_configurations)
+        return {
+            "actions": made,
+            "set": {k: str(v) for k, v in after.items() if isinstance(k, str) and before.get(k) != v},
+            "unset": [k for k in before if k not in after],
+            "env": _changed(around, environment),
+            "_": len(given),
+        }
+
+    def _performed(self, around: Around, thing: Any, context: Any) -> str:
+        if isinstance(thing, base.Condition):
+            return str(around.interpreter._native(thing.evaluate, context)).lower()
+        text = str(around.interpreter._native(around.performed, thing, context))
+        rewrites.tell_source(thing, context, text)
+        RECORDER.unmatched += [[*each, thing.preflight_place] for each in rewrites.unmatched(thing, context)]
+        is_guess = RECORDER.guessed and not is_unknown(text) and around.files.isfile(text) is not True
+        return unknown_text(next(iter(RECORDER.guessed))[0]) if is_guess else text
+
+    @staticmethod
+    def _executed(thing: Any, context: Any) -> list[Any]:
+        given = thing.execute(context)
+        serializer = Serializer()
+        made: list[Any] = [serializer.plain_entity(each) for each in context.preflight_executed]
+        if isinstance(given, LaunchDescription):
+            given = given.entities
+        if given is not None:
+            made += _described(given if isinstance(given, (list, tuple)) else [given])
+        return made
+
+
+def _described(entities: Any) -> list[Any]:
+    if isinstance(entities, (list, tuple)):
+        check_whole(entities)
+    return Serializer().description(entities)
+
+
+def _changed(around: Around, before: Mapping[str, str]) -> dict[str, str]:
+    return {k: v for k, v in dict.items(around.environment) if before.get(k) != v}
+
+
+def _error_record(raised: Raised) -> dict[str, Any]:
+    error = raised.error
+    message = str(error)
+    record: dict[str, Any] = {
+        "type": type(error).__name__,
+        "message": message[:2000],
+        "frames": raised.frames[-MAX_FRAMES:],
+    }
+    if isinstance(error, ImportError):
+        record["module"], record["instead"] = error.name or "", ""
+    if isinstance(error, OSError) and isinstance(error.filename, str):
+        record["path"] = error.filename
+    if isinstance(error, OSError):
+        record["errno"] = error.errno
+    if RECORDER.unknown or RECORDER.guessed:
+        record["unsure"] = True
+    if isinstance(error, base.NotHereError):
+        record["refused"] = True
+    return record
+
+
+@contextmanager
+def _in_fakes(around: Around) -> Iterator[None]:
+    """The fakes ask the reading where they ask Python in a run."""
+    yaml = _Services(safe_load=around.load_yaml, dump=around.dump_yaml)
+    imports = _Services(import_module=lambda name: yaml)
+    path = _Services(isfile=around.files.isfile, abspath=os.path.abspath)
+    files = {"open": around.files.open, "importlib": imports}
+    temporary = _Services(NamedTemporaryFile=around.files.temporary)
+    provided = {"provided_for": lambda frame, errors: around.is_provided_for(errors)}
+    changes: list[tuple[Any, dict[str, Any]]] = [
+        (nav2_common, {**files, "tempfile": temporary}),
+        (rewrites, {**files, "os": _Services(path=path)}),
+        (substitutions, {**files, **provided}),
+        (ament, {**provided, "pathlib": _Services(Path=Path)}),
+        (reads, {"is_own": lambda frame: True}),
+        (actions, {"importlib": imports}),
+        (library, {"LaunchContext": Context}),
+    ]
+    before = [(module, {name: vars(module).get(name, _ABSENT) for name in names}) for module, names in changes]
+    for module, names in changes:
+        vars(module).update(names)
+    try:
+        yield
+    finally:
+        for module, names in before:
+            for name, value in names.items():
+                if value is _ABSENT:
+                    del vars(module)[name]
+                else:
+                    vars(module)[name] = value
+
+
+_ABSENT = object()
+__all__ = ["conditions", "events", "read"]
