@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from typing import Literal, Protocol
 
 from preflight_analysis.dataclass import dataclass
@@ -62,6 +62,9 @@ class Commands(Protocol):
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs of Python launch files that answer a question in some context, the latest last."""
 
+    def reading(self, line: str) -> CommandResult | None:
+        """What reading a Python launch file says in the place of a run; None where nothing."""
+
     def snapshot(self) -> Commands:
         """The results as they are now, for another process."""
 
@@ -79,6 +82,10 @@ class NoResults:
     def answering(self, question: str) -> tuple[str, ...]:
         """None."""
         return ()
+
+    def reading(self, line: str) -> CommandResult | None:
+        """None."""
+        return None
 
     def snapshot(self) -> Commands:
         """The same."""
@@ -102,6 +109,10 @@ class KnownResults:
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs that answer a question."""
         return self.lines_answering.get(question, ())
+
+    def reading(self, line: str) -> CommandResult | None:
+        """None: `QueriedCommands` has them."""
+        return None
 
     def snapshot(self) -> Commands:
         """The same."""
@@ -132,9 +143,10 @@ def lines_answering(db: Database, commands: Commands, question: str) -> tuple[st
 class QueriedCommands:
     """The same results for queries, which depend on those that they ask for. Implements `Commands`."""
 
-    def __init__(self, db: Database, commands: Commands) -> None:
+    def __init__(self, db: Database, commands: Commands, read: Callable[[str], CommandResult | None]) -> None:
         self._db = db
         self._commands = commands
+        self._read = read
         self.placeholder = commands.placeholder
 
     @property
@@ -149,6 +161,10 @@ class QueriedCommands:
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs that answer a question."""
         return lines_answering(self._db, self._commands, question)
+
+    def reading(self, line: str) -> CommandResult | None:
+        """What reading a Python launch file says."""
+        return self._read(line)
 
     def snapshot(self) -> Commands:
         """The results as they are now."""

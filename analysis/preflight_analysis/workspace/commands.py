@@ -45,6 +45,10 @@ class CommandResults:
         """The lines of the runs of Python launch files that answer a question, the latest last."""
         return self._answering.get(question, ())
 
+    def reading(self, line: str) -> CommandResult | None:
+        """None: `QueriedCommands` has them."""
+        return None
+
     def snapshot(self) -> Commands:
         """The results as they are now."""
         return KnownResults(self.placeholder, self._results, self._answering, self._otherwise)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -19,12 +20,13 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
-from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
+from preflight_analysis.evaluation.commands import EDITION, CommandResult, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch, outline_of
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
@@ -73,6 +75,8 @@ MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
 MAX_WHAT_IFS_KEPT = 96
 """How many launches with other arguments, for the tags that these take."""
+MAX_READINGS_KEPT = 1_000
+"""How many readings of Python launch files, and of calls of their code."""
 _MAX_AHEAD = 2
 """The same of those that were completed without runs, for who types just now."""
 _MAX_AROUND = 10
@@ -528,9 +532,20 @@ def _plugins(db: Database, workspace: Workspace, environment: Environment) -> Pl
 
 @query
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
-    executables, commands = _executables(db, workspace, environment), QueriedCommands(db, workspace.commands)
+    executables = _executables(db, workspace, environment)
+    commands = QueriedCommands(db, workspace.commands, partial(_reading, db, workspace, environment))
     knowledge = workspace.own_knowledge.files
     return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands, knowledge)
+
+
+@query(limit=MAX_READINGS_KEPT)
+def _reading(db: Database, workspace: Workspace, environment: Environment, line: str) -> CommandResult | None:
+    """What reading a Python launch file says in the place of a run."""
+    from preflight_analysis.tracing.reading.answers import answer as read  # noqa: PLC0415 - who has none starts faster
+
+    request = parse_request(line)
+    answer = read(environment, workspace.sources, request) if request is not None else None
+    return CommandResult("done", json.dumps(answer)) if answer is not None else None
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)

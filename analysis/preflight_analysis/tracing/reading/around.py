@@ -173,7 +173,7 @@ class Environment(dict[str, str]):
     def copy(self) -> Any:
         """All."""
         self._around.unknown("os.environ", "all variables of the environment are asked for")
-        return dict(self)
+        return dict(dict.items(self))
 
     def items(self) -> Any:
         """All."""
@@ -184,7 +184,13 @@ class Environment(dict[str, str]):
         self._around.unknown("os.environ", "all variables of the environment are asked for")
         return dict.__iter__(self)
 
-    keys = values = items  # type: ignore[assignment]
+    def keys(self) -> Any:
+        """All names."""
+        return dict.fromkeys(self).keys()
+
+    def values(self) -> Any:
+        """All values."""
+        return dict(self.items()).values()
 
 
 Environment.__module__ = base.__name__

@@ -44,8 +44,9 @@ Unknown = Callable[[str, str], Any]
 class Files:
     """The disk within `roots`. `unknown` makes a stand-in for what only a run tells."""
 
-    def __init__(self, disk: Disk, roots: tuple[str, ...], unknown: Unknown) -> None:
-        self._disk, self.unknown = disk, unknown
+    def __init__(self, disk: Disk, roots: tuple[str, ...], unknown: Unknown, name: str) -> None:
+        self._disk, self.unknown, self._name = disk, unknown, name
+        self.looked_in_vain = False
         self._roots = roots
         self.written: dict[str, str] = {}
         self.given: dict[str, str] = {}
@@ -74,7 +75,9 @@ class Files:
         found = self._path(text)
         if found is None:
             return self.unknown(f"{name}({readable(text)!r})", "what is outside of the workspace is not looked at")
-        return ask(found)
+        answer = ask(found)
+        self.looked_in_vain = self.looked_in_vain or answer is False
+        return answer
 
     @property
     def _made(self) -> dict[str, str]:
@@ -156,7 +159,7 @@ class Files:
         """`tempfile.NamedTemporaryFile`."""
         if len(self.written) >= MAX_FILES:
             raise NotRead("too many files are written")
-        name = f"{_TEMPORARY}{len(self.given) + len(self.written)}{suffix or ''}"
+        name = f"{_TEMPORARY}{self._name}-{len(self.written)}{suffix or ''}"
         self.written[name] = ""
         return Writing(self, name)
 

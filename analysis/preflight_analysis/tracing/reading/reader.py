@@ -7,7 +7,9 @@
 from __future__ import annotations
 
 import ast
+import hashlib
 import itertools
+import json
 import logging
 import os
 import threading
@@ -31,6 +33,7 @@ from preflight_analysis.tracing.agents.fake_launch import (
     substitutions,
 )
 from preflight_analysis.tracing.agents.fake_launch.base import RECORDER, LaunchDescription
+from preflight_analysis.tracing.agents.fake_launch.main import _module_with, _of_ours
 from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
 from preflight_analysis.tracing.reading.around import Around, Context
 from preflight_analysis.tracing.reading.files import Disk, Files, Path
@@ -74,10 +77,16 @@ def read(
         return None
     with _LOCK, _Fakes(job) as fakes:
         try:
-            return fakes.answer(tree, lambda unknown: Files(disk, roots, unknown), folders, variables)
+            return fakes.answer(tree, lambda unknown: Files(disk, roots, unknown, _name_of(job)), folders, variables)
         except (NotRead, TooMuchError, RecursionError, MemoryError) as error:
             _log.debug("%s is not read: %s %s", job["file"], type(error).__name__, error)
             return None
+
+
+def _name_of(job: Mapping[str, Any]) -> str:
+    """Names what is asked, for the files that it writes."""
+    asked = json.dumps([job["file"], job["text"], job["calls"]], sort_keys=True)
+    return hashlib.sha256(asked.encode(errors="surrogatepass")).hexdigest()[:12]
 
 
 class _Services:
@@ -147,7 +156,7 @@ class _Fakes:
                 failed = False
             except Raised as raised:
                 result, failed = {"error": _error_record(raised)}, True
-        if failed and (RECORDER.guessed or around.asked_unset or RECORDER.unknown):
+        if failed and (RECORDER.guessed or around.asked_unset or around.files.looked_in_vain):
             around.unknown(str(result["error"]["type"]), "it may be another one in a run")
         result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
         result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
@@ -156,7 +165,7 @@ class _Fakes:
         return result
 
     def _run(self, around: Around, tree: ast.Module) -> dict[str, Any]:
-        job, environment = self.job, dict.copy(around.environment)
+        job, environment = self.job, dict(dict.items(around.environment))
         contents: dict[str, Any] = {"__name__": "python_launch_file", "__file__": job["file"]}
         around.interpreter.run_module(tree, job["file"], contents)
         description = self._description(around, contents)
@@ -185,13 +194,13 @@ class _Fakes:
             raise NotRead("what is called is another thing")
         context = Context()
         before = {name: marked(value) for name, value in call["configurations"].items()}
-        context.launch_configurations = given = reads.Configurations(before)
+        context.launch_configurations = reads.Configurations(before)
         context.extend_globals(
             {"current_launch_file_path": call["file"], "current_launch_file_directory": os.path.dirname(call["file"])}
         )
         around.files.given.update(call["files"])
         dict.update(around.environment, call["env"])
-        environment = dict.copy(around.environment)
+        environment = dict(dict.items(around.environment))
         if call["what"] == "perform":
             return {"text": self._performed(around, thing, context)}
         made = around.interpreter._native(self._executed, thing, context)
@@ -201,7 +210,6 @@ class _Fakes:
             "set": {k: str(v) for k, v in after.items() if isinstance(k, str) and before.get(k) != v},
             "unset": [k for k in before if k not in after],
             "env": _changed(around, environment),
-            "_": len(given),
         }
 
     def _performed(self, around: Around, thing: Any, context: Any) -> str:
@@ -244,12 +252,12 @@ def _error_record(raised: Raised) -> dict[str, Any]:
         "frames": raised.frames[-MAX_FRAMES:],
     }
     if isinstance(error, ImportError):
-        record["module"], record["instead"] = error.name or "", ""
+        record["module"], record["instead"] = error.name or "", _module_with(message)
     if isinstance(error, OSError) and isinstance(error.filename, str):
         record["path"] = error.filename
     if isinstance(error, OSError):
         record["errno"] = error.errno
-    if RECORDER.unknown or RECORDER.guessed:
+    if (RECORDER.unknown or RECORDER.guessed) and not _of_ours(error, message):
         record["unsure"] = True
     if isinstance(error, base.NotHereError):
         record["refused"] = True

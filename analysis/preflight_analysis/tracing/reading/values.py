@@ -23,6 +23,7 @@ MAX_WORK = 20_000_000
 """Steps of a regular expression, as an estimate."""
 AGENTS = anything.__name__.rpartition(".")[0]
 FAKES = f"{AGENTS}.fake_launch"
+FILES = f"{__name__.rpartition('.')[0]}.files"
 
 
 class NotRead(BaseException):  # noqa: N818 - no error: the reading ends here. No `Exception`, as fakes catch those.
@@ -116,7 +117,7 @@ def may_have(thing: Any, name: str) -> bool:
         return name in ("__name__", "__qualname__", "__doc__")
     if name.startswith("_"):
         return name == "__class__"
-    return kind in SAFE_TYPES or is_fake(kind) or isinstance(thing, (BaseException, PurePosixPath))
+    return kind in SAFE_TYPES or is_fake(kind) or kind.__module__ == FILES or isinstance(thing, (BaseException, PurePosixPath))
 
 
 def _is_special(name: str) -> bool:
