@@ -22,11 +22,8 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from preflight_analysis.environment.detect import detect_environment
-from preflight_analysis.environment.view import meaning
 from preflight_analysis.evaluation.ros2.python_runs import parse_request
-from preflight_analysis.tracing.agents.anything import is_unknown
 from preflight_analysis.tracing.commands import CommandCache, CommandRunner
-from preflight_analysis.tracing.reading import answers
 from preflight_analysis.tracing.reading.answers import answer
 from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.index import Root
@@ -34,10 +31,10 @@ from preflight_analysis.workspace.resolve_commands import resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
+from support.readings import differences
 from tools.python_launch_coverage import DEFINES
 from tools.ros2_python_corpus import take_over
 
-_TEMPORARY = re.compile(r"/tmp/(?:tmp\w+|preflight-\w+-\d+)")
 
 
 def main() -> int:
@@ -113,14 +110,9 @@ def compare(project: str, options: Any, reasons: Counter[str], wrong: list[str])
     return counts
 
 
-def _read_nothing(*_: Any) -> None:
-    """All is run."""
-
-
 def _run(folder: Path, environment: Any, cache: Path) -> dict[str, str]:
-    answers.answer = _read_nothing  # type: ignore[assignment]
     results = CommandResults(lambda: None)
-    workspace = Workspace(environment, Sources(), str(folder), results)
+    workspace = Workspace(environment, Sources(), str(folder), results, reads=False)
     runner = CommandRunner(environment, str(folder), CommandCache(cache / "commands"))
     paths = [
         str(path)
@@ -138,58 +130,5 @@ def _run(folder: Path, environment: Any, cache: Path) -> dict[str, str]:
     return found
 
 
-def differences(read: dict[str, Any], run: dict[str, Any]) -> Any:
-    """Where a reading has something known that a run has otherwise."""
-    whole = not read["unread"]
-    if ("error" in read) != ("error" in run):
-        if whole or "error" not in read:
-            yield f"error: read {read.get('error')} run {run.get('error')}"
-        return
-    if "error" in run:
-        for name in ("type", "message"):
-            if whole and read["error"].get(name) != run["error"].get(name):
-                yield f"error: read {read['error']} run {run['error']}"
-        if whole and [f[:2] for f in read["error"]["frames"]] != [f[:2] for f in run["error"]["frames"]]:
-            yield f"frames: read {read['error']['frames']} run {run['error']['frames']}"
-        return
-    for name in ("actions", "text", "set", "unset", "env"):
-        yield from _differ(name, read.get(name), run.get(name), whole)
-    for name in ("guessed", "missed") if whole else ():
-        one, other = ([[*each[:-1], each[-1] and each[-1][0]] for each in of[name]] for of in (read, run))
-        if sorted(map(repr, one)) != sorted(map(repr, other)):
-            yield f"{name}: read {read[name]} run {run[name]}"
-    if whole:
-        yield from _differ("files", sorted(read["files"].values()), sorted(run["files"].values()), whole)
-
-
-def _differ(name: str, read: Any, run: Any, whole: bool) -> Any:
-    if isinstance(read, str) and isinstance(run, str):
-        read, run = (_TEMPORARY.sub("/tmp/made", each) for each in (read, run))
-    if read == run or (not whole and _is_open(read)):
-        return
-    if isinstance(read, dict) and isinstance(run, dict):
-        names = {*read, *run}
-        for key in sorted(names):
-            if not whole and key == "i":
-                continue
-            if key == "p" and read.get(key) and run.get(key) and read[key][0] != run[key][0]:
-                yield f"{name}.p: read {read[key]} run {run[key]}"
-            elif key != "p":
-                yield from _differ(f"{name}.{key}", read.get(key), run.get(key), whole)
-    elif isinstance(read, list) and isinstance(run, list) and len(read) == len(run):
-        for index, (one, other) in enumerate(zip(read, run, strict=True)):
-            yield from _differ(f"{name}[{index}]", one, other, whole)
-    else:
-        yield f"{name}: read {json.dumps(read)[:150]} run {json.dumps(run)[:150]}"
-
-
-def _is_open(value: Any) -> bool:
-    """Whether some of it is not known."""
-    if isinstance(value, dict):
-        return value.get("s") == "unknown" or value.get("k") == "stand_in" or any(map(_is_open, value.values()))
-    return any(map(_is_open, value)) if isinstance(value, list) else is_unknown(value)
-
-
 if __name__ == "__main__":
     sys.exit(main())
-__all__ = ["meaning"]

@@ -185,7 +185,7 @@ class Workspace:
 
     `cwd` is what relative paths in launch files are relative to, the folder where roslaunch would be called.
     `commands` knows what commands of parameters gave; none was run where it is left out. `similar` knows what
-    executables did under other configurations.
+    executables did under other configurations. Without `reads` Python launch files are only run.
     """
 
     def __init__(
@@ -195,8 +195,11 @@ class Workspace:
         cwd: str | None = None,
         commands: Commands | None = None,
         similar: SimilarTraces | None = None,
+        *,
+        reads: bool = True,
     ) -> None:
         self.environment = environment
+        self.reads = reads
         self.sources = sources
         sources.undecided = environment.generation
         sources.access = environment.access
@@ -543,7 +546,7 @@ def _reading(db: Database, workspace: Workspace, environment: Environment, line:
     """What reading a Python launch file says in the place of a run."""
     from preflight_analysis.tracing.reading.answers import answer as read  # noqa: PLC0415 - who has none starts faster
 
-    request = parse_request(line)
+    request = parse_request(line) if workspace.reads else None
     answer = read(environment, workspace.sources, request) if request is not None else None
     return CommandResult("done", json.dumps(answer)) if answer is not None else None
 

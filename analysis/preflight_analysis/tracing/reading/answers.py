@@ -6,9 +6,11 @@ import posixpath
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.environment.ament import DISTRIBUTIONS, distribution
 from preflight_analysis.environment.model import Environment
-from preflight_analysis.tracing.reading.files import Disk
-from preflight_analysis.tracing.reading.reader import read
+from preflight_analysis.tracing import ros2_recipe
+from preflight_analysis.tracing.reading.reader import Surroundings, read
 
 
 def answer(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -17,8 +19,20 @@ def answer(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> 
     packages = {name: package.share for name, package in environment.packages.items()} | request.get("packages", {})
     folders = tuple(dict.fromkeys(_module_folders(packages, disk)))
     roots = tuple(dict.fromkeys((*environment.workspace_folders, *packages.values(), *folders)))
-    job = {**request, "packages": packages}
-    return read(job, disk, tuple(root.rstrip("/") for root in roots), folders, {})
+    known = distribution(environment.variables, environment.ament_prefixes)
+    sourced = {"ROS_DISTRO": known or DISTRIBUTIONS[-1]}
+    assumed = [] if known else sorted(sourced.keys() - environment.variables.keys())
+    job = {**request, "packages": packages, "assumed": assumed}
+    variables = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3", **sourced}
+    variables.update({name: value for name in variables if (value := environment.variables.get(name)) is not None})
+    around = Surroundings(
+        disk,
+        tuple(root.rstrip("/") for root in roots),
+        folders,
+        variables,
+        lambda: ros2_recipe.installed_for(environment, str(request["file"]), str(request["text"]), disk),
+    )
+    return read(job, around)
 
 
 def _module_folders(packages: Mapping[str, str], disk: Disk) -> Iterator[str]:

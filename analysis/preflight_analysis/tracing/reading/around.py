@@ -54,7 +54,7 @@ _MAX_PATTERN_WORK = 20_000_000
 _PATHS = "os.path"
 _OF_LIBRARY = "what it gives is known only when it is launched"
 _NOT_FOUND = "whether the module is installed is known only when it is launched"
-_ASKS_ENVIRONMENT = re.compile(r"HOME|PATH|PWD|TMP|TMPDIR|TEMP|LD_.*|PYTHON.*|XDG_.*|AMENT_.*|COLCON_.*|CMAKE_.*|ROS_(?!DISTRO$).*|LANG|LC_.*")
+_ASKS_ENVIRONMENT = re.compile(r"HOME|PATH|PWD|TMP|TMPDIR|TEMP|LD_.*|PYTHON.*|XDG_.*|AMENT_.*|COLCON_.*|CMAKE_.*|ROS_(?!DISTRO$|VERSION$|PYTHON_VERSION$|DOMAIN_ID$).*|LANG|LC_.*")
 """Variables that the sandbox sets itself."""
 
 
@@ -140,6 +140,7 @@ class Environment(dict[str, str]):
         self._around = around
 
     def __getitem__(self, name: str) -> Any:
+        base.RECORDER.asks_for(name, None)
         if dict.__contains__(self, name):
             return marked(dict.__getitem__(self, name))
         if self._is_of_sandbox(name):
@@ -151,6 +152,7 @@ class Environment(dict[str, str]):
 
     def get(self, name: Any, default: Any = None) -> Any:
         """One, or what there is without it."""
+        base.RECORDER.asks_for(name, None)
         if not dict.__contains__(self, name) and self._is_of_sandbox(name):
             return str(self._around.unknown(f"the variable {name}", _OF_LIBRARY))
         if not default and not dict.__contains__(self, name):
@@ -246,6 +248,8 @@ class Around:
         place = base.RECORDER.place()
         self.unread.setdefault((readable(name), reason, place[0] if place else 0), place)
         base.RECORDER.unknown = True
+        if any(frame.tries for frame in self.interpreter.frames):
+            base.RECORDER.note_guess(name, None)  # it may raise, and the program goes on in another way
         return Anything(readable(name))
 
     def asked_for_unset(self) -> None:
@@ -317,11 +321,10 @@ class Around:
             return vars(things[0])
         raise NotRead("vars()")
 
-    @staticmethod
-    def _isinstance(thing: Any, kind: Any) -> Any:
+    def _isinstance(self, thing: Any, kind: Any) -> Any:
         if isinstance(thing, Module) or isinstance(kind, (Module, Function)):
             raise NotRead("isinstance() of what is not read")
-        return rewritten._isinstance(thing, kind)
+        return self.interpreter._native(rewritten._isinstance, thing, kind)
 
     # What may be called
 
@@ -329,8 +332,6 @@ class Around:
         """What is called in the place of a function."""
         of, name = getattr(function, "__self__", None), getattr(function, "__name__", "")
         module = getattr(function, "__module__", None) or ""
-        if isinstance(function, Module):
-            return self._unread_function(function.name)
         if isinstance(function, type):
             return self._class(function)
         if module.startswith(_OURS):
@@ -484,10 +485,10 @@ class Around:
         elif module.file is not None:
             if self._file(below) is not None:
                 return self.module(below, None, 0)
-        elif name.isupper() or name.startswith("_"):
-            return self.unknown(below, _OF_LIBRARY)
+        elif top not in sys.stdlib_module_names:
+            return Anything(below)  # that the module is there is unknown already
         else:
-            return Module(below, {})
+            return self.unknown(below, _OF_LIBRARY)
         raise Raised(AttributeError(f"module '{module.name}' has no attribute '{name}'"))
 
     def _file(self, name: str) -> tuple[str, bool] | None:
@@ -629,7 +630,7 @@ class Around:
     @staticmethod
     def _deepcopy(value: Any) -> Any:
         check_whole(value)
-        return copy.deepcopy(value) if _is_plain(value) else _not_read("deepcopy()")
+        return copy.deepcopy(value) if _is_plain(value, with_fakes=True) else _not_read("deepcopy()")
 
     def _library_functools(self) -> dict[str, Any]:
         return {
@@ -742,12 +743,14 @@ def _is_hashable(value: Any) -> bool:
     return True
 
 
-def _is_plain(value: Any) -> bool:
-    """Whether it is made of plain values alone."""
+def _is_plain(value: Any, *, with_fakes: bool = False) -> bool:
+    """Whether it is made of plain values alone, or of those and what launch has."""
     if isinstance(value, dict):
-        return all(_is_plain(k) and _is_plain(v) for k, v in value.items())
+        return all(_is_plain(each, with_fakes=with_fakes) for pair in value.items() for each in pair)
     if isinstance(value, (list, tuple, set)):
-        return all(map(_is_plain, value))
+        return all(_is_plain(each, with_fakes=with_fakes) for each in value)
+    if with_fakes and is_fake(type(value)):
+        return True
     return isinstance(value, (str, int, float, bool, type(None), Anything))
 
 

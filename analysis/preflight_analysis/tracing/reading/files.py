@@ -5,11 +5,11 @@ from __future__ import annotations
 import fnmatch
 import io
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import PurePosixPath
 from typing import Any, ClassVar, Protocol
 
-from preflight_analysis.tracing.agents.anything import MARKS, Anything, is_unknown, readable, unknown_text
+from preflight_analysis.tracing.agents.anything import MARKS, Anything, UnknownText, is_unknown, readable, unknown_text
 from preflight_analysis.tracing.reading.values import NotRead
 
 MAX_FILES = 50
@@ -39,13 +39,18 @@ class Disk(Protocol):
 
 
 Unknown = Callable[[str, str], Any]
+Installed = Callable[[], Sequence[tuple[str, str]]]
 
 
 class Files:
     """The disk within `roots`. `unknown` makes a stand-in for what only a run tells."""
 
-    def __init__(self, disk: Disk, roots: tuple[str, ...], unknown: Unknown, name: str) -> None:
+    def __init__(
+        self, disk: Disk, roots: tuple[str, ...], unknown: Unknown, installed: Installed, name: str
+    ) -> None:
         self._disk, self.unknown, self._name = disk, unknown, name
+        self._installed = installed
+        self._pairs: Sequence[tuple[str, str]] | None = None
         self.looked_in_vain = False
         self._roots = roots
         self.written: dict[str, str] = {}
@@ -61,8 +66,24 @@ class Files:
         if isinstance(path, (PurePosixPath, str)):
             text = str(path)
             if not is_unknown(text) and "\0" not in text and self._is_within(text):
-                return text
+                return self._source_of(text)
         return None
+
+    def _source_of(self, path: str) -> str:
+        """The file of the source that will be installed there, where there is none yet."""
+        if self._disk.exists(path):
+            return path
+        if self._pairs is None:
+            self._pairs = self._installed()
+        plain = os.path.normpath(path)
+        for where, source in self._pairs:
+            if plain == where or plain.startswith(where + "/"):
+                found = source + plain[len(where) :]
+                if self._is_within(found) and self._disk.exists(found):
+                    return found
+            elif where.startswith(plain + "/"):
+                self.unknown(f"the folder {plain!r}", "the build makes it")
+        return path
 
     def _ask(self, name: str, path: Any, ask: Callable[[str], Any]) -> Any:
         text = os.fspath(path) if isinstance(path, (str, os.PathLike)) else path
@@ -113,7 +134,7 @@ class Files:
         text = os.fspath(path)
         if is_unknown(text):
             return text
-        found = self._path(text)
+        found = text if self._path(text) is not None else None
         if found is None:
             return self.unknown(f"realpath({readable(text)!r})", "what is outside of the workspace is not looked at")
         return self._disk.real_path(found)
@@ -131,7 +152,7 @@ class Files:
         if not isinstance(name, str):
             raise NotRead("a file by a number")
         if is_unknown(name):
-            return Anything(f"open({readable(name)})")
+            return UnknownText(name)  # as in a run it holds the name of what is not known
         made = self._made.get(os.path.normpath(name))
         if made is not None:
             return made
@@ -153,7 +174,8 @@ class Files:
             self.unknown("open()", "the file is written")
             return Writing(self, None)
         text = self.text(file)
-        return Reading(text, os.fspath(file)) if isinstance(text, str) else UnknownFile(text)
+        known = isinstance(text, str) and not is_unknown(os.fspath(file))
+        return Reading(text, os.fspath(file)) if known else UnknownFile(text)
 
     def temporary(self, mode: str = "w+b", *_: Any, suffix: Any = None, **__: Any) -> Any:
         """`tempfile.NamedTemporaryFile`."""
@@ -306,4 +328,6 @@ class Path(PurePosixPath):
         return cls(str(cls.files.unknown("Path.home()", "the home folder is the user's")))
 
 
+Path.__name__ = Path.__qualname__ = "PosixPath"
+Path.__module__ = "pathlib"
 __all__ = ["Disk", "Files", "Path", "fnmatch"]

@@ -922,7 +922,7 @@ class Interpreter:
                 self.in_order(each)
         return check_size(self._native(function, *args, **kwargs))
 
-    def _native(self, function: Any, *args: Any, **kwargs: Any) -> Any:
+    def _native(self, function: Any, /, *args: Any, **kwargs: Any) -> Any:
         """What Python gives; what it raises is the program's."""
         try:
             return function(*args, **kwargs)

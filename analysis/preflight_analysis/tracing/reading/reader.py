@@ -12,11 +12,12 @@ import itertools
 import json
 import logging
 import os
+import re
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from preflight_analysis.tracing.agents import anything
 from preflight_analysis.tracing.agents.anything import AnyBase, Anything, is_unknown, marked, readable, unknown_text
@@ -35,6 +36,7 @@ from preflight_analysis.tracing.agents.fake_launch import (
 from preflight_analysis.tracing.agents.fake_launch.base import RECORDER, LaunchDescription
 from preflight_analysis.tracing.agents.fake_launch.main import _module_with, _of_ours
 from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
+from preflight_analysis.tracing.reading import interpreter
 from preflight_analysis.tracing.reading.around import Around, Context
 from preflight_analysis.tracing.reading.files import Disk, Files, Path
 from preflight_analysis.tracing.reading.values import NotRead, Raised, check_whole
@@ -48,7 +50,10 @@ _LOCK = threading.RLock()
 """The fakes have what they remember in one place."""
 _FIRST = next(RECORDER.count)
 """The number of what is made first: importing the fakes makes some."""
-_NOT_OF_PROGRAM = (base._AGENTS, base._STANDARD_LIBRARY, "<frozen")
+_OF_PROGRAM = interpreter.__file__
+"""In whose frames the program asks."""
+_OURS = re.compile(r"\bpreflight_analysis\.tracing\.(?:\w+\.)+")
+"""Before the name of a class that takes the place of one of launch."""
 _log = logging.getLogger(__name__)
 
 
@@ -60,27 +65,43 @@ def _parsed(text: str) -> ast.Module | None:
         return None
 
 
-def read(
-    job: Mapping[str, Any],
-    disk: Disk,
-    roots: tuple[str, ...],
-    folders: tuple[str, ...],
-    variables: Mapping[str, str],
-) -> dict[str, Any] | None:
-    """The answer to a request (`evaluation.ros2.python_runs.parse_request`), None where it is not read at all.
+class Surroundings(NamedTuple):
+    """Where a launch file is read."""
 
-    `roots` are the folders of which files may be read, `folders` those of Python modules, `variables` those of the
-    environment that a run has besides the ones that the request gives.
-    """
+    disk: Disk
+    roots: tuple[str, ...]
+    """The folders of which files may be read."""
+    folders: tuple[str, ...]
+    """Those of Python modules."""
+    variables: Mapping[str, str]
+    """Those of the environment that a run has besides the ones that the request gives."""
+    installed: Callable[[], Sequence[tuple[str, str]]]
+    """Paths in share folders, and the files and folders of the source that they will lead to."""
+
+
+def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
+    """The answer to a request (`evaluation.ros2.python_runs.parse_request`), None where it is not read at all."""
     tree = _parsed(job["text"]) if len(job["text"]) <= MAX_TEXT else None
     if tree is None:
         return None
     with _LOCK, _Fakes(job) as fakes:
         try:
-            return fakes.answer(tree, lambda unknown: Files(disk, roots, unknown, _name_of(job)), folders, variables)
+            made = fakes.answer(tree, within)
+            answer: dict[str, Any] = json.loads(_OURS.sub("", json.dumps(made, default=_as_text)))
+            return answer
         except (NotRead, TooMuchError, RecursionError, MemoryError) as error:
             _log.debug("%s is not read: %s %s", job["file"], type(error).__name__, error)
             return None
+        except Exception:
+            _log.exception("reading %s failed", job["file"])
+            return None
+
+
+def _as_text(value: Any) -> str:
+    """As a run tells it."""
+    if not isinstance(value, (Anything, AnyBase)):
+        raise NotRead(f"a {type(value).__name__} is told")
+    return str(value)
 
 
 def _name_of(job: Mapping[str, Any]) -> str:
@@ -113,10 +134,11 @@ class _Fakes:
         RECORDER.count = itertools.count(_FIRST)
         RECORDER.file = self.job["file"]
         RECORDER.packages = dict(self.job["packages"])
+        RECORDER.assumed = frozenset(self.job["assumed"])
         vars(RECORDER).update(
             place=self._place,
             place_of=lambda frame: self._place(),
-            asks_for=lambda variable, frame: None,
+            asks_for=self._note_assumed,
             looks_for=lambda path, found, frame: None,
         )
         return self
@@ -129,8 +151,12 @@ class _Fakes:
     def _place(self) -> list[int] | None:
         return None if self.around is None else self.around.interpreter.place_in(RECORDER.file)
 
+    def _note_assumed(self, variable: Any, frame: Any) -> None:
+        if variable in RECORDER.assumed:
+            RECORDER.assumed_in.setdefault(variable, self._place())
+
     def _guess(self, name: str, frame: Any, answer: bool) -> bool:
-        if frame.f_code.co_filename.startswith(_NOT_OF_PROGRAM):
+        if frame.f_code.co_filename != _OF_PROGRAM:
             return answer
         self._asked += 1
         if self._asked > MAX_ASKED:
@@ -141,14 +167,17 @@ class _Fakes:
     def answer(
         self,
         tree: ast.Module,
-        files: Callable[[Any], Files],
-        folders: tuple[str, ...],
-        variables: Mapping[str, str],
+        within: Surroundings,
     ) -> dict[str, Any]:
         """The answer of a run."""
         job = self.job
-        known = {**job.get("given", {}), **variables, **job["env"]}
-        self.around = around = Around(job, files, folders, known)
+        known = {**job.get("given", {}), **within.variables, **job["env"]}
+        self.around = around = Around(
+            job,
+            lambda unknown: Files(within.disk, within.roots, unknown, within.installed, _name_of(job)),
+            within.folders,
+            known,
+        )
         result: dict[str, Any]
         with _in_fakes(around):
             try:
@@ -156,11 +185,12 @@ class _Fakes:
                 failed = False
             except Raised as raised:
                 result, failed = {"error": _error_record(raised)}, True
-        if failed and (RECORDER.guessed or around.asked_unset or around.files.looked_in_vain):
+        if failed and (RECORDER.guessed or RECORDER.answers._given or around.asked_unset or around.files.looked_in_vain):
             around.unknown(str(result["error"]["type"]), "it may be another one in a run")
         result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
         result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
-        result["assumed"], result["unmatched"], result["files"] = [], RECORDER.unmatched, around.files.written
+        result["assumed"] = [[name, known.get(name, ""), place] for name, place in RECORDER.assumed_in.items()]
+        result["unmatched"], result["files"] = RECORDER.unmatched, around.files.written
         result["unread"] = [[name, reason, place] for (name, reason, _), place in around.unread.items()]
         return result
 

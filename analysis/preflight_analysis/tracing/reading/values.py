@@ -60,6 +60,10 @@ class Function:
         return f"<function {self.__qualname__}>"
 
 
+Function.__name__ = Function.__qualname__ = "function"
+Function.__module__ = "builtins"
+
+
 class Module:
     """A module as the program sees it."""
 
@@ -68,6 +72,10 @@ class Module:
 
     def __repr__(self) -> str:
         return f"<module '{self.name}'>"
+
+
+Module.__name__ = Module.__qualname__ = "module"
+Module.__module__ = "builtins"
 
 
 SAFE_TYPES: frozenset[type] = frozenset(
