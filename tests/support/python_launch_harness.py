@@ -13,6 +13,7 @@ from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
+
 from support.readings import assert_readings_agree
 
 MANIFEST = """<package format="3"><name>{}</name><version>0.1.0</version><description>d</description>

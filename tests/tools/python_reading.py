@@ -30,11 +30,10 @@ from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.resolve_commands import resolve_together
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-
 from support.readings import differences
+
 from tools.python_launch_coverage import DEFINES
 from tools.ros2_python_corpus import take_over
-
 
 
 def main() -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from typing import Literal, Protocol
 
 from preflight_analysis.dataclass import dataclass
@@ -43,6 +43,16 @@ def named_paths(words: Iterable[str], cwd: str) -> Iterator[str]:
                 yield os.path.normpath(os.path.join(cwd, os.path.expanduser(candidate)))
 
 
+class Reader(Protocol):
+    """Reads Python launch files in the place of a run."""
+
+    def reading(self, line: str) -> CommandResult | None:
+        """The answer to a request for a run, by reading the file; None where it is not read at all."""
+
+    def texts_before(self, path: str) -> tuple[str, ...]:
+        """Texts that an open file had before and that parse, the latest first."""
+
+
 class Commands(Protocol):
     """The results that are known."""
 
@@ -62,8 +72,9 @@ class Commands(Protocol):
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs of Python launch files that answer a question in some context, the latest last."""
 
-    def reading(self, line: str) -> CommandResult | None:
-        """What reading a Python launch file says in the place of a run; None where nothing."""
+    @property
+    def reader(self) -> Reader | None:
+        """What reads Python launch files that were not run; None where nothing does."""
 
     def snapshot(self) -> Commands:
         """The results as they are now, for another process."""
@@ -74,6 +85,7 @@ class NoResults:
 
     edition = 0
     placeholder: str | None = None
+    reader: Reader | None = None
 
     def result(self, line: str) -> CommandResult | None:
         """None."""
@@ -82,10 +94,6 @@ class NoResults:
     def answering(self, question: str) -> tuple[str, ...]:
         """None."""
         return ()
-
-    def reading(self, line: str) -> CommandResult | None:
-        """None."""
-        return None
 
     def snapshot(self) -> Commands:
         """The same."""
@@ -101,6 +109,7 @@ class KnownResults:
     lines_answering: Mapping[str, tuple[str, ...]]
     otherwise: CommandResult | None
     edition: int = 0
+    reader: Reader | None = None
 
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line."""
@@ -109,10 +118,6 @@ class KnownResults:
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs that answer a question."""
         return self.lines_answering.get(question, ())
-
-    def reading(self, line: str) -> CommandResult | None:
-        """None: `QueriedCommands` has them."""
-        return None
 
     def snapshot(self) -> Commands:
         """The same."""
@@ -143,10 +148,10 @@ def lines_answering(db: Database, commands: Commands, question: str) -> tuple[st
 class QueriedCommands:
     """The same results for queries, which depend on those that they ask for. Implements `Commands`."""
 
-    def __init__(self, db: Database, commands: Commands, read: Callable[[str], CommandResult | None]) -> None:
+    def __init__(self, db: Database, commands: Commands, reader: Reader | None) -> None:
         self._db = db
         self._commands = commands
-        self._read = read
+        self.reader = reader
         self.placeholder = commands.placeholder
 
     @property
@@ -161,10 +166,6 @@ class QueriedCommands:
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs that answer a question."""
         return lines_answering(self._db, self._commands, question)
-
-    def reading(self, line: str) -> CommandResult | None:
-        """What reading a Python launch file says."""
-        return self._read(line)
 
     def snapshot(self) -> Commands:
         """The results as they are now."""

@@ -69,7 +69,7 @@ from preflight_analysis.workspace.project_settings import (
 )
 from preflight_analysis.workspace.resolve_node_names import resolve_node_names
 from preflight_analysis.workspace.run_results import RESULTS, RunResults
-from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.sources import TEXTS_BEFORE, Sources
 
 MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
@@ -536,9 +536,24 @@ def _plugins(db: Database, workspace: Workspace, environment: Environment) -> Pl
 @query
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
     executables = _executables(db, workspace, environment)
-    commands = QueriedCommands(db, workspace.commands, partial(_reading, db, workspace, environment))
+    commands = QueriedCommands(db, workspace.commands, _Reader(db, workspace, environment))
     knowledge = workspace.own_knowledge.files
     return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands, knowledge)
+
+
+class _Reader:
+    """Implements `evaluation.commands.Reader`."""
+
+    def __init__(self, db: Database, workspace: Workspace, environment: Environment) -> None:
+        self._db, self._workspace, self._environment = db, workspace, environment
+
+    def reading(self, line: str) -> CommandResult | None:
+        """The answer to a request for a run."""
+        return _reading(self._db, self._workspace, self._environment, line)
+
+    def texts_before(self, path: str) -> tuple[str, ...]:
+        """Texts that an open file had before."""
+        return TEXTS_BEFORE(self._db, path)
 
 
 @query(limit=MAX_READINGS_KEPT)

@@ -203,6 +203,8 @@ def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Spa
     """The last run of the launch file (or of the same call in it) that went well, what it told, and what of the text
     is another one since. It counts until there is one of the text as it is: half typed it cannot be run, and a run
     takes its time."""
+    if (reading := _last_reading(state, run)) is not None:
+        return reading
     for line in reversed(state.results.answering(_question(run, None))):
         known, result = _known_of(state, line), state.results.result(line)
         if known is None or result is None or not known.answers(run):
@@ -213,6 +215,20 @@ def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Spa
             run, text=known.text, source=source, variables=known.variables, calls=known.calls, replaced=True
         )
         return earlier, _Reply(_read(result.output), result.output), changed.after
+    return None
+
+
+def _last_reading(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Span] | None:
+    """The same by reading, where that leaves nothing to a run."""
+    reader = state.results.reader
+    for text in reader.texts_before(run.file) if reader is not None else ():
+        earlier = replace(run, text=text)
+        reading = reader.reading(request(earlier)) if reader is not None and text != run.text else None
+        values = _read(reading.output) if reading is not None else None
+        if reading is not None and isinstance(values, dict) and values.get("unread") == [] and "error" not in values:
+            changed = change(text, run.text)
+            earlier = replace(earlier, source=_source(text, changed), replaced=True)
+            return earlier, _Reply(values, reading.output), changed.after
     return None
 
 
@@ -348,9 +364,11 @@ def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origi
     result = state.results.result(line) if not run.read_partly else None
     what = "the launch file" if not run.calls else str(run.calls[-1]["name"])
     if result is None or result.status == "not-run":
-        reading = state.results.reading(line)
+        reading = reader.reading(line) if (reader := state.results.reader) is not None else None
         values = _read(reading.output) if reading is not None else None
         unread = values.get("unread") if isinstance(values, dict) else None
+        if result is None and unread and not run.read_partly and state.results.answering(_question(run, None)):
+            reading = None  # until the run is there, the last one tells more
         if unread != [] and not run.replaced and not run.read_partly:
             state.commands.append(Command(line, "", origin, result, launch_file=True))
         if unread != [] and result is not None:

@@ -472,7 +472,7 @@ class Around:
         top = module.name.partition(".")[0]
         below = f"{module.name}.{name}"
         if top in modules._TOP:
-            if below in tables.TABLE or modules._contents(below, tables.TABLE) is not None and module.name in modules.FOLDERS:
+            if below in tables.TABLE or (modules._contents(below, tables.TABLE) is not None and module.name in modules.FOLDERS):
                 return self.module(below, None, 0)
             if top == "launch_testing" and not name.startswith("__"):
                 return modules._Anything

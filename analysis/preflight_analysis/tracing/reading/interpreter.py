@@ -76,7 +76,7 @@ class Return:
 class Frame:
     """Code that is being gone through: of which file, and where in it."""
 
-    __slots__ = ("file", "name", "node", "tries", "owner", "first", "generated")
+    __slots__ = ("file", "first", "generated", "name", "node", "owner", "tries")
 
     def __init__(self, file: str, name: str, node: Any) -> None:
         self.file, self.name, self.node = file, name, node

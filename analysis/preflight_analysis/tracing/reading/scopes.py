@@ -18,7 +18,7 @@ class Names(NamedTuple):
 class Scope:
     """The names of a module, class, function or comprehension. `names`: None where it has those that are set in it."""
 
-    __slots__ = ("values", "outer", "globals", "names", "is_class", "is_comprehension", "name", "handled")
+    __slots__ = ("globals", "handled", "is_class", "is_comprehension", "name", "names", "outer", "values")
 
     def __init__(
         self,

@@ -26,11 +26,11 @@ FAKES = f"{AGENTS}.fake_launch"
 FILES = f"{__name__.rpartition('.')[0]}.files"
 
 
-class NotRead(BaseException):  # noqa: N818 - no error: the reading ends here. No `Exception`, as fakes catch those.
+class NotRead(BaseException):
     """The reading of a launch file ends: more than anyone writes, or what only a run can do."""
 
 
-class Raised(BaseException):  # noqa: N818 - what the program raises, on its way through the interpreter
+class Raised(BaseException):
     """An exception of the program's."""
 
     def __init__(self, error: BaseException, frames: list[list[Any]] | None = None) -> None:
