@@ -296,6 +296,7 @@ def place(generation: int) -> Place:
 class _Answers:
     """Every command line, and every run of a Python launch file, gave this."""
 
+    reader = None
     edition = 0
     placeholder = None
 

@@ -60,7 +60,9 @@ class PythonHarness:
         given = {name: value for name, value in {**ros, **(variables or {})}.items() if value}
         environment = detect_environment(None, given, (str(self.folder / "src"),), underlay)
         results = CommandResults(lambda: why_not)
-        self.workspace = workspace = Workspace(environment, sources or Sources(), str(self.folder), results, reads=False)
+        self.workspace = workspace = Workspace(
+            environment, sources or Sources(), str(self.folder), results, reads=False
+        )
         if why_not is not None:
             return workspace.static(str(path), args)
         runner = CommandRunner(environment, str(self.folder), CommandCache(self.folder / "cache"))

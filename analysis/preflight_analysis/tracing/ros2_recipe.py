@@ -194,9 +194,7 @@ def _installed_for_node(environment: Environment, executable: str) -> str | None
     return text if pairs and len(text) <= _MOST_INSTALLED else None
 
 
-def installed_for(
-    environment: Environment, file: str, text: str, disk: Disk | None = None
-) -> list[tuple[str, str]]:
+def installed_for(environment: Environment, file: str, text: str, disk: Disk | None = None) -> list[tuple[str, str]]:
     """What the packages that a program names, and its own, install at other places of their share folders: it may open
     those."""
     own = package_around(environment, file)

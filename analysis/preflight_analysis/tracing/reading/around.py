@@ -11,8 +11,6 @@ import builtins
 import collections
 import copy
 import functools
-import importlib
-import inspect
 import itertools
 import json
 import math
@@ -45,16 +43,18 @@ from preflight_analysis.tracing.reading.values import (
     check_whole,
     is_fake,
     is_program_class,
-    is_unknown_object,
 )
 
 _OURS = __name__.rpartition(".")[0]
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MAX_YAML = 300_000
 _MAX_PATTERN_WORK = 20_000_000
 _PATHS = "os.path"
 _OF_LIBRARY = "what it gives is known only when it is launched"
 _NOT_FOUND = "whether the module is installed is known only when it is launched"
-_ASKS_ENVIRONMENT = re.compile(r"HOME|PATH|PWD|TMP|TMPDIR|TEMP|LD_.*|PYTHON.*|XDG_.*|AMENT_.*|COLCON_.*|CMAKE_.*|ROS_(?!DISTRO$|VERSION$|PYTHON_VERSION$|DOMAIN_ID$).*|LANG|LC_.*")
+_ASKS_ENVIRONMENT = re.compile(
+    r"HOME|PATH|PWD|TMP|TMPDIR|TEMP|LD_.*|PYTHON.*|XDG_.*|AMENT_.*|COLCON_.*|CMAKE_.*|ROS_(?!DISTRO$|VERSION$|PYTHON_VERSION$|DOMAIN_ID$).*|LANG|LC_.*"
+)
 """Variables that the sandbox sets itself."""
 
 
@@ -80,7 +80,20 @@ _PLAIN_BUILTINS = (
     *("abs", "all", "any", "ascii", "bool", "bytes", "callable", "chr", "dict", "divmod", "enumerate", "filter"),
     *("float", "format", "frozenset", "int", "isinstance", "issubclass", "iter", "len", "list", "map", "max", "min"),
     *("next", "object", "ord", "pow", "property", "range", "repr", "reversed", "round", "set", "slice", "sorted"),
-    *("staticmethod", "classmethod", "str", "sum", "super", "tuple", "type", "zip", "bin", "hex", "oct", "NotImplemented"),
+    *(
+        "staticmethod",
+        "classmethod",
+        "str",
+        "sum",
+        "super",
+        "tuple",
+        "type",
+        "zip",
+        "bin",
+        "hex",
+        "oct",
+        "NotImplemented",
+    ),
     *("Ellipsis", "complex"),
 )
 _EXCEPTIONS = {k: v for k, v in vars(builtins).items() if isinstance(v, type) and issubclass(v, BaseException)}
@@ -261,7 +274,9 @@ class Around:
         from preflight_analysis.tracing.agents import missing_modules  # noqa: PLC0415
 
         frames = self.interpreter.frames
-        return bool(frames) and self.interpreter.is_provided_for(errors, missing_modules._catches, missing_modules._ends)
+        return bool(frames) and self.interpreter.is_provided_for(
+            errors, missing_modules._catches, missing_modules._ends
+        )
 
     def _unread_function(self, name: str) -> Any:
         return lambda *args, **kwargs: self.unknown(f"{name}()", _OF_LIBRARY)
@@ -425,7 +440,9 @@ class Around:
         return found
 
     def _absolute(self, name: str, frame: Frame | None, level: int) -> str:
-        own = next((k for k, v in self._modules.items() if isinstance(v, Module) and frame and v.file == frame.file), "")
+        own = next(
+            (k for k, v in self._modules.items() if isinstance(v, Module) and frame and v.file == frame.file), ""
+        )
         parts = own.split(".")
         is_package = bool(frame and frame.file.endswith("/__init__.py"))
         keep = len(parts) - level + is_package
@@ -472,7 +489,9 @@ class Around:
         top = module.name.partition(".")[0]
         below = f"{module.name}.{name}"
         if top in modules._TOP:
-            if below in tables.TABLE or (modules._contents(below, tables.TABLE) is not None and module.name in modules.FOLDERS):
+            if below in tables.TABLE or (
+                modules._contents(below, tables.TABLE) is not None and module.name in modules.FOLDERS
+            ):
                 return self.module(below, None, 0)
             if top == "launch_testing" and not name.startswith("__"):
                 return modules._Anything
@@ -518,7 +537,7 @@ class Around:
             for found in modules._INSTALLED.finditer(text if isinstance(text, str) else ""):
                 words = found[1].replace('"', "").split()
                 if words and words[0].replace("${PROJECT_NAME}", package) == top:
-                    folder = dict(zip(words[1:], words[2:], strict=False)).get("PACKAGE_DIR", top)
+                    folder = dict(itertools.pairwise(words[1:])).get("PACKAGE_DIR", top)
                     yield posixpath.join(path, folder.replace("${PROJECT_NAME}", package))
 
     def _has_cmake(self, path: str) -> bool:
@@ -601,8 +620,12 @@ class Around:
         return {"Path": Path, "PurePath": Path, "PosixPath": Path, "PurePosixPath": Path}
 
     def _library_json(self) -> dict[str, Any]:
-        return {"loads": self._json_loads, "load": self._json_load, "dumps": self._json_dumps,
-                "JSONDecodeError": json.JSONDecodeError}
+        return {
+            "loads": self._json_loads,
+            "load": self._json_load,
+            "dumps": self._json_dumps,
+            "JSONDecodeError": json.JSONDecodeError,
+        }
 
     def _json_loads(self, text: Any, **kwargs: Any) -> Any:
         if is_unknown(text) or isinstance(text, Anything) or kwargs:
@@ -647,9 +670,22 @@ class Around:
         return result
 
     def _library_re(self) -> dict[str, Any]:
-        functions = {name: self._searching(name) for name in ("match", "search", "fullmatch", "findall", "sub", "split")}
-        return {**functions, "escape": re.escape, "I": re.I, "IGNORECASE": re.I, "M": re.M, "MULTILINE": re.M,
-                "S": re.S, "DOTALL": re.S, "error": re.error, "VERBOSE": re.X, "X": re.X}
+        functions = {
+            name: self._searching(name) for name in ("match", "search", "fullmatch", "findall", "sub", "split")
+        }
+        return {
+            **functions,
+            "escape": re.escape,
+            "I": re.I,
+            "IGNORECASE": re.I,
+            "M": re.M,
+            "MULTILINE": re.M,
+            "S": re.S,
+            "DOTALL": re.S,
+            "error": re.error,
+            "VERBOSE": re.X,
+            "X": re.X,
+        }
 
     def _searching(self, name: str) -> Any:
         def called(pattern: Any, *args: Any, **kwargs: Any) -> Any:
@@ -711,7 +747,7 @@ class Around:
             return Anything("yaml.safe_load()")
         if not isinstance(text, str) or len(text) > _MAX_YAML or text.count("*") > 2000:
             return self.unknown("yaml.safe_load()", "the text is too long")
-        value = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        value = yaml.load(text, Loader=_LOADER)  # noqa: S506 - a safe one
         check_whole(value)
         return value
 
@@ -798,6 +834,3 @@ def _repeats(tree: Any, is_inside: bool) -> int | None:
         elif name in ("ASSERT", "ASSERT_NOT", "GROUPREF", "GROUPREF_EXISTS", "ATOMIC_GROUP"):
             return None
     return count
-
-
-__all__ = ["Around", "Context", "importlib", "inspect", "is_unknown_object"]

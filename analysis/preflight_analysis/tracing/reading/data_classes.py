@@ -17,7 +17,7 @@ class Field:
         self.default, self.factory, self.init = default, factory, init
 
 
-def FIELD(*, default: Any = _MISSING, default_factory: Any = None, init: bool = True, **_: Any) -> Any:  # noqa: N802
+def FIELD(*, default: Any = _MISSING, default_factory: Any = None, init: bool = True, **_: Any) -> Any:
     """`dataclasses.field`."""
     return Field(default, default_factory, init=init)
 
@@ -40,7 +40,9 @@ def dataclass(interpreter: Any, kind: Any = None, **options: Any) -> Any:
         if each.default is not _MISSING:
             setattr(kind, name, each.default)
     kind.preflight_fields = fields
-    kind.__init__ = Function(lambda args, kwargs: _init(interpreter, kind, fields, args, kwargs), "__init__", "__init__")
+    kind.__init__ = Function(
+        lambda args, kwargs: _init(interpreter, kind, fields, args, kwargs), "__init__", "__init__"
+    )
     if "__eq__" not in vars(kind) and options.get("eq", True):
         kind.__eq__ = Function(lambda args, _: _values(args[0]) == _values(args[1]), "__eq__", "__eq__")
         kind.__hash__ = Function(lambda args, _: 0, "__hash__", "__hash__")
@@ -51,7 +53,9 @@ def _init(interpreter: Any, kind: Any, fields: dict[str, Any], args: Any, kwargs
     self, *values = args
     names = [name for name, each in fields.items() if each.init]
     if len(values) > len(names):
-        raise TypeError(f"{kind.__name__}.__init__() takes {len(names) + 1} positional arguments but {len(args)} were given")
+        raise TypeError(
+            f"{kind.__name__}.__init__() takes {len(names) + 1} positional arguments but {len(args)} were given"
+        )
     given = dict(zip(names, values, strict=False))
     for name, value in kwargs.items():
         if name not in names or name in given:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fnmatch
 import io
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -45,9 +44,7 @@ Installed = Callable[[], Sequence[tuple[str, str]]]
 class Files:
     """The disk within `roots`. `unknown` makes a stand-in for what only a run tells."""
 
-    def __init__(
-        self, disk: Disk, roots: tuple[str, ...], unknown: Unknown, installed: Installed, name: str
-    ) -> None:
+    def __init__(self, disk: Disk, roots: tuple[str, ...], unknown: Unknown, installed: Installed, name: str) -> None:
         self._disk, self.unknown, self._name = disk, unknown, name
         self._installed = installed
         self._pairs: Sequence[tuple[str, str]] | None = None
@@ -330,4 +327,3 @@ class Path(PurePosixPath):
 
 Path.__name__ = Path.__qualname__ = "PosixPath"
 Path.__module__ = "pathlib"
-__all__ = ["Disk", "Files", "Path", "fnmatch"]

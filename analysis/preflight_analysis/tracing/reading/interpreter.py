@@ -16,7 +16,7 @@ import types
 from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
-from preflight_analysis.tracing.agents.anything import Anything, asked, is_unknown, marked, readable
+from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked
 from preflight_analysis.tracing.agents.fake_launch import rewritten
 from preflight_analysis.tracing.reading.scopes import Scope, names_of
 from preflight_analysis.tracing.reading.values import (
@@ -176,9 +176,9 @@ class Interpreter:
         """Some more was done."""
         before = self._steps
         self._steps += count
-        if before // _CHECK != self._steps // _CHECK:
-            if self._steps > MAX_STEPS or time.monotonic() > self._ends:
-                raise NotRead("it takes too long")
+        is_time = before // _CHECK != self._steps // _CHECK
+        if is_time and (self._steps > MAX_STEPS or time.monotonic() > self._ends):
+            raise NotRead("it takes too long")
 
     # Statements
 
@@ -743,9 +743,8 @@ class Interpreter:
                 self._native(getattr, thing, name)
             raise NotRead(f"the attribute {name} of {type(thing).__name__}")
         found = self._native(getattr, thing, name)
-        if isinstance(found, (types.MethodDescriptorType, types.ClassMethodDescriptorType, types.BuiltinMethodType)):
-            if isinstance(thing, type):
-                return self._of_type(thing, name)
+        if isinstance(thing, type) and isinstance(found, _OF_TYPES):
+            return self._of_type(thing, name)
         return found
 
     def _in_program(self, thing: Any, name: str) -> bool:
@@ -866,7 +865,7 @@ class Interpreter:
                 if double is not None or not all(isinstance(name, str) for name in given):
                     raise NotRead("an argument is given twice")
                 kwargs.update(given)
-        if isinstance(node.func, ast.Name) and function is self._super():
+        if isinstance(node.func, ast.Name) and function is super:
             args = args or (self.frame.owner, self.frame.first)
         if isinstance(node.func, ast.Attribute):
             args, kwargs = self._texts_of(node.func.attr, args, kwargs)
@@ -875,12 +874,9 @@ class Interpreter:
             return marked(self.call(rewritten._with(self.checked(function), 1), args, kwargs, is_checked=True))
         return marked(self.call(function, args, kwargs))
 
-    def _super(self) -> Any:
-        return super
-
     def _method(self, of: Any, node: ast.Attribute) -> Any:
-        if node.attr == "get" and isinstance(of, (dict, list, tuple)):
-            return rewritten._of(of).get if type(of) in rewritten._COLLECTIONS and isinstance(of, dict) else of.get  # type: ignore[union-attr]
+        if node.attr == "get" and type(of) is dict:
+            return rewritten._Of(of).get
         return self.attribute(of, node.attr)
 
     def _texts_of(self, name: str, args: Any, kwargs: Any) -> Any:
@@ -986,9 +982,8 @@ class _Code:
         given = self.node.args
         by_place = [each.arg for each in (*given.posonlyargs, *given.args)]
         values: dict[str, Any] = dict(zip(by_place, args, strict=False))
-        if len(args) > len(by_place):
-            if given.vararg is None:
-                raise Raised(TypeError(self._too_many(by_place, len(args))))
+        if len(args) > len(by_place) and given.vararg is None:
+            raise Raised(TypeError(self._too_many(by_place, len(args))))
         if given.vararg is not None:
             values[given.vararg.arg] = args[len(by_place) :]
         names = {*by_place, *(each.arg for each in given.kwonlyargs)} - {each.arg for each in given.posonlyargs}
@@ -1045,6 +1040,7 @@ def _matches(error: BaseException, kind: Any) -> bool:
     return isinstance(kind, type) and isinstance(error, kind)
 
 
+_OF_TYPES = (types.MethodDescriptorType, types.ClassMethodDescriptorType, types.BuiltinMethodType)
 _ABSTRACT = ("ABCMeta", "abc.ABCMeta")
 _TYPES = (int, float, dict, type, str, bool)
 _UNORDERED = frozenset(
@@ -1054,5 +1050,10 @@ _UNORDERED = frozenset(
         *("symmetric_difference", "called", "append"),
     )
 )
-_BASES: tuple[Any, ...] = (object, dict, list, str, *(v for v in vars(builtins).values() if isinstance(v, type) and issubclass(v, Exception)))
-__all__ = ["Frame", "Interpreter", "asked", "readable"]
+_BASES: tuple[Any, ...] = (
+    object,
+    dict,
+    list,
+    str,
+    *(v for v in vars(builtins).values() if isinstance(v, type) and issubclass(v, Exception)),
+)

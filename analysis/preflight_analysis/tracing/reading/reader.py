@@ -25,8 +25,6 @@ from preflight_analysis.tracing.agents.fake_launch import (
     actions,
     ament,
     base,
-    conditions,
-    events,
     library,
     nav2_common,
     reads,
@@ -185,7 +183,9 @@ class _Fakes:
                 failed = False
             except Raised as raised:
                 result, failed = {"error": _error_record(raised)}, True
-        if failed and (RECORDER.guessed or RECORDER.answers._given or around.asked_unset or around.files.looked_in_vain):
+        if failed and (
+            RECORDER.guessed or RECORDER.answers._given or around.asked_unset or around.files.looked_in_vain
+        ):
             around.unknown(str(result["error"]["type"]), "it may be another one in a run")
         result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
         result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
@@ -327,4 +327,3 @@ def _in_fakes(around: Around) -> Iterator[None]:
 
 
 _ABSENT = object()
-__all__ = ["conditions", "events", "read"]

@@ -46,6 +46,7 @@ class Function:
         self.__module__ = "python_launch_file"
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """What it gives, or raises, as Python does."""
         try:
             return self.call(args, kwargs)
         except Raised as raised:
@@ -125,7 +126,12 @@ def may_have(thing: Any, name: str) -> bool:
         return name in ("__name__", "__qualname__", "__doc__")
     if name.startswith("_"):
         return name == "__class__"
-    return kind in SAFE_TYPES or is_fake(kind) or kind.__module__ == FILES or isinstance(thing, (BaseException, PurePosixPath))
+    return (
+        kind in SAFE_TYPES
+        or is_fake(kind)
+        or kind.__module__ == FILES
+        or isinstance(thing, (BaseException, PurePosixPath))
+    )
 
 
 def _is_special(name: str) -> bool:
@@ -222,9 +228,10 @@ def check_operation(name: str, left: Any, right: Any) -> None:
     """Raise `NotRead` where an operation makes something too large."""
     if name == "Mult":
         for one, other in ((left, right), (right, left)):
-            if isinstance(one, (str, bytes, list, tuple)) and isinstance(other, int):
-                if len(one) * max(other, 0) > (MAX_TEXT if isinstance(one, (str, bytes)) else MAX_ITEMS):
-                    raise NotRead("a value is too large")
+            most = MAX_TEXT if isinstance(one, (str, bytes)) else MAX_ITEMS
+            is_repeated = isinstance(one, (str, bytes, list, tuple)) and isinstance(other, int)
+            if is_repeated and len(one) * max(other, 0) > most:
+                raise NotRead("a value is too large")
         if isinstance(left, int) and isinstance(right, int):
             _check_bits(left.bit_length() + right.bit_length())
     elif name == "Add":
