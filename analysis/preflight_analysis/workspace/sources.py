@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from typing import TypeVar
 
+from preflight_analysis.documents.python_text import is_python
 from preflight_analysis.documents.reading import Unreadable
 from preflight_analysis.documents.span import LineIndex
 from preflight_analysis.evaluation.files import Files
@@ -15,7 +16,7 @@ from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.incremental.query import Input
 from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.launch.python_source import PythonSource
-from preflight_analysis.launch.recognize import Format, is_python, launch_format_on_disk
+from preflight_analysis.launch.recognize import Format, launch_format_on_disk
 
 T = TypeVar("T")
 MAX_TEXTS_BEFORE = 20

@@ -29,6 +29,7 @@ import yaml
 
 from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked, readable, unknown_text
 from preflight_analysis.tracing.agents.fake_launch import base, modules, reads, rewritten, tables
+from preflight_analysis.tracing.agents.fake_launch.tables import FOLDERS
 from preflight_analysis.tracing.reading.data_classes import FIELD, dataclass, members, replaced
 from preflight_analysis.tracing.reading.files import Files, Path
 from preflight_analysis.tracing.reading.interpreter import Frame, Interpreter
@@ -58,12 +59,15 @@ _ASKS_ENVIRONMENT = re.compile(
 """Variables that the sandbox sets itself."""
 
 
+_WITHOUT_END = ("factorial", "comb", "perm", "prod", "lcm")
+
+
 def _named(module: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(module, name) for name in names}
 
 
 _NATIVE: dict[str, dict[str, Any]] = {
-    "math": {k: v for k, v in vars(math).items() if not k.startswith("_") and k not in ("factorial", "comb", "perm")},
+    "math": {k: v for k, v in vars(math).items() if not k.startswith("_") and k not in _WITHOUT_END},
     "itertools": _named(itertools, "chain", "product", "zip_longest", "islice"),
     "string": {k: v for k, v in vars(string).items() if isinstance(v, str) and not k.startswith("_")},
     "textwrap": _named(textwrap, "dedent", "indent"),
@@ -489,13 +493,11 @@ class Around:
         top = module.name.partition(".")[0]
         below = f"{module.name}.{name}"
         if top in modules._TOP:
-            if below in tables.TABLE or (
-                modules._contents(below, tables.TABLE) is not None and module.name in modules.FOLDERS
-            ):
+            if below in tables.TABLE or (modules._contents(below, tables.TABLE) is not None and module.name in FOLDERS):
                 return self.module(below, None, 0)
             if top == "launch_testing" and not name.startswith("__"):
                 return modules._Anything
-            if module.name not in modules.FOLDERS:
+            if module.name not in FOLDERS:
                 having = modules.module_with(name)
                 if having:
                     return tables.TABLE[having][name]
@@ -694,7 +696,7 @@ class Around:
             if any(map(is_unknown, (pattern, *args))):
                 return Anything(f"re.{name}()")
             text = next((each for each in reversed(args) if isinstance(each, str)), "")
-            if not _is_quick(pattern, text) or kwargs:
+            if not _is_quick(pattern, text) or kwargs or (name == "sub" and len(str(args[0])) > 1_000):
                 return self.unknown(f"re.{name}()", "the pattern may take too long")
             return getattr(re, name)(pattern, *args)
 

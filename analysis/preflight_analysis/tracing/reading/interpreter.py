@@ -16,6 +16,7 @@ import types
 from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
+from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked
 from preflight_analysis.tracing.agents.fake_launch import rewritten
 from preflight_analysis.tracing.reading.scopes import Scope, names_of
@@ -24,6 +25,7 @@ from preflight_analysis.tracing.reading.values import (
     Module,
     NotRead,
     Raised,
+    bounded,
     check_call,
     check_format,
     check_operation,
@@ -35,8 +37,8 @@ from preflight_analysis.tracing.reading.values import (
     may_have,
 )
 
-MAX_STEPS = 400_000
-MAX_SECONDS = 3.0
+MAX_STEPS = 150_000
+MAX_SECONDS = 2.0
 MAX_CALLS = 40
 """Of functions of the program, one in the other."""
 _CHECK = 2_000
@@ -244,10 +246,13 @@ class Interpreter:
             self._set_item(thing, key, after)
 
     def _augmented(self, node: ast.AugAssign, before: Any, scope: Scope) -> Any:
-        value = self.evaluate(node.value, scope)
+        value = bounded(self.evaluate(node.value, scope))
         self.frame.node = node
         name = type(node.op).__name__
         check_operation(name, before, value)
+        if isinstance(before, list) and name == "Add" and not isinstance(value, (str, list, tuple, Anything)):
+            value = self._native(list, value)
+            check_operation(name, before, value)
         function = _IN_PLACE.get(name) or _OPERATORS.get(name)
         if function is None:
             raise NotRead("an operator")
@@ -549,7 +554,7 @@ class Interpreter:
         """What `thing.name = value` does."""
         if is_unknown_object(thing):
             return
-        is_known = is_program_class(type(thing)) or is_program_class(thing) or isinstance(thing, Function)
+        is_known = is_program_class(type(thing)) or is_program_class(thing)
         if isinstance(thing, Module) and thing.file is not None:
             thing.contents[name] = value
         elif is_known and not name.startswith(("__", "preflight")):
@@ -707,6 +712,7 @@ class Interpreter:
         if name not in ("Is", "IsNot"):
             left, right = marked(left), marked(right)
         if name in ("In", "NotIn"):
+            right = bounded(right)
             found = self._native(lambda: left in rewritten._in(right))
             return found if name == "In" else not found
         if not isinstance(left, (str, int)) or not isinstance(right, (str, int)):
@@ -907,12 +913,18 @@ class Interpreter:
             return function.call(args, kwargs) if is_program else self._native(function.call, args, kwargs)
         if isinstance(function, Anything) and len(args) == 1 and isinstance(args[0], (Function, type)) and not kwargs:
             return args[0]
+        named = function
         if not is_checked:
             function = self.checked(function)
             if isinstance(function, type) and is_fake(function):
                 check_whole(args, kwargs)
             function = rewritten._called(function) if not isinstance(function, type) or function in _TYPES else function
-        check_call(function, args, kwargs)
+        if isinstance(named, (type, types.BuiltinFunctionType)) and named in _SHOWING:
+            check_whole(*args)
+        check_call(named, args, kwargs)
+        if function is not next:
+            args = tuple(map(bounded, args))
+            kwargs = {name: bounded(value) for name, value in kwargs.items()}
         for each in args:
             if isinstance(each, (set, frozenset)) and getattr(function, "__name__", "") not in _UNORDERED:
                 self.in_order(each)
@@ -924,7 +936,9 @@ class Interpreter:
             return function(*args, **kwargs)
         except (RecursionError, MemoryError):
             raise NotRead("it is too deep") from None
-        except Exception as error:
+        except (NotRead, Raised, Cancelled):
+            raise
+        except BaseException as error:
             frames = vars(error).pop("preflight_frames", None) if hasattr(error, "__dict__") else None
             raise Raised(error, frames) from None
 
@@ -1042,6 +1056,8 @@ def _matches(error: BaseException, kind: Any) -> bool:
 
 _OF_TYPES = (types.MethodDescriptorType, types.ClassMethodDescriptorType, types.BuiltinMethodType)
 _ABSTRACT = ("ABCMeta", "abc.ABCMeta")
+_SHOWING: tuple[Any, ...] = (str, repr, ascii, format, sorted, max, min, hash)
+"""What goes through all that is within a value."""
 _TYPES = (int, float, dict, type, str, bool)
 _UNORDERED = frozenset(
     (

@@ -19,6 +19,7 @@ from preflight_analysis.tracing.agents.anything import AnyBase, AnyModule, Anyth
 MAX_TEXT = 1_000_000
 MAX_ITEMS = 50_000
 MAX_BITS = 4_000
+MAX_NUMBER = 100_000
 MAX_WORK = 20_000_000
 """Steps of a regular expression, as an estimate."""
 AGENTS = anything.__name__.rpartition(".")[0]
@@ -50,7 +51,8 @@ class Function:
         try:
             return self.call(args, kwargs)
         except Raised as raised:
-            # Between the two there may be code that handles it.
+            if not isinstance(raised.error, Exception):
+                raise  # such as SystemExit: nobody between the two handles it
             vars(raised.error)["preflight_frames"] = raised.frames
             raise raised.error from None
 
@@ -93,6 +95,7 @@ _UNSAFE = frozenset(("maketrans", "mro", "with_traceback", "add_note"))
 _PUBLIC_OF_OBJECT = frozenset(("__name__", "__doc__", "__qualname__", "__class__", "__init__", "__module__"))
 _FIELD = re.compile(r"\{([^{}:!]*)")
 _LARGE = re.compile(r"\d{4,}")
+_NESTED = re.compile(r"\{[^{}]*\{")
 _STARRED = re.compile(r"%[^a-zA-Z%]*\*")
 
 
@@ -183,7 +186,17 @@ def check_call(function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> 
     for each in args:
         if isinstance(each, range) and len(each) > MAX_ITEMS:
             raise NotRead("a range is too long")
-    if isinstance(of, str):
+        if name in _BY_NUMBER and isinstance(each, int) and abs(each) > _MOST_BY_NUMBER[name]:
+            raise NotRead("a number is too large")
+    if name == "pow" and len(args) == 2:
+        check_operation("Pow", *args)
+    elif name == "iter" and len(args) > 1:
+        raise NotRead("iter() with a function")
+    elif name == "indent" and sum(len(each) for each in args if isinstance(each, str)) > 10_000:
+        raise NotRead("a text is too long")
+    elif name == "format" and len(args) == 2 and isinstance(args[1], str):
+        check_format("{:" + args[1] + "}")
+    if isinstance(of, (str, bytes)):
         _check_text_method(of, name, args, kwargs)
     elif isinstance(of, (list, dict, set, collections.deque)):
         given = sum(len(each) for each in args if hasattr(each, "__len__") and not isinstance(each, Anything))
@@ -191,19 +204,39 @@ def check_call(function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> 
             raise NotRead("a collection is too large")
 
 
-def _check_text_method(of: str, name: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+_MOST_BY_NUMBER = {"bytes": MAX_ITEMS, "to_bytes": 1_000, "round": MAX_NUMBER, "pow": MAX_NUMBER}
+_BY_NUMBER = frozenset(_MOST_BY_NUMBER)
+
+
+def bounded(value: Any) -> Any:
+    """What Python goes through by itself: the items of an iterator, of which there may be any number."""
+    if not hasattr(type(value), "__next__") or isinstance(value, Anything):
+        return value
+    items = list(itertools.islice(value, MAX_ITEMS + 1))
+    check_size(items)
+    return iter(items)
+
+
+def _check_text_method(of: str | bytes, name: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
     if name in ("center", "ljust", "rjust", "zfill", "expandtabs"):
         if any(isinstance(each, int) and each > 10_000 for each in args):
             raise NotRead("a text is too long")
-    elif name == "replace" and len(args) >= 2 and all(isinstance(each, str) for each in args[:2]):
+    elif name == "translate":
+        raise NotRead("translate()")
+    elif name == "replace" and len(args) >= 2 and all(isinstance(each, (str, bytes)) for each in args[:2]):
         if len(of) + (of.count(args[0]) if args[0] else len(of) + 1) * len(args[1]) > MAX_TEXT:
             raise NotRead("a text is too long")
-    elif name in ("format", "format_map"):
+    elif name in ("format", "format_map") and isinstance(of, str):
         check_format(of)
+        if name == "format_map":
+            args = tuple(args[0].values()) if args and isinstance(args[0], dict) else args
+        if _NESTED.search(of) and any(isinstance(each, int) and each > 1_000 for each in (*args, *kwargs.values())):
+            raise NotRead("a text is too long")
         check_whole(*args, *kwargs.values())
     elif name == "join":
         for each in args:
-            if isinstance(each, (list, tuple)) and sum(len(of) + len(x) for x in each if isinstance(x, str)) > MAX_TEXT:
+            items = each if isinstance(each, (list, tuple)) else ()
+            if sum(len(of) + len(x) for x in items if isinstance(x, (str, bytes))) > MAX_TEXT:
                 raise NotRead("a text is too long")
 
 
