@@ -18,7 +18,7 @@ def answer(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> 
     run tells as `unread`; None where the file is not read at all."""
     packages = {name: package.share for name, package in environment.packages.items()} | request.get("packages", {})
     folders = tuple(dict.fromkeys(_module_folders(packages, disk)))
-    roots = tuple(dict.fromkeys((*environment.workspace_folders, *packages.values(), *folders)))
+    shares = tuple(dict.fromkeys((*packages.values(), *folders)))
     known = distribution(environment.variables, environment.ament_prefixes)
     sourced = {"ROS_DISTRO": known or DISTRIBUTIONS[-1]}
     assumed = [] if known else sorted(sourced.keys() - environment.variables.keys())
@@ -27,10 +27,11 @@ def answer(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> 
     variables.update({name: value for name in variables if (value := environment.variables.get(name)) is not None})
     around = Surroundings(
         disk,
-        tuple(root.rstrip("/") for root in roots),
+        tuple(root.rstrip("/") for root in environment.workspace_folders),
         folders,
         variables,
         lambda: ros2_recipe.installed_for(environment, str(request["file"]), str(request["text"]), disk),
+        tuple(root.rstrip("/") for root in shares),
     )
     return read(job, around)
 

@@ -10,7 +10,6 @@ import ast
 import builtins
 import collections
 import copy
-import functools
 import itertools
 import json
 import math
@@ -23,32 +22,49 @@ import textwrap
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any
 
 import yaml
 
 from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked, readable, unknown_text
-from preflight_analysis.tracing.agents.fake_launch import base, modules, reads, rewritten, tables
+from preflight_analysis.tracing.agents.fake_launch import (
+    base,
+    modules,
+    moveit_configs,
+    reads,
+    rewritten,
+    substitutions,
+    tables,
+)
 from preflight_analysis.tracing.agents.fake_launch.tables import FOLDERS
 from preflight_analysis.tracing.reading.data_classes import FIELD, dataclass, members, replaced
 from preflight_analysis.tracing.reading.files import Files, Path
 from preflight_analysis.tracing.reading.interpreter import Frame, Interpreter
 from preflight_analysis.tracing.reading.values import (
     FAKES,
+    MAX_DEPTH,
+    MAX_ITEMS,
+    MAX_TEXT,
+    METHODS,
     SAFE_TYPES,
     Function,
     Module,
     NotRead,
     Raised,
+    Wrapped,
     check_size,
-    check_whole,
     is_fake,
     is_program_class,
+    may_have,
+    whole,
 )
 
 _OURS = __name__.rpartition(".")[0]
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MAX_YAML = 300_000
+_MAX_EXPRESSION = 5_000
+_MAX_MODULE = 300_000
 _MAX_PATTERN_WORK = 20_000_000
 _PATHS = "os.path"
 _OF_LIBRARY = "what it gives is known only when it is launched"
@@ -59,7 +75,7 @@ _ASKS_ENVIRONMENT = re.compile(
 """Variables that the sandbox sets itself."""
 
 
-_WITHOUT_END = ("factorial", "comb", "perm", "prod", "lcm")
+_WITHOUT_END = ("factorial", "comb", "perm", "lcm")
 
 
 def _named(module: Any, *names: str) -> dict[str, Any]:
@@ -70,7 +86,7 @@ _NATIVE: dict[str, dict[str, Any]] = {
     "math": {k: v for k, v in vars(math).items() if not k.startswith("_") and k not in _WITHOUT_END},
     "itertools": _named(itertools, "chain", "product", "zip_longest", "islice"),
     "string": {k: v for k, v in vars(string).items() if isinstance(v, str) and not k.startswith("_")},
-    "textwrap": _named(textwrap, "dedent", "indent"),
+    "textwrap": _named(textwrap, "dedent"),
     "posixpath": {},
     "typing": {k: v for k, v in vars(typing).items() if k[:1].isupper() and k != "NamedTuple"},
     "collections": _named(collections, "OrderedDict", "defaultdict", "Counter", "deque"),
@@ -129,7 +145,8 @@ _UNREAD_FAKES = ("moveit_configs_utils", "launch_param_builder", "catkin_pkg", "
 class Context(base.LaunchContext):
     """`launch.LaunchContext`."""
 
-    around: Around
+    _around: Around
+    """Of the reading that goes on."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -138,11 +155,11 @@ class Context(base.LaunchContext):
     @property
     def environment(self) -> Any:
         """The variables that the file sees."""
-        return self.around.environment
+        return self._around.environment
 
     def perform_substitution(self, substitution: Any) -> Any:
         """The text of a substitution."""
-        return self.around.performed(substitution, self)
+        return self._around.performed(substitution, self)
 
 
 Context.__name__ = Context.__qualname__ = "LaunchContext"
@@ -235,6 +252,25 @@ def _identity(thing: Any = None, *args: Any, **kwargs: Any) -> Any:
     return thing if isinstance(thing, (Function, type)) else (lambda given: given)
 
 
+@lru_cache(maxsize=64)
+def parsed(text: str) -> ast.Module | None:
+    """The syntax tree; None where there is none, or the text is longer than anyone writes."""
+    try:
+        return ast.parse(text) if len(text) <= _MAX_MODULE else None
+    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        return None
+
+
+class Services:
+    """What the fakes have in the place of modules of Python, in a reading. What is not named is not there."""
+
+    def __init__(self, **names: Any) -> None:
+        vars(self).update(names)
+
+    def __getattr__(self, name: str) -> Any:
+        raise NotRead(f"{name} of the system")
+
+
 class Around:
     """What a reading has around it; `interpreter.Around`."""
 
@@ -250,8 +286,8 @@ class Around:
         """What only a run tells: names, reasons and lines, with the places."""
         self.asked_unset = False
         self.files = files(self.unknown)
-        Path.files = self.files
-        Context.around = self
+        Path._files = self.files
+        Context._around = self
         self.environment = Environment(self, variables)
         self.interpreter = Interpreter(self)
         self.path: list[Any] = list(folders)
@@ -336,7 +372,7 @@ class Around:
 
     @staticmethod
     def _vars(*things: Any) -> Any:
-        if len(things) == 1 and is_program_class(type(things[0])):
+        if len(things) == 1 and may_have(things[0], "__dict__"):
             return vars(things[0])
         raise NotRead("vars()")
 
@@ -359,18 +395,16 @@ class Around:
             return self._method(function, of, name)
         if isinstance(function, types.FunctionType) and module.startswith(FAKES):
             return self._unread_function(name) if name in _NOT_OF_FAKES else function
-        if isinstance(of, type) and is_fake(of):
+        if isinstance(of, type) and is_fake(of) and not name.startswith("_"):
             return function
         if _is_hashable(function) and function in _ALLOWED_FUNCTIONS:
             return function
-        is_bound = isinstance(function, (types.BuiltinMethodType, types.MethodWrapperType, types.MethodType))
-        if is_bound and (type(of) in SAFE_TYPES or is_fake(type(of)) or isinstance(of, (Path, BaseException))):
+        if isinstance(function, types.BuiltinMethodType) and name in METHODS.get(
+            of if isinstance(of, type) else type(of), ()
+        ):
             return function
-        if is_bound and isinstance(of, type) and of in SAFE_TYPES and name == "fromkeys":
-            return function
-        if is_bound and is_program_class(type(of)):
-            return function
-        if isinstance(function, (functools.partial, staticmethod)):
+        is_bound = isinstance(function, types.MethodType)
+        if is_bound and (is_fake(type(of)) or isinstance(of, Path) or is_program_class(type(of))):
             return function
         if is_program_class(type(function)) or isinstance(function, (modules._Anything, Quiet)):
             return function
@@ -379,11 +413,7 @@ class Around:
     def _class(self, kind: type) -> Any:
         if kind is type:
             return self._type
-        if kind is map or kind is filter:
-            return kind
         if kind in _ALLOWED_TYPES or is_fake(kind) or kind is Path or kind in _EXCEPTIONS.values():
-            return kind
-        if kind.__module__.startswith(_OURS):
             return kind
         return self._unread_function(kind.__name__)
 
@@ -394,36 +424,38 @@ class Around:
         return rewritten._type(*args)
 
     def _method(self, function: Any, of: Any, name: str) -> Any:
-        if isinstance(of, base.Substitution) and name == "perform":
+        if isinstance(of, base.Substitution) and name == "perform" and not base.overrides(of, name):
             return lambda context: self.performed(of, context)
         return function
 
     def performed(self, substitution: Any, context: Any) -> Any:
         """The text of a substitution."""
-        kind = type(substitution).__name__
+        self.interpreter.step()
         if is_program_class(type(substitution)) and base.overrides(substitution, "perform"):
-            return substitution.perform(context)
-        if kind == "Command":
+            return self.interpreter.call(substitution.perform, (context,), {})
+        if isinstance(substitution, substitutions.Command):
             return str(self.unknown("Command()", "the command was not run"))
-        if kind == "PythonExpression":
-            return self._expression(substitution, context)
-        if kind in ("LocalSubstitution", "LaunchLogDir", "Xacro"):
-            return str(self.unknown(kind, _OF_LIBRARY))
-        return substitution.perform(context)
+        if isinstance(substitution, substitutions.FindExecutable):
+            return str(self.unknown("FindExecutable()", "which programs there are is known only where it is launched"))
+        if isinstance(substitution, (substitutions.LaunchLogDir, moveit_configs.Xacro)):
+            return str(self.unknown(type(substitution).__name__, _OF_LIBRARY))
+        return self.interpreter.made(substitution.perform(context))
 
-    def _expression(self, substitution: Any, context: Any) -> Any:
-        text = substitution._text(context, 0)
-        names = [name.strip() for name in substitution._text(context, 1).split(",")]
-        if is_unknown(text) or set(names) - {"", "math"}:
-            return str(self.unknown("PythonExpression", _OF_LIBRARY))
+    def evaluated(self, text: Any, _: Any, values: dict[str, Any]) -> Any:
+        """The value of an expression that is written in a text, as `eval` gives it."""
+        if is_unknown(text) or not isinstance(text, str) or len(text) > _MAX_EXPRESSION:
+            return self.unknown("the expression", _OF_LIBRARY)
         try:
             tree = ast.parse(text.strip(), mode="eval")
         except (SyntaxError, ValueError, MemoryError, RecursionError):
-            return str(self.unknown("PythonExpression", _OF_LIBRARY))
-        values = dict(_NATIVE["math"]) if "math" in names else {}
-        if "math" in names:
-            values["math"] = self.module("math", None, 0)
-        return str(check_size(self.interpreter.expression(tree.body, values)))
+            return self.unknown("the expression", _OF_LIBRARY)
+        return self.interpreter.expression(tree.body, values)
+
+    def imported(self, name: Any) -> Any:
+        """`importlib.import_module` for the fakes."""
+        if not isinstance(name, str) or is_unknown(name):
+            raise NotRead("a module without a name")
+        return Services(safe_load=self.load_yaml, dump=self.dump_yaml) if name == "yaml" else self.module(name, None, 0)
 
     # Modules
 
@@ -549,10 +581,9 @@ class Around:
         text = self.files.text(file)
         if not isinstance(text, str):
             return Module(name, {})
-        try:
-            tree = ast.parse(text)
-        except (SyntaxError, ValueError, MemoryError, RecursionError):
-            raise NotRead(f"the module {name} does not parse") from None
+        tree = parsed(text)
+        if tree is None:
+            raise NotRead(f"the module {name} does not parse")
         contents: dict[str, Any] = {"__name__": name, "__file__": file}
         module = Module(name, contents, file)
         self._modules[name] = module
@@ -638,7 +669,7 @@ class Around:
         return self._json_loads(file.read(), **kwargs)
 
     def _json_dumps(self, value: Any, **kwargs: Any) -> Any:
-        check_whole(value)
+        whole(value)
         if set(kwargs) - {"indent", "sort_keys"} or not isinstance(kwargs.get("indent", 2), (int, type(None))):
             return self.unknown("json.dumps()", _OF_LIBRARY)
         if isinstance(kwargs.get("indent"), int) and kwargs["indent"] > 20:
@@ -650,19 +681,25 @@ class Around:
 
     @staticmethod
     def _copy(value: Any) -> Any:
-        return copy.copy(value) if type(value) in SAFE_TYPES else _not_read("copy()")
+        return copy.copy(value) if type(value) in METHODS else _not_read("copy()")
 
     @staticmethod
     def _deepcopy(value: Any) -> Any:
-        check_whole(value)
+        whole(value)
         return copy.deepcopy(value) if _is_plain(value, with_fakes=True) else _not_read("deepcopy()")
 
     def _library_functools(self) -> dict[str, Any]:
         return {
-            "partial": functools.partial,
+            "partial": self._partial,
             "reduce": self._reduce,
             **dict.fromkeys(("wraps", "lru_cache", "cache", "total_ordering", "cached_property"), _decorates),
         }
+
+    def _partial(self, function: Any, *args: Any, **kwargs: Any) -> Any:
+        def called(more: Any, named: Any) -> Any:
+            return self.interpreter.call(function, (*args, *more), {**kwargs, **named})
+
+        return Wrapped(called, "partial", "partial")
 
     def _reduce(self, function: Any, values: Any, *initial: Any) -> Any:
         items = list(self.interpreter.each(values))
@@ -691,13 +728,17 @@ class Around:
 
     def _searching(self, name: str) -> Any:
         def called(pattern: Any, *args: Any, **kwargs: Any) -> Any:
-            if not isinstance(pattern, str) or not all(isinstance(each, (str, int)) for each in args):
+            if kwargs or not isinstance(pattern, str) or not all(isinstance(each, (str, int)) for each in args):
                 return self.unknown(f"re.{name}()", _OF_LIBRARY)
             if any(map(is_unknown, (pattern, *args))):
                 return Anything(f"re.{name}()")
-            text = next((each for each in reversed(args) if isinstance(each, str)), "")
-            if not _is_quick(pattern, text) or kwargs or (name == "sub" and len(str(args[0])) > 1_000):
+            texts = [each for each in args if isinstance(each, str)]
+            numbers = [each for each in args if not isinstance(each, str)]
+            flags = int(numbers[-1]) if numbers else 0
+            if not is_quick(pattern, texts[-1] if texts else "", flags):
                 return self.unknown(f"re.{name}()", "the pattern may take too long")
+            if name == "sub" and len(texts) == 2 and (len(texts[1]) + 1) * (len(texts[0]) + 1) > MAX_TEXT:
+                raise NotRead("a text is too long")
             return getattr(re, name)(pattern, *args)
 
         return called
@@ -749,13 +790,16 @@ class Around:
             return Anything("yaml.safe_load()")
         if not isinstance(text, str) or len(text) > _MAX_YAML or text.count("*") > 2000:
             return self.unknown("yaml.safe_load()", "the text is too long")
-        value = yaml.load(text, Loader=_LOADER)  # noqa: S506 - a safe one
-        check_whole(value)
+        self.interpreter.step(len(text) // 20)
+        if _is_deep(text):
+            return self.unknown("yaml.safe_load()", "the text is too deep")
+        value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a safe one
+        self.interpreter.step(whole(value))
         return value
 
     def dump_yaml(self, data: Any, stream: Any = None, **kwargs: Any) -> Any:
         """`yaml.dump`."""
-        check_whole(data)
+        whole(data)
         if not _is_plain(data) or set(kwargs) - {"default_flow_style", "sort_keys", "allow_unicode"}:
             return self.unknown("yaml.dump()", _OF_LIBRARY)
         text = yaml.dump(data, **kwargs)
@@ -792,47 +836,78 @@ def _is_plain(value: Any, *, with_fakes: bool = False) -> bool:
     return isinstance(value, (str, int, float, bool, type(None), Anything))
 
 
-def _is_quick(pattern: str, text: str) -> bool:
-    """Whether a search ends soon, whatever the text is."""
+def is_quick(pattern: str, text: str, flags: int) -> bool:
+    """Whether a search ends soon, whatever the text is: by the number of ways in which the pattern may fit."""
     if len(pattern) > 500 or len(text) > 20_000:
+        return False
+    if flags & re.VERBOSE or "(?" in pattern.replace("(?:", "").replace("(?P<", ""):
         return False
     try:
         tree = re._parser.parse(pattern)  # type: ignore[attr-defined]
     except Exception:
         return True  # it raises
-    repeats = _repeats(tree, False)
-    return repeats is not None and max(len(text), 2) ** min(repeats + 1, 12) <= _MAX_PATTERN_WORK
+    ways = _ways(tree, max(len(text), 2))
+    return ways is not None and (len(text) + 1) * ways <= _MAX_PATTERN_WORK
 
 
-def _repeats(tree: Any, is_inside: bool) -> int | None:
-    """How many repetitions stand beside each other; None where some are within others."""
-    count = 0
+_ONE_WAY = frozenset(("LITERAL", "NOT_LITERAL", "IN", "ANY", "AT", "CATEGORY", "RANGE"))
+
+
+def _ways(tree: Any, length: int) -> int | None:
+    """In how many ways a pattern fits a text of so many characters; None where nobody knows."""
+    ways = 1
     for operation, argument in tree:
         name = str(operation)
-        if name in ("MAX_REPEAT", "MIN_REPEAT", "POSSESSIVE_REPEAT"):
-            _, most, inner = argument
-            if int(most) > 1:
-                if is_inside or _repeats(inner, True) is None:
-                    return None
-                count += 1
-            else:
-                found = _repeats(inner, is_inside)
-                if found is None:
-                    return None
-                count += found
+        if name in ("MAX_REPEAT", "MIN_REPEAT"):
+            least, most, inner = argument
+            within = _ways(inner, length)
+            count = min(int(most), length + 1) - min(int(least), length + 1) + 1
+            if within is None or (within > 1 and int(most) > 1):
+                return None
+            ways *= max(count, 1) * within
         elif name == "SUBPATTERN":
-            found = _repeats(argument[3], is_inside)
-            if found is None:
+            within = _ways(argument[3], length)
+            if within is None:
                 return None
-            count += found
+            ways *= within
         elif name == "BRANCH":
-            if is_inside:
+            all_within = [_ways(each, length) for each in argument[1]]
+            if None in all_within:
                 return None
-            for each in argument[1]:
-                found = _repeats(each, is_inside)
-                if found is None:
-                    return None
-                count += found
-        elif name in ("ASSERT", "ASSERT_NOT", "GROUPREF", "GROUPREF_EXISTS", "ATOMIC_GROUP"):
+            ways *= sum(each or 0 for each in all_within)
+        elif name not in _ONE_WAY:
             return None
-    return count
+        if ways > _MAX_PATTERN_WORK:
+            return None
+    return ways
+
+
+def _is_deep(text: str) -> bool:
+    """Whether a text of YAML may have more within each other than Python can bear."""
+    depth, most = 0, 0
+    for each in re.findall(r"[][{}]", text):
+        depth += 1 if each in "[{" else -1
+        most = max(most, depth)
+    return (
+        most > MAX_DEPTH or re.search(r"(?:[-?:][ \t]+){60}", text) is not None or _DIGITS_AND.search(text) is not None
+    )
+
+
+_DIGITS_AND = re.compile(r"[0-9_:]{400}")
+"""A number that takes long to read."""
+
+
+class _Loader(_LOADER):  # type: ignore[misc]
+    """`yaml.SafeLoader`, with a bound of what merged mappings have."""
+
+    def flatten_mapping(self, node: Any) -> None:
+        left = MAX_ITEMS
+        for key, value in node.value:
+            if key.tag == "tag:yaml.org,2002:merge":
+                for each in value.value if isinstance(value, yaml.SequenceNode) else [value]:
+                    if isinstance(each, yaml.MappingNode):
+                        self.flatten_mapping(each)
+                        left -= len(each.value)
+        if left < len(node.value):
+            raise NotRead("a mapping is too large")
+        super().flatten_mapping(node)

@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 from typing import Any, ClassVar, Protocol
 
 from preflight_analysis.tracing.agents.anything import MARKS, Anything, UnknownText, is_unknown, readable, unknown_text
-from preflight_analysis.tracing.reading.values import NotRead
+from preflight_analysis.tracing.reading.values import NotRead, check_size
 
 MAX_FILES = 50
 _TEMPORARY = "/tmp/preflight-"  # noqa: S108 - a name in answers, no file
@@ -44,19 +44,36 @@ Installed = Callable[[], Sequence[tuple[str, str]]]
 class Files:
     """The disk within `roots`. `unknown` makes a stand-in for what only a run tells."""
 
-    def __init__(self, disk: Disk, roots: tuple[str, ...], unknown: Unknown, installed: Installed, name: str) -> None:
+    def __init__(
+        self,
+        disk: Disk,
+        roots: tuple[str, ...],
+        shares: tuple[str, ...],
+        unknown: Unknown,
+        installed: Installed,
+        name: str,
+    ) -> None:
         self._disk, self.unknown, self._name = disk, unknown, name
         self._installed = installed
         self._pairs: Sequence[tuple[str, str]] | None = None
         self.looked_in_vain = False
-        self._roots = roots
+        self._roots, self._shares = roots, shares
+        self._real: tuple[str, ...] | None = None
         self.written: dict[str, str] = {}
         self.given: dict[str, str] = {}
         """What earlier runs have written."""
 
     def _is_within(self, path: str) -> bool:
+        """Whether a path is of the workspace, where links lead nowhere else either, or of a package that is installed:
+        what that links to is what the user has built."""
         plain = os.path.normpath(path)
-        return plain.startswith("/") and any(f"{plain}/".startswith(f"{root}/") for root in self._roots)
+        if not plain.startswith("/"):
+            return False
+        if not _is_below(plain, self._roots):
+            return ".." not in path.split("/") and _is_below(plain, self._shares)
+        if self._real is None:
+            self._real = tuple(self._disk.real_path(root) for root in (*self._roots, *self._shares))
+        return _is_below(self._disk.real_path(path), self._real)
 
     def _path(self, path: Any) -> str | None:
         """A path that may be looked at; None for any other."""
@@ -160,6 +177,8 @@ class Files:
             raise IsADirectoryError(21, "Is a directory", name)
         if not self._disk.exists(found):
             raise FileNotFoundError(2, "No such file or directory", name)
+        if not self._disk.is_file(found):
+            return self.unknown(f"open({name!r})", "it is no regular file")
         text = self._disk.content(found)
         return self.unknown(f"open({name!r})", "the file cannot be read as text") if text is None else text
 
@@ -181,6 +200,10 @@ class Files:
         name = f"{_TEMPORARY}{self._name}-{len(self.written)}{suffix or ''}"
         self.written[name] = ""
         return Writing(self, name)
+
+
+def _is_below(path: str, folders: Sequence[str]) -> bool:
+    return any(path == folder or path.startswith(folder + "/") for folder in folders)
 
 
 class _File:
@@ -253,6 +276,7 @@ class Writing(_File):
         """Add to it."""
         if self._name is not None and isinstance(text, str):
             self._files.written[self._name] += text
+            check_size(self._files.written[self._name])
         return len(text) if isinstance(text, str) else 0
 
     def flush(self) -> None:
@@ -262,7 +286,7 @@ class Writing(_File):
 class Path(PurePosixPath):
     """`pathlib.Path`."""
 
-    files: ClassVar[Files]
+    _files: ClassVar[Files]
     """Of the reading that goes on."""
 
     def __init__(self, *parts: Any) -> None:
@@ -270,59 +294,59 @@ class Path(PurePosixPath):
 
     def exists(self, **_: Any) -> Any:
         """Whether there is anything."""
-        return self.files.exists(str(self))
+        return self._files.exists(str(self))
 
     def is_file(self) -> Any:
         """Whether it is a file."""
-        return self.files.isfile(str(self))
+        return self._files.isfile(str(self))
 
     def is_dir(self) -> Any:
         """Whether it is a folder."""
-        return self.files.isdir(str(self))
+        return self._files.isdir(str(self))
 
     def read_text(self, *_: Any, **__: Any) -> Any:
         """What it holds."""
-        text = self.files.text(str(self))
+        text = self._files.text(str(self))
         return text if isinstance(text, str) else str(text)
 
     def open(self, mode: str = "r", *_: Any, **__: Any) -> Any:
         """As `open`."""
-        return self.files.open(str(self), mode)
+        return self._files.open(str(self), mode)
 
     def resolve(self, strict: bool = False) -> Any:
         """Without links."""
-        found = self.files.realpath(str(self))
+        found = self._files.realpath(str(self))
         return type(self)(str(found))
 
     def absolute(self) -> Any:
         """With the folder."""
-        return type(self)(str(self.files.abspath(str(self))))
+        return type(self)(str(self._files.abspath(str(self))))
 
     def expanduser(self) -> Any:
         """With the home folder of the user."""
         if not str(self).startswith("~"):
             return self
-        return type(self)(str(self.files.unknown("expanduser()", "the home folder is the user's")))
+        return type(self)(str(self._files.unknown("expanduser()", "the home folder is the user's")))
 
     def glob(self, pattern: str) -> Any:
         """Files by a pattern."""
-        return self.files.unknown(f"glob({pattern!r})", "the order of files in a folder is another one on each disk")
+        return self._files.unknown(f"glob({pattern!r})", "the order of files in a folder is another one on each disk")
 
     rglob = glob
 
     def iterdir(self) -> Any:
         """What is in the folder."""
-        return [self / name for name in self.files.listdir(str(self))]
+        return [self / name for name in self._files.listdir(str(self))]
 
     @classmethod
     def cwd(cls) -> Any:
         """The folder that it is launched in."""
-        return cls(str(cls.files.unknown("Path.cwd()", "the folder that it is launched in is not known")))
+        return cls(str(cls._files.unknown("Path.cwd()", "the folder that it is launched in is not known")))
 
     @classmethod
     def home(cls) -> Any:
         """The home folder."""
-        return cls(str(cls.files.unknown("Path.home()", "the home folder is the user's")))
+        return cls(str(cls._files.unknown("Path.home()", "the home folder is the user's")))
 
 
 Path.__name__ = Path.__qualname__ = "PosixPath"

@@ -14,43 +14,47 @@ import operator
 import time
 import types
 from collections.abc import Callable, Iterator
+from pathlib import PosixPath, PurePosixPath
 from typing import Any, Protocol
 
 from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked
 from preflight_analysis.tracing.agents.fake_launch import rewritten
+from preflight_analysis.tracing.reading.natives import Natives
 from preflight_analysis.tracing.reading.scopes import Scope, names_of
 from preflight_analysis.tracing.reading.values import (
+    MAX_TEXT,
+    METHODS,
     Function,
     Module,
     NotRead,
     Raised,
-    bounded,
-    check_call,
-    check_format,
+    Wrapped,
+    check_key,
     check_operation,
     check_size,
-    check_whole,
     is_fake,
     is_program_class,
     is_unknown_object,
     may_have,
+    whole,
 )
 
-MAX_STEPS = 150_000
+MAX_STEPS = 300_000
 MAX_SECONDS = 2.0
+"""Of the processor: how busy the machine is changes nothing."""
 MAX_CALLS = 40
 """Of functions of the program, one in the other."""
-_CHECK = 2_000
+_CHECK = 500
 _BREAK, _CONTINUE = object(), object()
 _OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     **{"Add": operator.add, "Sub": operator.sub, "Mult": operator.mul, "Div": operator.truediv},
-    **{"FloorDiv": operator.floordiv, "Mod": rewritten._percent, "Pow": operator.pow, "BitOr": operator.or_},
+    **{"FloorDiv": operator.floordiv, "Mod": operator.mod, "Pow": operator.pow, "BitOr": operator.or_},
     **{"BitAnd": operator.and_, "BitXor": operator.xor, "LShift": operator.lshift, "RShift": operator.rshift},
 }
 _IN_PLACE: dict[str, Callable[[Any, Any], Any]] = {
     **{"Add": operator.iadd, "Sub": operator.isub, "Mult": operator.imul, "BitOr": operator.ior},
-    **{"BitAnd": operator.iand, "Mod": rewritten._percent},
+    **{"BitAnd": operator.iand},
 }
 _COMPARISONS: dict[str, Callable[[Any, Any], Any]] = {
     **{"Eq": operator.eq, "NotEq": operator.ne, "Lt": operator.lt, "LtE": operator.le, "Gt": operator.gt},
@@ -114,8 +118,10 @@ class Interpreter:
     def __init__(self, around: Around) -> None:
         self.around = around
         self.frames: list[Frame] = []
+        self.natives = Natives(self)
+        self._names: dict[Any, Any] = {}
         self._steps = 0
-        self._ends = time.monotonic() + MAX_SECONDS
+        self._ends = time.thread_time() + MAX_SECONDS
         self._expressions: dict[type, Callable[[Any, Scope], Any]] = {
             getattr(ast, name[6:]): getattr(self, name) for name in dir(self) if name.startswith("_expr_")
         }
@@ -179,8 +185,18 @@ class Interpreter:
         before = self._steps
         self._steps += count
         is_time = before // _CHECK != self._steps // _CHECK
-        if is_time and (self._steps > MAX_STEPS or time.monotonic() > self._ends):
+        if is_time and (self._steps > MAX_STEPS or time.thread_time() > self._ends):
             raise NotRead("it takes too long")
+
+    def made(self, value: Any) -> Any:
+        """A value that was made; all of them together are bounded."""
+        check_size(value)
+        if isinstance(value, (str, bytes)):
+            if len(value) > 1000:
+                self.step(len(value) // 64)
+        elif isinstance(value, (list, tuple, dict, set, frozenset)) and len(value) > 100:
+            self.step(len(value) // 4)
+        return value
 
     # Statements
 
@@ -246,17 +262,22 @@ class Interpreter:
             self._set_item(thing, key, after)
 
     def _augmented(self, node: ast.AugAssign, before: Any, scope: Scope) -> Any:
-        value = bounded(self.evaluate(node.value, scope))
+        value = self.evaluate(node.value, scope)
         self.frame.node = node
         name = type(node.op).__name__
-        check_operation(name, before, value)
-        if isinstance(before, list) and name == "Add" and not isinstance(value, (str, list, tuple, Anything)):
-            value = self._native(list, value)
-            check_operation(name, before, value)
-        function = _IN_PLACE.get(name) or _OPERATORS.get(name)
+        return self.operated(name, before, value, _IN_PLACE.get(name))
+
+    def operated(self, name: str, left: Any, right: Any, function: Any = None) -> Any:
+        """What an operator gives."""
+        if name == "Add" and function is not None and isinstance(left, list) and not isinstance(right, (list, tuple)):
+            right = right if is_unknown_object(right) else self.natives.each(right)
+        check_operation(name, left, right)
+        if name == "Mod" and isinstance(left, (str, bytes)):
+            function = self.natives.percent
+        function = function or _OPERATORS.get(name)
         if function is None:
             raise NotRead("an operator")
-        return check_size(marked(self._native(function, before, value)))
+        return self.made(marked(self._native(function, left, right)))
 
     def _stmt_Delete(self, node: ast.Delete, scope: Scope) -> None:
         for target in node.targets:
@@ -433,9 +454,9 @@ class Interpreter:
         if not isinstance(module, Module):
             return self.attribute(module, name)
         if name in module.contents:
-            return module.contents[name]
+            return self.given(module.contents[name])
         try:
-            return self.around.member(module, name)
+            return self.given(self.around.member(module, name))
         except Raised as raised:
             if not isinstance(raised.error, AttributeError):
                 raise
@@ -475,6 +496,8 @@ class Interpreter:
         odd = [n for n in values if n.startswith("__") and n.endswith("__") and n not in _SPECIAL]
         if odd:
             raise NotRead(f"a class with {odd[0]}")
+        if values["__module__"] != "python_launch_file" or "preflight_interpreted" in values:
+            raise NotRead("a class of another module")
         values["preflight_interpreted"] = True
         kind = self._native(types.new_class, name, bases, {}, lambda body: body.update(values))
         for each in values.values():
@@ -494,7 +517,7 @@ class Interpreter:
 
     def _fits(self, pattern: Any, subject: Any, scope: Scope) -> bool:
         if isinstance(pattern, ast.MatchValue):
-            return self._holds(self._native(operator.eq, marked(subject), self.evaluate(pattern.value, scope)))
+            return self.holds(self._native(operator.eq, marked(subject), self.evaluate(pattern.value, scope)))
         if isinstance(pattern, ast.MatchSingleton):
             return subject is pattern.value
         if isinstance(pattern, ast.MatchOr):
@@ -548,6 +571,9 @@ class Interpreter:
                 self._native(operator.setitem, thing, key, value)
             raise NotRead("an item is set")
         check_size(thing)
+        check_key(key)
+        if isinstance(key, slice) and isinstance(thing, list):
+            value = self.natives.each(value)
         self._native(operator.setitem, thing, key, value)
 
     def set_attribute(self, thing: Any, name: str, value: Any) -> None:
@@ -555,7 +581,9 @@ class Interpreter:
         if is_unknown_object(thing):
             return
         is_known = is_program_class(type(thing)) or is_program_class(thing)
-        if isinstance(thing, Module) and thing.file is not None:
+        if isinstance(thing, Function) and not name.startswith("__"):
+            thing.members[name] = value
+        elif isinstance(thing, Module) and thing.file is not None:
             thing.contents[name] = value
         elif is_known and not name.startswith(("__", "preflight")):
             self._native(setattr, thing, name, value)
@@ -576,9 +604,10 @@ class Interpreter:
         """Whether an expression holds."""
         value = self.evaluate(node, scope)
         self.frame.node = node
-        return self._holds(value)
+        return self.holds(value)
 
-    def _holds(self, value: Any) -> bool:
+    def holds(self, value: Any) -> bool:
+        """Whether a value counts as true."""
         if type(value) is str:
             value = marked(value)
         if isinstance(value, (bool, str, int, float, type(None), *_KEPT)) or self.is_ours(value):
@@ -615,7 +644,9 @@ class Interpreter:
         return self._items(node.elts, scope)
 
     def _expr_Set(self, node: ast.Set, scope: Scope) -> Any:
-        return self._native(set, self._items(node.elts, scope))
+        items = self._items(node.elts, scope)
+        whole(items)
+        return self._native(set, items)
 
     def _items(self, nodes: list[ast.expr], scope: Scope) -> list[Any]:
         found: list[Any] = []
@@ -636,30 +667,38 @@ class Interpreter:
                     found[str(given)] = given[str(given)]
                 else:
                     self._native(found.update, given)
+                    self.made(found)
             else:
                 name = self.evaluate(key, scope)
+                check_key(name)
                 self._native(operator.setitem, found, name, self.evaluate(value, scope))
         return check_size(found)
 
     def _expr_JoinedStr(self, node: ast.JoinedStr, scope: Scope) -> Any:
-        text = "".join(str(self._piece(each, scope)) for each in node.values)
-        return marked(check_size(text))
+        pieces, size = [], 0
+        for each in node.values:
+            pieces.append(str(self._piece(each, scope)))
+            size += len(pieces[-1])
+            if size > MAX_TEXT:
+                raise NotRead("a text is too long")
+        return self.made(marked("".join(pieces)))
 
     def _piece(self, node: Any, scope: Scope) -> Any:
         if isinstance(node, ast.Constant):
             return node.value
         value = self._native(rewritten._formatted, self.evaluate(node.value, scope))
         spec = "" if node.format_spec is None else str(self.evaluate(node.format_spec, scope))
-        check_whole(value)
         self._check_shown(value)
-        if node.conversion == ord("r"):
-            value = self._native(repr, value)
-        elif node.conversion == ord("a"):
-            value = self._native(ascii, value)
-        elif node.conversion == ord("s"):
-            value = self._native(str, value)
-        check_format("{:" + spec + "}")
-        return self._native(format, value, spec)
+        if node.conversion != -1:
+            self.step(whole(value) // 20)
+            value = self._native({"r": repr, "a": ascii, "s": str}[chr(node.conversion)], value)
+        return self.shown(self._native(self.natives.formatted, value, spec))
+
+    def shown(self, text: Any) -> Any:
+        """A text that was made of a value; one with the address of an object is another one in each launch."""
+        if isinstance(text, str) and " at 0x" in text:
+            return str(self.around.unknown("the address of an object", "it is another one in each launch"))
+        return text
 
     def _check_shown(self, value: Any) -> None:
         """A text of something that Python makes has an address in it, or the like."""
@@ -676,7 +715,7 @@ class Interpreter:
             value = marked(self.evaluate(each, scope))
             if each is not node.values[-1]:
                 self.frame.node = each
-                if self._holds(value) == is_or:
+                if self.holds(value) == is_or:
                     return value
         return value
 
@@ -689,12 +728,7 @@ class Interpreter:
     def _expr_BinOp(self, node: ast.BinOp, scope: Scope) -> Any:
         left, right = self.evaluate(node.left, scope), self.evaluate(node.right, scope)
         self.frame.node = node
-        name = type(node.op).__name__
-        check_operation(name, left, right)
-        function = _OPERATORS.get(name)
-        if function is None:
-            raise NotRead("an operator")
-        return check_size(marked(self._native(function, left, right)))
+        return self.operated(type(node.op).__name__, left, right)
 
     def _expr_Compare(self, node: ast.Compare, scope: Scope) -> Any:
         left = self.evaluate(node.left, scope)
@@ -702,35 +736,37 @@ class Interpreter:
         for kind, each in zip(node.ops, node.comparators, strict=True):
             right = self.evaluate(each, scope)
             self.frame.node = node
-            result = self._compared(type(kind).__name__, left, right)
-            if len(node.ops) > 1 and not self._holds(result):
+            result = self.compared(type(kind).__name__, left, right)
+            if len(node.ops) > 1 and not self.holds(result):
                 return result
             left = right
         return result
 
-    def _compared(self, name: str, left: Any, right: Any) -> Any:
+    def compared(self, name: str, left: Any, right: Any) -> Any:
+        """What a comparison gives."""
         if name not in ("Is", "IsNot"):
             left, right = marked(left), marked(right)
+        if not (isinstance(left, (str, int, type(None))) and isinstance(right, (str, int, type(None)))):
+            self.step(whole(left, right) // 20)
         if name in ("In", "NotIn"):
-            right = bounded(right)
             found = self._native(lambda: left in rewritten._in(right))
             return found if name == "In" else not found
-        if not isinstance(left, (str, int)) or not isinstance(right, (str, int)):
-            check_whole(left, right)
         return self._native(_COMPARISONS[name], left, right)
 
     def _expr_Attribute(self, node: ast.Attribute, scope: Scope) -> Any:
         thing = self.evaluate(node.value, scope)
         self.frame.node = node
-        found = self.attribute(thing, node.attr)
-        if isinstance(found, (types.BuiltinMethodType, types.MethodType)) and isinstance(thing, (str, list, dict, set)):
-            return self.wrapped(found)
-        return found
+        return self.given(self.attribute(thing, node.attr))
+
+    def given(self, found: Any) -> Any:
+        """What the program gets of Python or of launch: functions as those that the interpreter calls."""
+        is_method = isinstance(found, types.MethodType) and isinstance(found.__func__, Function)
+        return self.wrapped(found) if isinstance(found, _OF_PYTHON) and not is_method else found
 
     def wrapped(self, function: Any) -> Function:
         """A function that Python may call: it is called by the interpreter, which looks at what it is given."""
         name = getattr(function, "__name__", "")
-        return Function(lambda args, kwargs: self.call(function, args, kwargs), name, name)
+        return Wrapped(lambda args, kwargs: self.call(function, args, kwargs), name, name)
 
     def attribute(self, thing: Any, name: str) -> Any:
         """What `thing.name` is."""
@@ -739,19 +775,31 @@ class Interpreter:
                 return thing.contents[name]
             return self.around.member(thing, name)
         if is_unknown_object(thing):
+            if name.startswith("_"):
+                return self.around.unknown(name, "it is of what is not known")
             return self._native(getattr, thing, name)
+        if isinstance(thing, Function) and name in thing.members:
+            return thing.members[name]
         if isinstance(thing, super):
             if name.startswith("_") and name != "__init__" and not self._in_program(thing, name):
                 raise NotRead(f"super().{name}")
             return self._native(getattr, thing, name)
         if not may_have(thing, name):
-            if type(thing) in (str, int, float, bool, list, tuple, dict, type(None)) and not hasattr(thing, name):
-                self._native(getattr, thing, name)
-            raise NotRead(f"the attribute {name} of {type(thing).__name__}")
+            return self._not_had(thing, name)
+        if isinstance(thing, PurePosixPath) and not hasattr(thing, name) and hasattr(PosixPath, name):
+            return self.around.unknown(f"Path.{name}", "what is done with files is known only when it is launched")
         found = self._native(getattr, thing, name)
         if isinstance(thing, type) and isinstance(found, _OF_TYPES):
             return self._of_type(thing, name)
         return found
+
+    def _not_had(self, thing: Any, name: str) -> Any:
+        kind = type(thing)
+        if (kind in METHODS or thing is None) and not name.startswith("_"):
+            if hasattr(kind, name):
+                return self.around.unknown(f"{kind.__name__}.{name}", "it is known only when it is launched")
+            raise Raised(AttributeError(f"'{kind.__name__}' object has no attribute '{name}'", name=name))
+        raise NotRead(f"the attribute {name} of {kind.__name__}")
 
     def _in_program(self, thing: Any, name: str) -> bool:
         found = getattr(thing, name, None)
@@ -760,14 +808,14 @@ class Interpreter:
     def _of_type(self, kind: Any, name: str) -> Any:
         """`str.lower` as a function."""
         if name == "fromkeys":
-            return self.wrapped(kind.fromkeys)
+            return kind.fromkeys
 
         def called(args: Any, kwargs: Any) -> Any:
             if not args or not isinstance(args[0], kind):
                 raise NotRead(f"{kind.__name__}.{name}")
             return self.call(self.attribute(args[0], name), args[1:], kwargs)
 
-        return Function(called, name, name)
+        return Wrapped(called, name, name)
 
     def _expr_Subscript(self, node: ast.Subscript, scope: Scope) -> Any:
         thing, key = self.evaluate(node.value, scope), self.evaluate(node.slice, scope)
@@ -776,10 +824,13 @@ class Interpreter:
 
     def item(self, thing: Any, key: Any) -> Any:
         """What `thing[key]` is."""
-        if isinstance(thing, Module) or (isinstance(thing, type) and not is_program_class(thing)):
-            return self._native(operator.getitem, thing, key)
-        if thing is Any:
-            return Any
+        if isinstance(thing, Module):
+            raise NotRead("an item of a module")
+        if isinstance(thing, type) and not is_program_class(thing):
+            return thing  # as an annotation has it
+        if type(thing).__module__ == "typing":
+            return thing
+        check_key(key)
         return marked(self._native(lambda: rewritten._of(thing)[key]))
 
     def _expr_Slice(self, node: ast.Slice, scope: Scope) -> Any:
@@ -798,14 +849,18 @@ class Interpreter:
         return self._comprehended(node.generators, lambda inner: self.evaluate(node.elt, inner), scope)
 
     def _expr_SetComp(self, node: ast.SetComp, scope: Scope) -> Any:
-        return self._native(set, self._expr_ListComp(node, scope))  # type: ignore[arg-type]
+        items = self._expr_ListComp(node, scope)  # type: ignore[arg-type]
+        whole(items)
+        return self._native(set, items)
 
     def _expr_GeneratorExp(self, node: ast.GeneratorExp, scope: Scope) -> Any:
         return iter(self._expr_ListComp(node, scope))  # type: ignore[arg-type]
 
     def _expr_DictComp(self, node: ast.DictComp, scope: Scope) -> Any:
         def pair(inner: Scope) -> Any:
-            return self.evaluate(node.key, inner), self.evaluate(node.value, inner)
+            key = self.evaluate(node.key, inner)
+            check_key(key)
+            return key, self.evaluate(node.value, inner)
 
         return self._native(dict, self._comprehended(node.generators, pair, scope))
 
@@ -877,8 +932,19 @@ class Interpreter:
             args, kwargs = self._texts_of(node.func.attr, args, kwargs)
         self.frame.node = node
         if starred and any(map(is_unknown_object, (*args, *kwargs.values()))):
-            return marked(self.call(rewritten._with(self.checked(function), 1), args, kwargs, is_checked=True))
+            args, kwargs = self._filled(function, args, kwargs)
         return marked(self.call(function, args, kwargs))
+
+    def _filled(self, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
+        """The arguments of a call that is given some which nobody knows: what it lacks is what nobody knows of these."""
+        names = [name for name in kwargs if is_unknown(name)]
+        unknown = [kwargs[name] for name in names] or [each for each in args if isinstance(each, Anything)]
+        if not unknown or function is dict:
+            return args, kwargs
+        if isinstance(function, (Function, types.MethodType)):
+            return args, {**kwargs, str(unknown[0]): unknown[0]}
+        given = {name: value for name, value in kwargs.items() if name not in names}
+        return args, {**rewritten._lacking(function, args, given, unknown[0]), **given}
 
     def _method(self, of: Any, node: ast.Attribute) -> Any:
         if node.attr == "get" and type(of) is dict:
@@ -903,7 +969,7 @@ class Interpreter:
             return function
         return self.around.instead(function)
 
-    def call(self, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any], *, is_checked: bool = False) -> Any:
+    def call(self, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
         """What a function gives, or raises."""
         self.step()
         if isinstance(function, types.MethodType) and isinstance(function.__func__, Function):
@@ -913,22 +979,26 @@ class Interpreter:
             return function.call(args, kwargs) if is_program else self._native(function.call, args, kwargs)
         if isinstance(function, Anything) and len(args) == 1 and isinstance(args[0], (Function, type)) and not kwargs:
             return args[0]
-        named = function
-        if not is_checked:
-            function = self.checked(function)
-            if isinstance(function, type) and is_fake(function):
-                check_whole(args, kwargs)
-            function = rewritten._called(function) if not isinstance(function, type) or function in _TYPES else function
-        if isinstance(named, (type, types.BuiltinFunctionType)) and named in _SHOWING:
-            check_whole(*args)
-        check_call(named, args, kwargs)
-        if function is not next:
-            args = tuple(map(bounded, args))
-            kwargs = {name: bounded(value) for name, value in kwargs.items()}
+        if isinstance(function, staticmethod):
+            return self.call(function.__func__, args, kwargs)
+        name, of = getattr(function, "__name__", ""), getattr(function, "__self__", None)
+        instead = self.natives.instead.get(function) if isinstance(function, _HASHED) else None
+        instead = instead or (self.natives.method(of, name) if isinstance(function, types.BuiltinMethodType) else None)
+        if instead is None:
+            instead = self.checked(function)
+            if not isinstance(instead, type) or instead in _TYPES:
+                instead = rewritten._called(instead)
+            args = tuple(map(self.natives.callable, args)) if name in _CALLING else args
+            kwargs = (
+                {key: self.natives.callable(value) for key, value in kwargs.items()} if name in _CALLING else kwargs
+            )
+            if name not in _LOOKING:
+                self.natives.check(function, args, kwargs)
         for each in args:
-            if isinstance(each, (set, frozenset)) and getattr(function, "__name__", "") not in _UNORDERED:
+            if isinstance(each, (set, frozenset)) and name not in _UNORDERED:
                 self.in_order(each)
-        return check_size(self._native(function, *args, **kwargs))
+        made = self.made(self._native(instead, *args, **kwargs))
+        return self.shown(made) if isinstance(made, str) and not isinstance(of, str) else made
 
     def _native(self, function: Any, /, *args: Any, **kwargs: Any) -> Any:
         """What Python gives; what it raises is the program's."""
@@ -936,11 +1006,18 @@ class Interpreter:
             return function(*args, **kwargs)
         except (RecursionError, MemoryError):
             raise NotRead("it is too deep") from None
-        except (NotRead, Raised, Cancelled):
+        except Cancelled:
             raise
-        except BaseException as error:
+        except Exception as error:
             frames = vars(error).pop("preflight_frames", None) if hasattr(error, "__dict__") else None
             raise Raised(error, frames) from None
+
+    def names_of(self, node: Any) -> Any:
+        """Those of a function; it may be defined several times."""
+        found = self._names.get(node)
+        if found is None:
+            found = self._names[node] = names_of(node)
+        return found
 
     def _function(self, node: Any, name: str, body: list[ast.stmt], scope: Scope) -> Function:
         arguments = node.args
@@ -969,7 +1046,7 @@ class _Code:
         self.file = interpreter.frame.file
         self.qualified = scope.qualified(name)
         self.owner: Any = None
-        self.names = names_of(node)
+        self.names = interpreter.names_of(node)
 
     def call(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
         """What it gives for some arguments."""
@@ -1054,10 +1131,17 @@ def _matches(error: BaseException, kind: Any) -> bool:
     return isinstance(kind, type) and isinstance(error, kind)
 
 
+_OF_PYTHON = (
+    *(types.BuiltinMethodType, types.MethodType, types.FunctionType, types.MethodWrapperType),
+    *(types.MethodDescriptorType, types.ClassMethodDescriptorType, types.WrapperDescriptorType),
+)
+_HASHED = (type, types.BuiltinFunctionType)
+_CALLING = frozenset(("sorted", "min", "max", "sort", "defaultdict"))
+"""What calls a function that it is given."""
+_LOOKING = frozenset(("isinstance", "_isinstance", "callable", "issubclass", "len", "iter", "next", "type", "_type"))
+"""What does not look into what it is given."""
 _OF_TYPES = (types.MethodDescriptorType, types.ClassMethodDescriptorType, types.BuiltinMethodType)
 _ABSTRACT = ("ABCMeta", "abc.ABCMeta")
-_SHOWING: tuple[Any, ...] = (str, repr, ascii, format, sorted, max, min, hash)
-"""What goes through all that is within a value."""
 _TYPES = (int, float, dict, type, str, bool)
 _UNORDERED = frozenset(
     (
@@ -1068,8 +1152,5 @@ _UNORDERED = frozenset(
 )
 _BASES: tuple[Any, ...] = (
     object,
-    dict,
-    list,
-    str,
     *(v for v in vars(builtins).values() if isinstance(v, type) and issubclass(v, Exception)),
 )

@@ -13,31 +13,27 @@ import json
 import logging
 import os
 import re
+import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 from preflight_analysis.tracing.agents import anything
 from preflight_analysis.tracing.agents.anything import AnyBase, Anything, is_unknown, marked, readable, unknown_text
 from preflight_analysis.tracing.agents.fake_launch import (
-    actions,
-    ament,
     base,
     library,
-    nav2_common,
     reads,
     rewrites,
-    substitutions,
 )
 from preflight_analysis.tracing.agents.fake_launch.base import RECORDER, LaunchDescription
 from preflight_analysis.tracing.agents.fake_launch.main import _module_with, _of_ours
 from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
 from preflight_analysis.tracing.reading import interpreter
-from preflight_analysis.tracing.reading.around import Around, Context
+from preflight_analysis.tracing.reading.around import Around, Context, Services, parsed
 from preflight_analysis.tracing.reading.files import Disk, Files, Path
-from preflight_analysis.tracing.reading.values import NotRead, Raised, check_whole
+from preflight_analysis.tracing.reading.values import FAKES, NotRead, Raised, whole
 
 _FUNCTION = "generate_launch_description"
 MAX_TEXT = 300_000
@@ -55,31 +51,25 @@ _OURS = re.compile(r"\bpreflight_analysis\.tracing\.(?:\w+\.)+")
 _log = logging.getLogger(__name__)
 
 
-@lru_cache(maxsize=16)
-def _parsed(text: str) -> ast.Module | None:
-    try:
-        return ast.parse(text)
-    except (SyntaxError, ValueError, MemoryError, RecursionError):
-        return None
-
-
 class Surroundings(NamedTuple):
     """Where a launch file is read."""
 
     disk: Disk
     roots: tuple[str, ...]
-    """The folders of which files may be read."""
+    """The folders of the workspace, of which files may be read."""
     folders: tuple[str, ...]
     """Those of Python modules."""
     variables: Mapping[str, str]
     """Those of the environment that a run has besides the ones that the request gives."""
     installed: Callable[[], Sequence[tuple[str, str]]]
     """Paths in share folders, and the files and folders of the source that they will lead to."""
+    shares: tuple[str, ...] = ()
+    """Folders of installed packages, of which files may be read too."""
 
 
 def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
     """The answer to a request (`evaluation.ros2.python_runs.parse_request`), None where it is not read at all."""
-    tree = _parsed(job["text"]) if len(job["text"]) <= MAX_TEXT else None
+    tree = parsed(job["text"]) if len(job["text"]) <= MAX_TEXT else None
     if tree is None:
         return None
     with _LOCK, _Fakes(job) as fakes:
@@ -106,13 +96,6 @@ def _name_of(job: Mapping[str, Any]) -> str:
     """Names what is asked, for the files that it writes."""
     asked = json.dumps([job["file"], job["text"], job["calls"]], sort_keys=True)
     return hashlib.sha256(asked.encode(errors="surrogatepass")).hexdigest()[:12]
-
-
-class _Services:
-    """What the fakes have in the place of modules of Python, in a reading."""
-
-    def __init__(self, **names: Any) -> None:
-        vars(self).update(names)
 
 
 class _Fakes:
@@ -172,7 +155,7 @@ class _Fakes:
         known = {**job.get("given", {}), **within.variables, **job["env"]}
         self.around = around = Around(
             job,
-            lambda unknown: Files(within.disk, within.roots, unknown, within.installed, _name_of(job)),
+            lambda unknown: Files(within.disk, within.roots, within.shares, unknown, within.installed, _name_of(job)),
             within.folders,
             known,
         )
@@ -244,7 +227,7 @@ class _Fakes:
 
     def _performed(self, around: Around, thing: Any, context: Any) -> str:
         if isinstance(thing, base.Condition):
-            return str(around.interpreter._native(thing.evaluate, context)).lower()
+            return str(around.interpreter.call(thing.evaluate, (context,), {})).lower()
         text = str(around.interpreter._native(around.performed, thing, context))
         rewrites.tell_source(thing, context, text)
         RECORDER.unmatched += [[*each, thing.preflight_place] for each in rewrites.unmatched(thing, context)]
@@ -265,7 +248,7 @@ class _Fakes:
 
 def _described(entities: Any) -> list[Any]:
     if isinstance(entities, (list, tuple)):
-        check_whole(entities)
+        whole(entities)
     return Serializer().description(entities)
 
 
@@ -296,34 +279,71 @@ def _error_record(raised: Raised) -> dict[str, Any]:
 
 @contextmanager
 def _in_fakes(around: Around) -> Iterator[None]:
-    """The fakes ask the reading where they ask Python in a run."""
-    yaml = _Services(safe_load=around.load_yaml, dump=around.dump_yaml)
-    imports = _Services(import_module=lambda name: yaml)
-    path = _Services(isfile=around.files.isfile, abspath=os.path.abspath)
-    files = {"open": around.files.open, "importlib": imports}
-    temporary = _Services(NamedTemporaryFile=around.files.temporary)
-    provided = {"provided_for": lambda frame, errors: around.is_provided_for(errors)}
-    changes: list[tuple[Any, dict[str, Any]]] = [
-        (nav2_common, {**files, "tempfile": temporary}),
-        (rewrites, {**files, "os": _Services(path=path)}),
-        (substitutions, {**files, **provided}),
-        (ament, {**provided, "pathlib": _Services(Path=Path)}),
-        (reads, {"is_own": lambda frame: True}),
-        (actions, {"importlib": imports}),
-        (library, {"LaunchContext": Context}),
-    ]
-    before = [(module, {name: vars(module).get(name, _ABSENT) for name in names}) for module, names in changes]
-    for module, names in changes:
-        vars(module).update(names)
+    """The fakes ask the reading where they ask Python in a run. Of the system they have nothing that is not named."""
+    files = around.files
+    paths = {name: getattr(os.path, name) for name in ("join", "dirname", "basename", "normpath")}
+    system = Services(
+        path=Services(**paths, isfile=files.isfile, isdir=files.isdir, exists=files.exists, abspath=files.abspath),
+        environ=around.environment,
+        listdir=files.listdir,
+        **{name: getattr(os, name) for name in ("fspath", "fsdecode", "PathLike", "sep", "pathsep")},
+    )
+    instead = {name: Services() for name in _OF_SYSTEM}
+    instead |= dict.fromkeys(_BUILT_IN, _nothing_of_system)
+    instead |= {
+        "os": system,
+        "open": files.open,
+        "importlib": Services(import_module=around.imported),
+        "tempfile": Services(NamedTemporaryFile=files.temporary),
+        "pathlib": Services(Path=Path),
+        "eval": around.evaluated,
+        "provided_for": lambda frame, errors: around.is_provided_for(errors),
+    }
+    before = []
+    for names in _SERVED:
+        before.append({name: names.get(name, _ABSENT) for name in instead if name in names or name in _BUILT_IN})
+        names.update({name: instead[name] for name in before[-1]})
+    others = [(vars(reads), "is_own", lambda frame: True), (vars(library), "LaunchContext", Context)]
+    kept = [names[name] for names, name, _ in others]
+    for names, name, value in others:
+        names[name] = value
     try:
         yield
     finally:
-        for module, names in before:
-            for name, value in names.items():
+        for (names, name, _), value in zip(others, kept, strict=True):
+            names[name] = value
+        for names, was in zip(_SERVED, before, strict=True):
+            for name, value in was.items():
                 if value is _ABSENT:
-                    del vars(module)[name]
+                    del names[name]
                 else:
-                    vars(module)[name] = value
+                    names[name] = value
+        del Path._files, Context._around
 
 
+def _nothing_of_system(*_: Any, **__: Any) -> Any:
+    raise NotRead("what the system has")
+
+
+_OF_SYSTEM = (
+    "os",
+    "importlib",
+    "subprocess",
+    "shutil",
+    "tempfile",
+    "glob",
+    "pathlib",
+    "xml",
+    "linecache",
+    "atexit",
+    "stat",
+    "io",
+)
+_BUILT_IN = ("open", "eval", "exec", "compile", "__import__", "input", "breakpoint")
+_SERVED = [
+    vars(module)
+    for name, module in sorted(sys.modules.items())
+    if name.startswith(FAKES + ".") and name.rpartition(".")[2] not in ("main", "modules", "rewritten", "unknown_files")
+]
+"""The names in the modules of the fakes. The others have to do with how a run is done."""
 _ABSENT = object()

@@ -6,8 +6,6 @@ Whatever is not named here is not done: it raises `NotRead`, or the value is one
 from __future__ import annotations
 
 import collections
-import functools
-import itertools
 import re
 import types
 from pathlib import PurePosixPath
@@ -19,9 +17,8 @@ from preflight_analysis.tracing.agents.anything import AnyBase, AnyModule, Anyth
 MAX_TEXT = 1_000_000
 MAX_ITEMS = 50_000
 MAX_BITS = 4_000
-MAX_NUMBER = 100_000
-MAX_WORK = 20_000_000
-"""Steps of a regular expression, as an estimate."""
+MAX_DIGITS = 5_000
+MAX_DEPTH = 60
 AGENTS = anything.__name__.rpartition(".")[0]
 FAKES = f"{AGENTS}.fake_launch"
 FILES = f"{__name__.rpartition('.')[0]}.files"
@@ -45,14 +42,16 @@ class Function:
     def __init__(self, call: Any, name: str, qualified: str, doc: str | None = None) -> None:
         self.call, self.__name__, self.__qualname__, self.__doc__ = call, name, qualified, doc
         self.__module__ = "python_launch_file"
+        self.members: dict[str, Any] = {}
+        """What the program says that it has."""
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        """What it gives, or raises, as Python does."""
         try:
             return self.call(args, kwargs)
         except Raised as raised:
             if not isinstance(raised.error, Exception):
-                raise  # such as SystemExit: nobody between the two handles it
+                raise  # nothing of Python's may take `sys.exit()` for its own
+            # Between the two there may be code that handles it.
             vars(raised.error)["preflight_frames"] = raised.frames
             raise raised.error from None
 
@@ -63,8 +62,16 @@ class Function:
         return f"<function {self.__qualname__}>"
 
 
-Function.__name__ = Function.__qualname__ = "function"
-Function.__module__ = "builtins"
+class Wrapped(Function):
+    """One of Python or of launch, as the program has it."""
+
+    def __get__(self, thing: Any, kind: Any = None) -> Any:
+        return self
+
+
+for _kind in (Function, Wrapped):
+    _kind.__name__ = _kind.__qualname__ = "function"
+    _kind.__module__ = "builtins"
 
 
 class Module:
@@ -81,22 +88,56 @@ Module.__name__ = Module.__qualname__ = "module"
 Module.__module__ = "builtins"
 
 
-SAFE_TYPES: frozenset[type] = frozenset(
+def _names(*texts: str) -> frozenset[str]:
+    return frozenset(name for text in texts for name in text.split())
+
+
+_OF_BYTES = (
+    "center count decode endswith expandtabs find index isalnum isalpha isdigit islower isspace istitle isupper join"
+    " ljust lower lstrip partition replace rfind rindex rjust rpartition rsplit rstrip split splitlines startswith"
+    " strip swapcase title upper zfill removeprefix removesuffix"
+)
+_OF_MAPS = "clear copy get items keys pop popitem setdefault update fromkeys"
+_OF_SETS = (
+    "copy difference intersection isdisjoint issubset issuperset symmetric_difference union add clear discard pop remove"
+    " update difference_update intersection_update symmetric_difference_update"
+)
+_OF_LISTS = "append clear copy count extend index insert pop remove reverse sort"
+METHODS: dict[type, frozenset[str]] = {
+    str: _names(_OF_BYTES, "capitalize casefold encode format format_map isascii isdecimal isidentifier isnumeric")
+    | _names("isprintable") - _names("decode"),
+    bytes: _names(_OF_BYTES),
+    **{list: _names(_OF_LISTS), tuple: _names("count index"), range: _names("count index start stop step")},
+    **{dict: _names(_OF_MAPS), collections.OrderedDict: _names(_OF_MAPS, "move_to_end")},
+    **{collections.defaultdict: _names(_OF_MAPS, "default_factory"), set: _names(_OF_SETS)},
+    collections.Counter: _names(_OF_MAPS, "most_common"),
+    collections.deque: _names(_OF_LISTS, "appendleft extendleft popleft rotate"),
+    frozenset: _names(_OF_SETS),
+    **dict.fromkeys((int, bool), _names("bit_length real imag numerator denominator")),
+    float: _names("is_integer real imag hex"),
+    re.Match: _names("group groups groupdict start end span string pos endpos lastgroup lastindex"),
+    property: _names("setter getter deleter"),
+    slice: _names("start stop step"),
+    anything.UnknownText: frozenset(),
+}
+"""What the program may have of values of Python."""
+METHODS[anything.UnknownText] = METHODS[str]
+_ITERATED = frozenset(
     (
-        *(str, bytes, int, float, bool, complex, list, tuple, dict, set, frozenset, range, slice, type(None)),
-        *(collections.OrderedDict, collections.defaultdict, collections.Counter, collections.deque),
-        *(type({}.keys()), type({}.values()), type({}.items()), re.Match, property, staticmethod, classmethod),
-        *(map, filter, zip, enumerate, reversed, type(iter([])), type(iter(())), functools.partial, super),
-        *(itertools.chain, itertools.product, itertools.islice, itertools.zip_longest, type(Ellipsis)),
-        *(anything.UnknownText, type(iter({})), type(iter("")), type(iter(range(0)))),
+        *(type(iter([])), type(iter(())), type(iter({})), type(iter("")), type(iter(range(0))), type(iter(set()))),
+        *(type(reversed([])), type(reversed({})), type({}.keys()), type({}.values()), type({}.items())),
+        *(type(iter({}.values())), type(iter({}.items())), type(reversed(range(0)))),
     )
+)
+SAFE_TYPES: frozenset[type] = frozenset((*METHODS, *_ITERATED, type(None), type(Ellipsis), complex, super, object))
+_OF_ERRORS = _names("args errno strerror filename name path msg code value lineno offset problem problem_mark")
+_OPERANDS: tuple[type, ...] = (
+    *(str, bytes, int, float, complex, bool, type(None), list, tuple, dict, set, frozenset, collections.Counter),
+    *(collections.OrderedDict, PurePosixPath, type, Anything, AnyBase, types.GenericAlias),
 )
 _UNSAFE = frozenset(("maketrans", "mro", "with_traceback", "add_note"))
 _PUBLIC_OF_OBJECT = frozenset(("__name__", "__doc__", "__qualname__", "__class__", "__init__", "__module__"))
-_FIELD = re.compile(r"\{([^{}:!]*)")
-_LARGE = re.compile(r"\d{4,}")
-_NESTED = re.compile(r"\{[^{}]*\{")
-_STARRED = re.compile(r"%[^a-zA-Z%]*\*")
+_FILES = ("Reading", "Writing", "UnknownFile")
 
 
 def is_unknown_object(value: Any) -> bool:
@@ -111,7 +152,7 @@ def is_program_class(kind: Any) -> bool:
 
 def is_fake(kind: type) -> bool:
     """Whether it is one of the classes that take the place of those of launch."""
-    return kind.__module__.startswith(FAKES)
+    return kind.__module__.startswith(FAKES) and not is_program_class(kind)
 
 
 def may_have(thing: Any, name: str) -> bool:
@@ -120,21 +161,47 @@ def may_have(thing: Any, name: str) -> bool:
     if name.startswith("preflight") or name in _UNSAFE:
         return False
     if isinstance(thing, type):
-        if is_program_class(thing) or thing in (object,):
-            return not _is_special(name) or name in _PUBLIC_OF_OBJECT or _is_in_program(thing, name)
-        return not name.startswith("_") or name in ("__name__", "__init__", "__qualname__")
+        if is_program_class(thing) or thing is object:
+            return _is_in_program(thing, name) or (
+                _of_class(thing, name) if _is_special(name) else _is_open(thing, name)
+            )
+        known = METHODS.get(thing)
+        if known is not None:
+            return name in known or name in ("__name__", "__init__", "__qualname__")
+        return name in ("__name__", "__init__", "__qualname__") or (is_fake(thing) and not name.startswith("_"))
     if is_program_class(kind):
-        return not _is_special(name) or name in ("__class__", "__dict__") or _is_in_program(kind, name)
-    if isinstance(thing, (Function, types.MethodType, types.FunctionType)):
+        if _is_special(name):
+            return name == "__class__" or _is_in_program(kind, name) or (name == "__dict__" and _is_plain_class(kind))
+        return _is_in_program(kind, name) or name in getattr(thing, "__dict__", ()) or _is_open(kind, name)
+    if isinstance(thing, (Function, types.MethodType)):
         return name in ("__name__", "__qualname__", "__doc__")
     if name.startswith("_"):
         return name == "__class__"
-    return (
-        kind in SAFE_TYPES
-        or is_fake(kind)
-        or kind.__module__ == FILES
-        or isinstance(thing, (BaseException, PurePosixPath))
-    )
+    if isinstance(thing, BaseException):
+        return name in _OF_ERRORS
+    known = METHODS.get(kind)
+    if known is not None:
+        return name in known
+    if isinstance(thing, PurePosixPath):
+        return True
+    return is_fake(kind) or (kind.__module__ == FILES and kind.__name__ in _FILES)
+
+
+def _of_class(kind: type, name: str) -> bool:
+    return name in _PUBLIC_OF_OBJECT
+
+
+def _is_open(kind: type, name: str) -> bool:
+    """Whether a class of the program's may have what it has from what it is made from."""
+    if name.startswith("_"):
+        return not any(hasattr(each, name) for each in kind.__mro__ if not is_program_class(each))
+    if issubclass(kind, BaseException):
+        return name in _OF_ERRORS or not hasattr(BaseException, name)
+    return True
+
+
+def _is_plain_class(kind: type) -> bool:
+    return all(each is object or is_program_class(each) for each in kind.__mro__)
 
 
 def _is_special(name: str) -> bool:
@@ -150,121 +217,53 @@ def check_size(value: Any) -> Any:
     if isinstance(value, (str, bytes)):
         if len(value) > MAX_TEXT:
             raise NotRead("a text is too long")
-    elif isinstance(value, (list, tuple, dict, set, frozenset)) and len(value) > MAX_ITEMS:
+    elif isinstance(value, (list, tuple, dict, set, frozenset, collections.deque)) and len(value) > MAX_ITEMS:
         raise NotRead("a collection is too large")
     elif isinstance(value, int) and value.bit_length() > MAX_BITS:
         raise NotRead("a number is too large")
     return value
 
 
-def check_whole(*values: Any) -> None:
-    """Raise `NotRead` where what is within values, each time that it is there, is more than anyone writes, or is
-    within itself."""
+def whole(*values: Any) -> int:
+    """How much is within values, each time that it is there; raises `NotRead` where that is more than anyone writes, or
+    where a value is within itself."""
     left = MAX_ITEMS
     depth = 0
-    level = list(values)
+    level: list[Any] = list(values)
     while level:
         depth += 1
         left -= len(level)
-        if left < 0 or depth > 60:
+        if left < 0 or depth > MAX_DEPTH:
             raise NotRead("a value is too large")
         below: list[Any] = []
         for each in level:
-            if isinstance(each, dict):
-                below += each.keys()
-                below += each.values()
+            if isinstance(each, (str, bytes)):
+                left -= len(each) // 100
+            elif isinstance(each, dict):
+                below += dict.keys(each)
+                below += dict.values(each)
             elif isinstance(each, (list, tuple, set, frozenset, collections.deque)):
                 below += each
-            elif isinstance(each, str):
-                left -= len(each) // 1000
         level = below
+    return MAX_ITEMS - left
 
 
-def check_call(function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
-    """Raise `NotRead` where what a call would make is too large, or asks for what may not be asked for."""
-    of, name = getattr(function, "__self__", None), getattr(function, "__name__", "")
-    for each in args:
-        if isinstance(each, range) and len(each) > MAX_ITEMS:
-            raise NotRead("a range is too long")
-        if name in _BY_NUMBER and isinstance(each, int) and abs(each) > _MOST_BY_NUMBER[name]:
-            raise NotRead("a number is too large")
-    if name == "pow" and len(args) == 2:
-        check_operation("Pow", *args)
-    elif name == "iter" and len(args) > 1:
-        raise NotRead("iter() with a function")
-    elif name == "indent" and sum(len(each) for each in args if isinstance(each, str)) > 10_000:
-        raise NotRead("a text is too long")
-    elif name == "format" and len(args) == 2 and isinstance(args[1], str):
-        check_format("{:" + args[1] + "}")
-    if isinstance(of, (str, bytes)):
-        _check_text_method(of, name, args, kwargs)
-    elif isinstance(of, (list, dict, set, collections.deque)):
-        given = sum(len(each) for each in args if hasattr(each, "__len__") and not isinstance(each, Anything))
-        if len(of) + given > MAX_ITEMS and name not in ("get", "append", "pop", "index"):
-            raise NotRead("a collection is too large")
-
-
-_MOST_BY_NUMBER = {"bytes": MAX_ITEMS, "to_bytes": 1_000, "round": MAX_NUMBER, "pow": MAX_NUMBER}
-_BY_NUMBER = frozenset(_MOST_BY_NUMBER)
-
-
-def bounded(value: Any) -> Any:
-    """What Python goes through by itself: the items of an iterator, of which there may be any number."""
-    if not hasattr(type(value), "__next__") or isinstance(value, Anything):
-        return value
-    items = list(itertools.islice(value, MAX_ITEMS + 1))
-    check_size(items)
-    return iter(items)
-
-
-def _check_text_method(of: str | bytes, name: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
-    if name in ("center", "ljust", "rjust", "zfill", "expandtabs"):
-        if any(isinstance(each, int) and each > 10_000 for each in args):
-            raise NotRead("a text is too long")
-    elif name == "translate":
-        raise NotRead("translate()")
-    elif name == "replace" and len(args) >= 2 and all(isinstance(each, (str, bytes)) for each in args[:2]):
-        if len(of) + (of.count(args[0]) if args[0] else len(of) + 1) * len(args[1]) > MAX_TEXT:
-            raise NotRead("a text is too long")
-    elif name in ("format", "format_map") and isinstance(of, str):
-        check_format(of)
-        if name == "format_map":
-            args = tuple(args[0].values()) if args and isinstance(args[0], dict) else args
-        if _NESTED.search(of) and any(isinstance(each, int) and each > 1_000 for each in (*args, *kwargs.values())):
-            raise NotRead("a text is too long")
-        check_whole(*args, *kwargs.values())
-    elif name == "join":
-        for each in args:
-            items = each if isinstance(each, (list, tuple)) else ()
-            if sum(len(of) + len(x) for x in items if isinstance(x, (str, bytes))) > MAX_TEXT:
-                raise NotRead("a text is too long")
-
-
-def check_format(text: str) -> None:
-    """Raise `NotRead` where a format asks for what is hidden, or for much."""
-    if _LARGE.search(text) and "{" in text and any(_LARGE.search(each) for each in re.findall(r"\{[^{}]*\}?", text)):
-        raise NotRead("a text is too long")
-    for field in _FIELD.findall(text):
-        if "._" in field or ".preflight" in field or ("." in field and not field.replace(".", "").isidentifier()):
-            raise NotRead("a format asks for an attribute")
-
-
-def check_percent(text: Any) -> None:
-    """The same for `%`."""
-    if isinstance(text, (str, bytes)):
-        shown = text if isinstance(text, str) else text.decode(errors="replace")
-        if _STARRED.search(shown) or re.search(r"%[^a-zA-Z%]*\d{4,}", shown):
-            raise NotRead("a text is too long")
+def check_key(key: Any) -> None:
+    """Raise `NotRead` where a key takes long to compare, or is too deep for Python."""
+    if isinstance(key, (tuple, frozenset)):
+        whole(key)
 
 
 def check_operation(name: str, left: Any, right: Any) -> None:
-    """Raise `NotRead` where an operation makes something too large."""
+    """Raise `NotRead` where an operation makes something too large, or is one of values that are not known here."""
+    for each in (left, right):
+        if not isinstance(each, _OPERANDS) and not is_fake(type(each)) and not is_program_class(type(each)):
+            raise NotRead(f"an operation with a {type(each).__name__}")
     if name == "Mult":
         for one, other in ((left, right), (right, left)):
-            most = MAX_TEXT if isinstance(one, (str, bytes)) else MAX_ITEMS
-            is_repeated = isinstance(one, (str, bytes, list, tuple)) and isinstance(other, int)
-            if is_repeated and len(one) * max(other, 0) > most:
-                raise NotRead("a value is too large")
+            if isinstance(one, (str, bytes, list, tuple)) and isinstance(other, int):
+                if len(one) * max(other, 0) > (MAX_TEXT if isinstance(one, (str, bytes)) else MAX_ITEMS):
+                    raise NotRead("a value is too large")
         if isinstance(left, int) and isinstance(right, int):
             _check_bits(left.bit_length() + right.bit_length())
     elif name == "Add":
@@ -274,10 +273,6 @@ def check_operation(name: str, left: Any, right: Any) -> None:
                 raise NotRead("a value is too large")
     elif name in ("Pow", "LShift") and isinstance(left, int) and isinstance(right, int):
         _check_bits(max(left.bit_length(), 1) * abs(right) if name == "Pow" else left.bit_length() + abs(right))
-    elif name == "Mod":
-        check_percent(left)
-        if isinstance(left, str):
-            check_whole(right)
 
 
 def _check_bits(count: int) -> None:
