@@ -61,7 +61,7 @@ REACHING = (
     *(
         "'{0.__class__.__mro__}'.format('')",
         "'{0.__globals__}'.format(Node.__init__)",
-        "str.format('{0.__class__}', '')",
+        "str.format('{0.__class__.__mro__}', '')",
     ),
     *("list(map('{0.__class__.__mro__}'.format, ['']))", "getattr((), '__class__').__base__", "type('A', (), {})"),
     *("(lambda: 0).__globals__", "(lambda: 0).call", "Node.__init__.__globals__", "LaunchDescription.__mro__"),

@@ -539,7 +539,7 @@ class Around:
             if self._file(below) is not None:
                 return self.module(below, None, 0)
         elif top not in sys.stdlib_module_names:
-            return Anything(below)  # that the module is there is unknown already
+            return self.unknown(below, _OF_LIBRARY) if top == "yaml" else Anything(below)  # that the module is there is unknown already
         else:
             return self.unknown(below, _OF_LIBRARY)
         raise Raised(AttributeError(f"module '{module.name}' has no attribute '{name}'"))

@@ -41,7 +41,7 @@ from preflight_analysis.tracing.reading.values import (
 )
 
 MAX_STEPS = 300_000
-MAX_SECONDS = 2.0
+MAX_SECONDS = 1.5
 """Of the processor: how busy the machine is changes nothing."""
 MAX_CALLS = 40
 """Of functions of the program, one in the other."""
@@ -696,7 +696,7 @@ class Interpreter:
 
     def shown(self, text: Any) -> Any:
         """A text that was made of a value; one with the address of an object is another one in each launch."""
-        if isinstance(text, str) and " at 0x" in text:
+        if isinstance(text, str) and str.__contains__(text, " at 0x"):
             return str(self.around.unknown("the address of an object", "it is another one in each launch"))
         return text
 
@@ -827,9 +827,9 @@ class Interpreter:
         if isinstance(thing, Module):
             raise NotRead("an item of a module")
         if isinstance(thing, type) and not is_program_class(thing):
-            return thing  # as an annotation has it
+            return self._native(operator.getitem, thing, key) if _is_plain_type(key) else thing
         if type(thing).__module__ == "typing":
-            return thing
+            return self._native(operator.getitem, thing, key) if _is_plain_type(key) else thing
         check_key(key)
         return marked(self._native(lambda: rewritten._of(thing)[key]))
 
@@ -953,6 +953,7 @@ class Interpreter:
 
     def _texts_of(self, name: str, args: Any, kwargs: Any) -> Any:
         if name in rewritten._OF_TEXTS:
+            self.step(whole(*args, *kwargs.values()) // 20)
             change = rewritten._formatted if name == "format" else rewritten._as_text
             args = tuple(map(change, args))
             if name == "format":
@@ -1122,6 +1123,13 @@ class _Code:
         several = "" if not self.defaults and len(by_place) == 1 else "s"
         were = "was" if count == 1 else "were"
         return f"{self.qualified}() takes {takes} positional argument{several} but {count} {were} given"
+
+
+def _is_plain_type(key: Any) -> bool:
+    """Whether it is a type, or several, that Python may keep in another one: not one that has some within itself."""
+    if isinstance(key, tuple):
+        return len(key) < 10 and all(map(_is_plain_type, key))
+    return key is None or key is Any or (type(key) is type and not is_program_class(key))
 
 
 def _matches(error: BaseException, kind: Any) -> bool:

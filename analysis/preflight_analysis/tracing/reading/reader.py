@@ -165,7 +165,7 @@ class _Fakes:
                 result = self._run(around, tree)
                 failed = False
             except Raised as raised:
-                result, failed = {"error": _error_record(raised)}, True
+                result, failed = {"error": _error_record(around, raised)}, True
         if failed and (
             RECORDER.guessed or RECORDER.answers._given or around.asked_unset or around.files.looked_in_vain
         ):
@@ -256,9 +256,12 @@ def _changed(around: Around, before: Mapping[str, str]) -> dict[str, str]:
     return {k: v for k, v in dict.items(around.environment) if before.get(k) != v}
 
 
-def _error_record(raised: Raised) -> dict[str, Any]:
+def _error_record(around: Around, raised: Raised) -> dict[str, Any]:
     error = raised.error
-    message = str(error)
+    try:
+        message = str(around.interpreter.call(str, (error,), {}))
+    except Raised:
+        message = "<exception str() failed>"
     record: dict[str, Any] = {
         "type": type(error).__name__,
         "message": message[:2000],

@@ -239,11 +239,12 @@ def whole(*values: Any) -> int:
         for each in level:
             if isinstance(each, (str, bytes)):
                 left -= len(each) // 100
-            elif isinstance(each, dict):
-                below += dict.keys(each)
-                below += dict.values(each)
-            elif isinstance(each, (list, tuple, set, frozenset, collections.deque)):
+            elif isinstance(each, (dict, list, tuple, set, frozenset, collections.deque)):
+                if len(below) + len(each) > left:
+                    raise NotRead("a value is too large")
                 below += each
+                if isinstance(each, dict):
+                    below += dict.values(each)
         level = below
     return MAX_ITEMS - left
 
