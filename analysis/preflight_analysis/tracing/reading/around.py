@@ -21,13 +21,14 @@ import sys
 import textwrap
 import types
 import typing
+import xml.etree.ElementTree
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
 import yaml
 
-from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked, readable, unknown_text
+from preflight_analysis.tracing.agents.anything import Anything, UnknownText, is_unknown, marked, readable, unknown_text
 from preflight_analysis.tracing.agents.fake_launch import (
     base,
     modules,
@@ -64,6 +65,7 @@ _OURS = __name__.rpartition(".")[0]
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MAX_YAML = 300_000
 _MAX_EXPRESSION = 5_000
+_MAX_MANIFEST = 100_000
 _MAX_MODULE = 300_000
 _MAX_PATTERN_WORK = 20_000_000
 _PATHS = "os.path"
@@ -136,10 +138,10 @@ _NOT_OF_FAKES = frozenset(
     (
         *("load_python_launch_file_as_module", "get_launch_description_from_python_launch_file"),
         *("get_launch_description_from_any_launch_file", "get_launch_description_from_frontend_launch_file"),
-        *("_manifest", "get_search_paths", "instantiate_extension"),
+        *("get_search_paths", "instantiate_extension"),
     )
 )
-_UNREAD_FAKES = ("moveit_configs_utils", "launch_param_builder", "catkin_pkg", "launch_pal")
+_UNREAD_FAKES = ("launch_pal",)
 
 
 class Context(base.LaunchContext):
@@ -292,6 +294,7 @@ class Around:
         self.interpreter = Interpreter(self)
         self.path: list[Any] = list(folders)
         self._modules: dict[str, Any] = {}
+        self._more: dict[str, Any] = {}
         self._builtins = self._make_builtins()
 
     # What is not known
@@ -404,7 +407,7 @@ class Around:
         ):
             return function
         is_bound = isinstance(function, types.MethodType)
-        if is_bound and (is_fake(type(of)) or isinstance(of, Path) or is_program_class(type(of))):
+        if is_bound and (is_fake(type(of)) or isinstance(of, Path) or of is Path or is_program_class(type(of))):
             return function
         if is_program_class(type(function)) or isinstance(function, (modules._Anything, Quiet)):
             return function
@@ -451,11 +454,22 @@ class Around:
             return self.unknown("the expression", _OF_LIBRARY)
         return self.interpreter.expression(tree.body, values)
 
+    def parsed_xml(self, path: Any) -> Any:
+        """`xml.etree.ElementTree.parse`, of a manifest."""
+        text = self.files.text(path)
+        if not isinstance(text, str) or len(text) > _MAX_MANIFEST or "<!" in text.replace("<!--", ""):
+            raise NotRead("a manifest that is not plain")
+        return xml.etree.ElementTree.ElementTree(xml.etree.ElementTree.fromstring(text))  # noqa: S314 - no entities
+
     def imported(self, name: Any) -> Any:
         """`importlib.import_module` for the fakes."""
         if not isinstance(name, str) or is_unknown(name):
             raise NotRead("a module without a name")
-        return Services(safe_load=self.load_yaml, dump=self.dump_yaml) if name == "yaml" else self.module(name, None, 0)
+        if name == "yaml":
+            return Services(safe_load=self.load_yaml, dump=self.dump_yaml)
+        if name == "xacro":
+            return Services(process_file=lambda *_, **__: self.unknown("xacro", "the command was not run"))
+        return self.module(name, None, 0)
 
     # Modules
 
@@ -505,6 +519,8 @@ class Around:
                 return Module(name, dict(contents))
         if name == "yaml":
             return Module(name, self._yaml())
+        if name == "xacro":
+            return Module(name, {})  # where ROS has none, a run has ours
         self.unknown(f"the module {name}", _NOT_FOUND)
         return Module(name, {})
 
@@ -538,8 +554,11 @@ class Around:
         elif module.file is not None:
             if self._file(below) is not None:
                 return self.module(below, None, 0)
+        elif top in modules._FALLBACK_TOP and not name.startswith("__"):
+            modules._miss(module.name)
+            return self._more.setdefault(below, Anything(below))
         elif top not in sys.stdlib_module_names:
-            return self.unknown(below, _OF_LIBRARY) if top == "yaml" else Anything(below)  # that the module is there is unknown already
+            return self.unknown(below, _OF_LIBRARY) if top in ("yaml", "xacro") else Anything(below)  # that the module is there is unknown already
         else:
             return self.unknown(below, _OF_LIBRARY)
         raise Raised(AttributeError(f"module '{module.name}' has no attribute '{name}'"))
@@ -550,11 +569,11 @@ class Around:
         for folder in self._folders(top):
             path = posixpath.join(folder, *rest.split(".")) if rest else folder
             init = posixpath.join(path, "__init__.py")
-            if self.files.isfile(init) is True:
+            if self.files.has(init):
                 return init, True
-            if rest and self.files.isfile(path + ".py") is True:
+            if rest and self.files.has(path + ".py"):
                 return path + ".py", False
-            if self.files.isfile(folder + ".py") is True and not rest:
+            if not rest and self.files.has(folder + ".py"):
                 return folder + ".py", False
         return None
 
@@ -575,7 +594,7 @@ class Around:
                     yield posixpath.join(path, folder.replace("${PROJECT_NAME}", package))
 
     def _has_cmake(self, path: str) -> bool:
-        return self.files.isfile(posixpath.join(path, "CMakeLists.txt")) is True
+        return self.files.has(posixpath.join(path, "CMakeLists.txt"))
 
     def _read(self, name: str, file: str, is_package: bool) -> Module:
         text = self.files.text(file)
@@ -755,7 +774,7 @@ class Around:
         return {**_NATIVE["typing"], "TYPE_CHECKING": False, "cast": lambda kind, value: value}
 
     def _library_tempfile(self) -> dict[str, Any]:
-        return {}
+        return {"NamedTemporaryFile": self.files.temporary}
 
     def _library_abc(self) -> dict[str, Any]:
         return {"ABC": object, "abstractmethod": _identity, "ABCMeta": type}
@@ -802,7 +821,7 @@ class Around:
         whole(data)
         if not _is_plain(data) or set(kwargs) - {"default_flow_style", "sort_keys", "allow_unicode"}:
             return self.unknown("yaml.dump()", _OF_LIBRARY)
-        text = yaml.dump(data, **kwargs)
+        text = yaml.dump(data, Dumper=_Dumper, **kwargs)
         if stream is None:
             return text
         stream.write(text)
@@ -895,6 +914,14 @@ def _is_deep(text: str) -> bool:
 
 _DIGITS_AND = re.compile(r"[0-9_:]{400}")
 """A number that takes long to read."""
+
+
+class _Dumper(yaml.Dumper):
+    """As a run writes texts that are not known."""
+
+
+_Dumper.add_representer(UnknownText, lambda dumper, text: dumper.represent_str(str.__str__(text)))
+_Dumper.add_representer(Anything, lambda dumper, value: dumper.represent_str(str.__str__(str(value))))
 
 
 class _Loader(_LOADER):  # type: ignore[misc]

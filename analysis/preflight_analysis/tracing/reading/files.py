@@ -103,7 +103,7 @@ class Files:
         text = os.fspath(path) if isinstance(path, (str, os.PathLike)) else path
         if not isinstance(text, str):
             raise TypeError(f"stat: path should be string, bytes, os.PathLike or integer, not {type(text).__name__}")
-        if os.path.normpath(text) in self._made:
+        if os.path.normpath(text) in self.made:
             return name != "isdir"
         if is_unknown(text):
             return Anything(f"{name}({readable(text)})")
@@ -115,7 +115,8 @@ class Files:
         return answer
 
     @property
-    def _made(self) -> dict[str, str]:
+    def made(self) -> dict[str, str]:
+        """The files that were written, by earlier runs too."""
         return {**self.given, **self.written}
 
     def exists(self, path: Any) -> Any:
@@ -126,22 +127,31 @@ class Files:
         """`os.path.isfile`."""
         return self._ask("isfile", path, self._disk.is_file)
 
+    def has(self, path: str) -> bool:
+        """The same for what Python itself looks for."""
+        found = self._path(path)
+        return found is not None and self._disk.is_file(found)
+
     def isdir(self, path: Any) -> Any:
         """`os.path.isdir`."""
         return self._ask("isdir", path, self._disk.is_folder)
 
     def listdir(self, path: Any = ".") -> Any:
-        """`os.listdir`, in the order of the names."""
+        """`os.listdir`."""
+        found = self.names(path)
+        if isinstance(found, list) and len(found) > 1:
+            self.unknown("listdir()", "the order of files in a folder is another one on each disk")
+        return found
 
-        def names(folder: str) -> Any:
+    def names(self, path: Any) -> Any:
+        """What is in a folder, for whom the order does not matter."""
+
+        def of(folder: str) -> Any:
             if not self._disk.is_folder(folder):
                 raise FileNotFoundError(2, "No such file or directory", folder)
-            found = list(self._disk.names(folder))
-            if len(found) > 1:
-                self.unknown("listdir()", "the order of files in a folder is another one on each disk")
-            return found
+            return list(self._disk.names(folder))
 
-        return self._ask("listdir", path, names)
+        return self._ask("listdir", path, of)
 
     def realpath(self, path: Any, **_: Any) -> Any:
         """`os.path.realpath`."""
@@ -167,7 +177,7 @@ class Files:
             raise NotRead("a file by a number")
         if is_unknown(name):
             return UnknownText(name)  # as in a run it holds the name of what is not known
-        made = self._made.get(os.path.normpath(name))
+        made = self.made.get(os.path.normpath(name))
         if made is not None:
             return made
         found = self._path(name)
@@ -186,6 +196,9 @@ class Files:
         """`open`."""
         if isinstance(file, Anything):
             file = str(file)
+        if isinstance(mode, str) and "w" in mode and str(file) in self.written:
+            self.written[str(file)] = ""
+            return Writing(self, str(file))
         if not isinstance(mode, str) or set(mode) - set("rtU"):
             self.unknown("open()", "the file is written")
             return Writing(self, None)

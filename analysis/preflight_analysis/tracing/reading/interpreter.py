@@ -18,7 +18,7 @@ from pathlib import PosixPath, PurePosixPath
 from typing import Any, Protocol
 
 from preflight_analysis.incremental.database import Cancelled
-from preflight_analysis.tracing.agents.anything import Anything, is_unknown, marked
+from preflight_analysis.tracing.agents.anything import Anything, UnknownText, is_unknown, marked
 from preflight_analysis.tracing.agents.fake_launch import rewritten
 from preflight_analysis.tracing.reading.natives import Natives
 from preflight_analysis.tracing.reading.scopes import Scope, names_of
@@ -254,8 +254,9 @@ class Interpreter:
             self._assign(node.target, self._augmented(node, before, scope), scope)
         elif isinstance(node.target, ast.Attribute):
             thing = self.evaluate(node.target.value, scope)
-            after = self._augmented(node, self.attribute(thing, node.target.attr), scope)
-            self.set_attribute(thing, node.target.attr, after)
+            name = self._mangled(node.target.attr, scope)
+            after = self._augmented(node, self.attribute(thing, name), scope)
+            self.set_attribute(thing, name, after)
         elif isinstance(node.target, ast.Subscript):
             thing, key = self.evaluate(node.target.value, scope), self.evaluate(node.target.slice, scope)
             after = self._augmented(node, self._native(lambda: rewritten._of(thing)[key]), scope)
@@ -482,7 +483,8 @@ class Interpreter:
         if node.keywords:
             bases += [self.evaluate(each.value, scope) for each in node.keywords if each.arg != "metaclass"]
             if any(each.arg != "metaclass" or ast.unparse(each.value) not in _ABSTRACT for each in node.keywords):
-                raise NotRead("a metaclass")
+                scope.set(node.name, self.around.unknown(node.name, "classes with a metaclass are not read"))
+                return
         values: dict[str, Any] = {"__module__": "python_launch_file", "__qualname__": scope.qualified(node.name)}
         inner = Scope(values, scope, scope.globals, None, is_class=True, name=values["__qualname__"])
         self.block(node.body, inner)
@@ -538,7 +540,7 @@ class Interpreter:
         elif isinstance(target, (ast.Tuple, ast.List)):
             self._unpack(target.elts, value, scope)
         elif isinstance(target, ast.Attribute):
-            self.set_attribute(self.evaluate(target.value, scope), target.attr, value)
+            self.set_attribute(self.evaluate(target.value, scope), self._mangled(target.attr, scope), value)
         elif isinstance(target, ast.Subscript):
             self._set_item(self.evaluate(target.value, scope), self.evaluate(target.slice, scope), value)
         else:
@@ -578,7 +580,7 @@ class Interpreter:
 
     def set_attribute(self, thing: Any, name: str, value: Any) -> None:
         """What `thing.name = value` does."""
-        if is_unknown_object(thing):
+        if is_unknown_object(thing) and not is_program_class(type(thing)):
             return
         is_known = is_program_class(type(thing)) or is_program_class(thing)
         if isinstance(thing, Function) and not name.startswith("__"):
@@ -756,7 +758,16 @@ class Interpreter:
     def _expr_Attribute(self, node: ast.Attribute, scope: Scope) -> Any:
         thing = self.evaluate(node.value, scope)
         self.frame.node = node
-        return self.given(self.attribute(thing, node.attr))
+        return self.given(self.attribute(thing, self._mangled(node.attr, scope)))
+
+    @staticmethod
+    def _mangled(name: str, scope: Scope | None) -> str:
+        """The name of an attribute as a class has it that calls it `__name`."""
+        if not name.startswith("__") or name.endswith("__"):
+            return name
+        while scope is not None and not scope.is_class:
+            scope = scope.outer
+        return name if scope is None else f"_{scope.name.rpartition('.')[2].lstrip('_')}{name}"
 
     def given(self, found: Any) -> Any:
         """What the program gets of Python or of launch: functions as those that the interpreter calls."""
@@ -774,8 +785,8 @@ class Interpreter:
             if name in thing.contents:
                 return thing.contents[name]
             return self.around.member(thing, name)
-        if is_unknown_object(thing):
-            if name.startswith("_"):
+        if is_unknown_object(thing) and not is_program_class(type(thing)):
+            if name.startswith("__"):
                 return self.around.unknown(name, "it is of what is not known")
             return self._native(getattr, thing, name)
         if isinstance(thing, Function) and name in thing.members:
@@ -788,6 +799,8 @@ class Interpreter:
             return self._not_had(thing, name)
         if isinstance(thing, PurePosixPath) and not hasattr(thing, name) and hasattr(PosixPath, name):
             return self.around.unknown(f"Path.{name}", "what is done with files is known only when it is launched")
+        if isinstance(thing, UnknownText):
+            return Wrapped(lambda args, kwargs: self.natives.of_unknown(thing, name, args, kwargs), name, name)
         found = self._native(getattr, thing, name)
         if isinstance(thing, type) and isinstance(found, _OF_TYPES):
             return self._of_type(thing, name)
@@ -799,7 +812,9 @@ class Interpreter:
             if hasattr(kind, name):
                 return self.around.unknown(f"{kind.__name__}.{name}", "it is known only when it is launched")
             raise Raised(AttributeError(f"'{kind.__name__}' object has no attribute '{name}'", name=name))
-        raise NotRead(f"the attribute {name} of {kind.__name__}")
+        if name.startswith(("_", "preflight")):
+            raise NotRead(f"the attribute {name} of {kind.__name__}")
+        return self.around.unknown(f"{kind.__name__}.{name}", "it is known only when it is launched")
 
     def _in_program(self, thing: Any, name: str) -> bool:
         found = getattr(thing, name, None)
@@ -907,7 +922,7 @@ class Interpreter:
             of = self.evaluate(node.func.value, scope)
             if type(of) is str:
                 of = marked(of)
-            function = self._method(of, node.func)
+            function = self._method(of, self._mangled(node.func.attr, scope))
         else:
             function = self.evaluate(node.func, scope)
         args = tuple(self._items(node.args, scope)) if node.args else ()
@@ -946,10 +961,10 @@ class Interpreter:
         given = {name: value for name, value in kwargs.items() if name not in names}
         return args, {**rewritten._lacking(function, args, given, unknown[0]), **given}
 
-    def _method(self, of: Any, node: ast.Attribute) -> Any:
-        if node.attr == "get" and type(of) is dict:
+    def _method(self, of: Any, name: str) -> Any:
+        if name == "get" and type(of) is dict:
             return rewritten._Of(of).get
-        return self.attribute(of, node.attr)
+        return self.attribute(of, name)
 
     def _texts_of(self, name: str, args: Any, kwargs: Any) -> Any:
         if name in rewritten._OF_TEXTS:

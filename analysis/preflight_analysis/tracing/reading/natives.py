@@ -16,7 +16,7 @@ import types
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from preflight_analysis.tracing.agents.anything import Anything, marked
+from preflight_analysis.tracing.agents.anything import Anything, marked, readable
 from preflight_analysis.tracing.agents.fake_launch import rewritten
 from preflight_analysis.tracing.reading.values import (
     MAX_DIGITS,
@@ -80,6 +80,17 @@ class Natives:
             if name in ("format", "format_map") and isinstance(of, str):
                 return self._format_method(of, name)
         return None
+
+    def of_unknown(self, text: Any, name: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
+        """What a method of a text gives of which some is not known."""
+        instead = self.method(text, name)
+        if instead is None:
+            _check_text(str.__str__(text), name, args, kwargs)
+            self._interpreter.step(whole(*args, *kwargs.values()) // 20)
+            instead = getattr(text, name)
+            if name in rewritten._NUMBERS_OF_TEXT:
+                return Anything(f"{readable(text)}.{name}()")
+        return self._interpreter.made(instead(*args, **kwargs))
 
     def check(self, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
         """Raise `NotRead` where a call would do too much; counts what it does."""

@@ -173,7 +173,7 @@ class _Fakes:
         result["guessed"] = [[readable(name), place] for (name, _), place in RECORDER.guessed.items()]
         result["missed"] = [[what, name, place] for (what, name), place in RECORDER.missed.items()]
         result["assumed"] = [[name, known.get(name, ""), place] for name, place in RECORDER.assumed_in.items()]
-        result["unmatched"], result["files"] = RECORDER.unmatched, around.files.written
+        result["unmatched"], result["files"] = RECORDER.unmatched, around.files.made
         result["unread"] = [[name, reason, place] for (name, reason, _), place in around.unread.items()]
         return result
 
@@ -288,7 +288,7 @@ def _in_fakes(around: Around) -> Iterator[None]:
     system = Services(
         path=Services(**paths, isfile=files.isfile, isdir=files.isdir, exists=files.exists, abspath=files.abspath),
         environ=around.environment,
-        listdir=files.listdir,
+        listdir=files.names,
         **{name: getattr(os, name) for name in ("fspath", "fsdecode", "PathLike", "sep", "pathsep")},
     )
     instead = {name: Services() for name in _OF_SYSTEM}
@@ -299,6 +299,7 @@ def _in_fakes(around: Around) -> Iterator[None]:
         "importlib": Services(import_module=around.imported),
         "tempfile": Services(NamedTemporaryFile=files.temporary),
         "pathlib": Services(Path=Path),
+        "xml": Services(etree=Services(ElementTree=Services(parse=around.parsed_xml))),
         "eval": around.evaluated,
         "provided_for": lambda frame, errors: around.is_provided_for(errors),
     }

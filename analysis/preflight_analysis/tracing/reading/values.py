@@ -135,6 +135,8 @@ _OPERANDS: tuple[type, ...] = (
     *(str, bytes, int, float, complex, bool, type(None), list, tuple, dict, set, frozenset, collections.Counter),
     *(collections.OrderedDict, PurePosixPath, type, Anything, AnyBase, types.GenericAlias),
 )
+_PRIVATE = frozenset(("_predicate_func",))
+"""What launch files ask of launch although it is not for them."""
 _UNSAFE = frozenset(("maketrans", "mro", "with_traceback", "add_note"))
 _PUBLIC_OF_OBJECT = frozenset(("__name__", "__doc__", "__qualname__", "__class__", "__init__", "__module__"))
 _FILES = ("Reading", "Writing", "UnknownFile")
@@ -168,7 +170,8 @@ def may_have(thing: Any, name: str) -> bool:
         known = METHODS.get(thing)
         if known is not None:
             return name in known or name in ("__name__", "__init__", "__qualname__")
-        return name in ("__name__", "__init__", "__qualname__") or (is_fake(thing) and not name.startswith("_"))
+        is_open = is_fake(thing) or issubclass(thing, PurePosixPath)
+        return name in ("__name__", "__init__", "__qualname__") or (is_open and not name.startswith("_"))
     if is_program_class(kind):
         if _is_special(name):
             return name == "__class__" or _is_in_program(kind, name) or (name == "__dict__" and _is_plain_class(kind))
@@ -176,7 +179,7 @@ def may_have(thing: Any, name: str) -> bool:
     if isinstance(thing, (Function, types.MethodType)):
         return name in ("__name__", "__qualname__", "__doc__")
     if name.startswith("_"):
-        return name == "__class__"
+        return name == "__class__" or (name in _PRIVATE and is_fake(kind))
     if isinstance(thing, BaseException):
         return name in _OF_ERRORS
     known = METHODS.get(kind)
@@ -242,7 +245,7 @@ def whole(*values: Any) -> int:
             elif isinstance(each, (dict, list, tuple, set, frozenset, collections.deque)):
                 if len(below) + len(each) > left:
                     raise NotRead("a value is too large")
-                below += each
+                below += dict.keys(each) if isinstance(each, dict) else each
                 if isinstance(each, dict):
                     below += dict.values(each)
         level = below
