@@ -164,8 +164,8 @@ def generate_launch_description():
 """,
 ]
 READ_WORDS = (
-    *(".__class__", ".format(", ".perform(", "class A(Node):", "try:", "except:", "for x in ", "while ", "yield ", " ** "),
-    *("'%s' % ", "map(", "sorted(", "range(", "10 ** 9", "open(", "yaml.safe_load(", "re.match(", "iter(", "x[:] = ", "@"),
+    *(".__class__", ".format(", ".perform(", "class A(Node):", "try:", "except:", "for x in ", "while ", "yield "),
+    *("'%s' % ", "map(", "sorted(", "range(", "10 ** 9", "open(", "yaml.safe_load(", "re.match(", "iter(", "x[:] = "),
 )
 CPP = ("#include ", "nh.advertise<", "create_publisher<", "template<", "#define ", 'R"x(', "operator", "for(", "::")
 CMAKE = (

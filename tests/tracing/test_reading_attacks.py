@@ -76,18 +76,63 @@ REACHES = (
     *("Node.__subclasses__()", "launch.__dict__", "launch.__loader__", "os.sys", "os.path.os", "json.decoder"),
     *("print.__self__", "len.__self__", "[].append.__self__", "''.join.__self__", "math.pi.__class__.__base__"),
     *("getattr((), '__cl' + 'ass__').__base__", "getattr(Node, '__init__').__globals__", "vars(launch)", "dir()"),
-    *("'{0.__class__.__mro__}'.format(1)", "'{0[:].__class__.__mro__}'.format({':': 1})", "'{0.__init__.__globals__}'.format(C)"),
-    *("'{x.__class__.__base__}'.format(x=1)", "'{x.__class__.__base__}'.format_map({'x': 1})", "'{:{0.__dict__}}'.format(C)"),
-    *("str.format('{0.__class__.__mro__}', 1)", "list(map('{0.__class__.__mro__}'.format, [1]))", "f'{().__class__.__base__}'"),
+    *(
+        "'{0.__class__.__mro__}'.format(1)",
+        "'{0[:].__class__.__mro__}'.format({':': 1})",
+        "'{0.__init__.__globals__}'.format(C)",
+    ),
+    *(
+        "'{x.__class__.__base__}'.format(x=1)",
+        "'{x.__class__.__base__}'.format_map({'x': 1})",
+        "'{:{0.__dict__}}'.format(C)",
+    ),
+    *(
+        "str.format('{0.__class__.__mro__}', 1)",
+        "list(map('{0.__class__.__mro__}'.format, [1]))",
+        "f'{().__class__.__base__}'",
+    ),
     *("'%(__class__)s' % C", "string.Formatter().format('{0.__class__}', 1)", "string.Template('$x').substitute(x=1)"),
-    *("C.around", "C._around", "C.preflight_executed", "pathlib.Path.files", "pathlib.Path._files", "pathlib.Path('/')._files"),
+    *(
+        "C.around",
+        "C._around",
+        "C.preflight_executed",
+        "pathlib.Path.files",
+        "pathlib.Path._files",
+        "pathlib.Path('/')._files",
+    ),
     *("C.__dict__", "C.__class__.__init__.__globals__", "os.environ._around", "os.environ.__class__", "sys.modules"),
-    *("os.sep.__class__.__base__", "functools.partial(len).func.__self__", "copy.copy(launch)", "os.system.__globals__"),
-    *("os.uname().__dict__", "os.uname().__class__.__init__", "os.uname().__reduce__()", "os.uname().__init__.__globals__"),
-    *("re.compile('x').__class__", "re.match('x', 'x').re", "typing.Any.__class__.__base__", "typing.get_type_hints(Node)"),
+    *(
+        "os.sep.__class__.__base__",
+        "functools.partial(len).func.__self__",
+        "copy.copy(launch)",
+        "os.system.__globals__",
+    ),
+    *(
+        "os.uname().__dict__",
+        "os.uname().__class__.__init__",
+        "os.uname().__reduce__()",
+        "os.uname().__init__.__globals__",
+    ),
+    *(
+        "re.compile('x').__class__",
+        "re.match('x', 'x').re",
+        "typing.Any.__class__.__base__",
+        "typing.get_type_hints(Node)",
+    ),
     *("super.__self__", "property.fget", "property(lambda s: 1).fget.__globals__", "type(type(1))", "type(1).mro()"),
-    *("object.__subclasses__()", "int.__subclasses__()", "Exception().__traceback__", "type.__getattribute__(int, '__base__')"),
-    *("(lambda: 0).call", "(lambda: 0).members", "Node.describe.__wrapped__", "launch.actions.os", "launch.substitutions.eval"),
+    *(
+        "object.__subclasses__()",
+        "int.__subclasses__()",
+        "Exception().__traceback__",
+        "type.__getattribute__(int, '__base__')",
+    ),
+    *(
+        "(lambda: 0).call",
+        "(lambda: 0).members",
+        "Node.describe.__wrapped__",
+        "launch.actions.os",
+        "launch.substitutions.eval",
+    ),
     *("yaml.loader", "yaml.constructor", "dataclasses.sys", "dataclasses.field(default=1).default", "json.codecs"),
 )
 ERRORS = (
@@ -100,8 +145,18 @@ ERRORS = (
     "class E(Exception):\n    def __init__(self): self.preflight_frames = 5\nraise E",
     "class E(Exception):\n    def __str__(self): return self\nraise E",
     "class E(Exception):\n    def __str__(self): raise E\nraise E",
-    *("raise BaseException", "raise GeneratorExit", "raise KeyboardInterrupt", "raise StopIteration", "raise MemoryError"),
-    *("raise RecursionError", "sorted([1, 2], key=lambda x: sys.exit())", "def f(x): raise KeyboardInterrupt\n[*map(f, [1])]"),
+    *(
+        "raise BaseException",
+        "raise GeneratorExit",
+        "raise KeyboardInterrupt",
+        "raise StopIteration",
+        "raise MemoryError",
+    ),
+    *(
+        "raise RecursionError",
+        "sorted([1, 2], key=lambda x: sys.exit())",
+        "def f(x): raise KeyboardInterrupt\n[*map(f, [1])]",
+    ),
     "class A:\n    def __str__(self): raise SystemExit\nx = LogInfo(msg=str(A()))",
     "class A:\n    def __bool__(self): raise KeyboardInterrupt\nif A(): pass",
     "class A:\n    def __eq__(self, o): raise KeyboardInterrupt\nx = A() in [1, 2]",
@@ -119,13 +174,44 @@ ERRORS = (
 OUTSIDE = (
     *("open('/etc/passwd').read()", "open(SECRET).read()", "open(HERE + '/../secret').read()", "open(LINK).read()"),
     *("open(HERE + '/folder/secret').read()", "open(HERE + '/folder/../secret').read()", "open(b'/etc/passwd').read()"),
-    *("pathlib.Path(LINK).read_text()", "pathlib.Path(HERE, 'folder', 'secret').read_text()", "yaml.safe_load(open(LINK))"),
-    *("open(0).read()", "open(pathlib.Path(SECRET)).read()", "FileContent(SECRET).perform(C)", "FileContent(LINK).perform(C)"),
-    *("os.listdir(HERE + '/folder')", "os.listdir('/etc')", "[*pathlib.Path('/etc').iterdir()]", "os.path.realpath(LINK)"),
-    *("os.path.exists('/etc/passwd')", "os.path.isfile('/etc/passwd')", "os.path.isdir('/etc')", "pathlib.Path('/etc').exists()"),
-    *("os.path.exists(LINK)", "os.path.getsize(LINK)", "os.stat(SECRET)", "os.access('/etc/passwd', 4)", "os.walk('/etc')"),
+    *(
+        "pathlib.Path(LINK).read_text()",
+        "pathlib.Path(HERE, 'folder', 'secret').read_text()",
+        "yaml.safe_load(open(LINK))",
+    ),
+    *(
+        "open(0).read()",
+        "open(pathlib.Path(SECRET)).read()",
+        "FileContent(SECRET).perform(C)",
+        "FileContent(LINK).perform(C)",
+    ),
+    *(
+        "os.listdir(HERE + '/folder')",
+        "os.listdir('/etc')",
+        "[*pathlib.Path('/etc').iterdir()]",
+        "os.path.realpath(LINK)",
+    ),
+    *(
+        "os.path.exists('/etc/passwd')",
+        "os.path.isfile('/etc/passwd')",
+        "os.path.isdir('/etc')",
+        "pathlib.Path('/etc').exists()",
+    ),
+    *(
+        "os.path.exists(LINK)",
+        "os.path.getsize(LINK)",
+        "os.stat(SECRET)",
+        "os.access('/etc/passwd', 4)",
+        "os.walk('/etc')",
+    ),
     *("FindExecutable(name='sh').perform(C)", "os.path.expanduser('~')", "os.environ['HOME']", "dict(os.environ)"),
-    *("os.path.expandvars('$HOME')", "os.getcwd()", "pathlib.Path.cwd()", "pathlib.Path.home()", "os.path.abspath('x')"),
+    *(
+        "os.path.expandvars('$HOME')",
+        "os.getcwd()",
+        "pathlib.Path.cwd()",
+        "pathlib.Path.home()",
+        "os.path.abspath('x')",
+    ),
     *("ExecutableInPackage('sh', 'x').perform(C) if False else LaunchLogDir().perform(C)", "os.getenv('HOME')"),
     *("open('/proc/self/environ').read()", "open('/dev/zero').read(1)", "EnvironmentVariable('HOME').perform(C)"),
     "get_launch_description_from_frontend_launch_file(SECRET)",
@@ -140,74 +226,317 @@ KINDS_OF_PATHS = (
 )
 SHARED = (
     *("Node.x = 1", "Node.__init__ = None", "setattr(Node, 'describe', 1)", "launch.actions.Node = 1", "launch.x = 1"),
-    *("os.path.join = 1", "os.path.exists = lambda p: True", "os.x = 1", "math.pi = 3", "json.loads = None", "sys.path = []"),
+    *(
+        "os.path.join = 1",
+        "os.path.exists = lambda p: True",
+        "os.x = 1",
+        "math.pi = 3",
+        "json.loads = None",
+        "sys.path = []",
+    ),
     *("Node.describe.x = 1", "Command.command = 'x'", "Command.words.append(1)", "del Node.describe", "del os.sep"),
-    *("os.environ['PATH'] = 'x'", "os.environ.clear()", "os.environ.update(A='b')", "del os.environ['PATH']", "os.putenv('A', 'b')"),
-    *("sys.path.append('/')", "sys.modules['os'] = 1", "sys.modules.clear()", "sys.argv.append('x')", "sys.setrecursionlimit(9)"),
-    *("string.digits = ''", "collections.OrderedDict.x = 1", "Exception.x = 1", "type.x = 1", "LaunchDescription.entities = 1"),
+    *(
+        "os.environ['PATH'] = 'x'",
+        "os.environ.clear()",
+        "os.environ.update(A='b')",
+        "del os.environ['PATH']",
+        "os.putenv('A', 'b')",
+    ),
+    *(
+        "sys.path.append('/')",
+        "sys.modules['os'] = 1",
+        "sys.modules.clear()",
+        "sys.argv.append('x')",
+        "sys.setrecursionlimit(9)",
+    ),
+    *(
+        "string.digits = ''",
+        "collections.OrderedDict.x = 1",
+        "Exception.x = 1",
+        "type.x = 1",
+        "LaunchDescription.entities = 1",
+    ),
     *("C.launch_configurations['x'] = 1", "typing.Any = 1", "re.purge()", "yaml.SafeLoader.yaml_constructors.clear()"),
     *("yaml.add_constructor('!x', lambda l, n: 1)", "launch.logging.launch_config.level = 1", "yaml.YAMLError.x = 1"),
-    *("pathlib.Path.exists = lambda s: True", "pathlib.Path.x = 1", "import builtins\nbuiltins.open = None", "open.x = 1"),
-    *("print.x = 1", "len = 5", "str.x = 1", "LaunchContext.environment = 1", "C.environment['PATH'] = 'x'", "Action.condition = 1"),
+    *(
+        "pathlib.Path.exists = lambda s: True",
+        "pathlib.Path.x = 1",
+        "import builtins\nbuiltins.open = None",
+        "open.x = 1",
+    ),
+    *(
+        "print.x = 1",
+        "len = 5",
+        "str.x = 1",
+        "LaunchContext.environment = 1",
+        "C.environment['PATH'] = 'x'",
+        "Action.condition = 1",
+    ),
     *("functools.partial.x = 1", "IfCondition.attribute = 'x'", "IfCondition.evaluate = lambda s, c: True"),
 )
 ENDLESS = (
     # Numbers.
-    *("10 ** 10 ** 10", "pow(10, 10 ** 9)", "pow(3, 10 ** 9, 7 ** 5000)", "1 << 10 ** 9", "round(5, -10 ** 9)", "int('9' * 10 ** 6)"),
-    *("int('f' * 10 ** 6, 16)", "float('1' * 10 ** 6)", "math.factorial(10 ** 7)", "math.comb(10 ** 6, 10 ** 5)", "math.perm(10 ** 6)"),
-    *("math.prod([2 ** 3999] * 40000)", "math.lcm(*range(1, 40000))", "math.pow(10, 10 ** 5)", "(7 ** 1000).to_bytes(10 ** 9, 'big')"),
-    *("str(7 ** 1400) * 10 ** 5", "hex(1 << 3990) * 10 ** 5", "sum([7 ** 1400] * 49999)", "divmod(7 ** 1400, 3)", "math.isqrt(7 ** 1400)"),
+    *(
+        "10 ** 10 ** 10",
+        "pow(10, 10 ** 9)",
+        "pow(3, 10 ** 9, 7 ** 5000)",
+        "1 << 10 ** 9",
+        "round(5, -10 ** 9)",
+        "int('9' * 10 ** 6)",
+    ),
+    *(
+        "int('f' * 10 ** 6, 16)",
+        "float('1' * 10 ** 6)",
+        "math.factorial(10 ** 7)",
+        "math.comb(10 ** 6, 10 ** 5)",
+        "math.perm(10 ** 6)",
+    ),
+    *(
+        "math.prod([2 ** 3999] * 40000)",
+        "math.lcm(*range(1, 40000))",
+        "math.pow(10, 10 ** 5)",
+        "(7 ** 1000).to_bytes(10 ** 9, 'big')",
+    ),
+    *(
+        "str(7 ** 1400) * 10 ** 5",
+        "hex(1 << 3990) * 10 ** 5",
+        "sum([7 ** 1400] * 49999)",
+        "divmod(7 ** 1400, 3)",
+        "math.isqrt(7 ** 1400)",
+    ),
     "functools.reduce(lambda a, b: a * a, range(99), 7)",
     # Texts.
-    *("'a' * 10 ** 9", "'a'.center(10 ** 9)", "'a'.ljust(10 ** 9)", "'1'.zfill(10 ** 9)", "('\\t' * 9 ** 5).expandtabs(9999)"),
-    *("b'a' * 10 ** 9", "b'a'.center(10 ** 9)", "b'a'.zfill(10 ** 9)", "bytes(10 ** 9)", "bytearray(10 ** 9)", "bytes(range(10 ** 9))"),
-    *("'{:>1000000000}'.format(1)", "'{:{}}'.format(1, 10 ** 9)", "f'{1:1000000000}'", "f'{1:{10 ** 9}}'", "format(1, '>1000000000')"),
-    *("'%1000000000d' % 1", "'%(a)1000000000d' % {'a': 1}", "'%((a))1000000000d' % {'(a)': 1}", "'%.1000000000d' % 1", "'%.1000000000f' % 1"),
-    *("'%*d' % (10 ** 9, 1)", "'%.*d' % (10 ** 9, 1)", "b'%1000000000d' % 1", "'%(a)s' * 9 ** 5 % {'a': 'x' * 10 ** 6}"),
-    *("('{0}' * 9 ** 5).format('x' * 10 ** 6)", "'%s' * 49999 % tuple(['x' * 10 ** 6] * 49999)", "str(['x' * 10 ** 6] * 49999)"),
-    *("repr([['x' * 10 ** 6] * 99] * 99)", "','.join(['x' * 10 ** 6] * 9999)", "','.join({'x' * 10 ** 5 + str(i) for i in range(99)})"),
-    *("','.join(iter(['x' * 10 ** 6] * 9999))", "','.join(map(str, ['x' * 10 ** 6] * 9999))", "('a' * 10 ** 6).replace('a', 'b' * 10 ** 6)"),
-    *("('a' * 10 ** 6).replace('', 'b' * 10 ** 6)", "b'aaaa'.replace(b'', b'b' * 10 ** 6)", "('a' * 10 ** 6).translate({97: 'b' * 10 ** 6})"),
-    *("textwrap.indent('a\\n' * 10 ** 5, 'b' * 10 ** 5)", "textwrap.fill('a ' * 10 ** 6)", "textwrap.dedent(' a\\n' * 10 ** 5)"),
-    *("('ü' * 10 ** 5).encode('punycode')", "('ü' * 10 ** 5).encode('idna')", "'a'.encode('zip')", "b'x'.decode('unicode_escape')"),
-    *("os.path.join(*['x' * 10 ** 6] * 9999)", "pathlib.Path(*['x' * 10 ** 6] * 9999)", "os.path.commonprefix([['x'] * 9999] * 9999)"),
-    *("pathlib.PurePath('a' * 10 ** 5).match('*a' * 10 ** 4)", "os.path.normpath('/..' * 10 ** 6)", "json.dumps(['x' * 10 ** 6] * 9999)"),
-    *("json.dumps([1], indent=10 ** 9)", "json.dumps([[[[1] * 99] * 99] * 99] * 99)", "yaml.dump([[[[1] * 99] * 99] * 99] * 99)"),
-    *("f\"{'x' * 10 ** 6}\" + " + " + ".join(["f\"{'x' * 10 ** 6}\""] * 40), "('x' * 10 ** 6).split('x')", "list('x' * 10 ** 6)"),
+    *(
+        "'a' * 10 ** 9",
+        "'a'.center(10 ** 9)",
+        "'a'.ljust(10 ** 9)",
+        "'1'.zfill(10 ** 9)",
+        "('\\t' * 9 ** 5).expandtabs(9999)",
+    ),
+    *(
+        "b'a' * 10 ** 9",
+        "b'a'.center(10 ** 9)",
+        "b'a'.zfill(10 ** 9)",
+        "bytes(10 ** 9)",
+        "bytearray(10 ** 9)",
+        "bytes(range(10 ** 9))",
+    ),
+    *(
+        "'{:>1000000000}'.format(1)",
+        "'{:{}}'.format(1, 10 ** 9)",
+        "f'{1:1000000000}'",
+        "f'{1:{10 ** 9}}'",
+        "format(1, '>1000000000')",
+    ),
+    *(
+        "'%1000000000d' % 1",
+        "'%(a)1000000000d' % {'a': 1}",
+        "'%((a))1000000000d' % {'(a)': 1}",
+        "'%.1000000000d' % 1",
+        "'%.1000000000f' % 1",
+    ),
+    *(
+        "'%*d' % (10 ** 9, 1)",
+        "'%.*d' % (10 ** 9, 1)",
+        "b'%1000000000d' % 1",
+        "'%(a)s' * 9 ** 5 % {'a': 'x' * 10 ** 6}",
+    ),
+    *(
+        "('{0}' * 9 ** 5).format('x' * 10 ** 6)",
+        "'%s' * 49999 % tuple(['x' * 10 ** 6] * 49999)",
+        "str(['x' * 10 ** 6] * 49999)",
+    ),
+    *(
+        "repr([['x' * 10 ** 6] * 99] * 99)",
+        "','.join(['x' * 10 ** 6] * 9999)",
+        "','.join({'x' * 10 ** 5 + str(i) for i in range(99)})",
+    ),
+    *(
+        "','.join(iter(['x' * 10 ** 6] * 9999))",
+        "','.join(map(str, ['x' * 10 ** 6] * 9999))",
+        "('a' * 10 ** 6).replace('a', 'b' * 10 ** 6)",
+    ),
+    *(
+        "('a' * 10 ** 6).replace('', 'b' * 10 ** 6)",
+        "b'aaaa'.replace(b'', b'b' * 10 ** 6)",
+        "('a' * 10 ** 6).translate({97: 'b' * 10 ** 6})",
+    ),
+    *(
+        "textwrap.indent('a\\n' * 10 ** 5, 'b' * 10 ** 5)",
+        "textwrap.fill('a ' * 10 ** 6)",
+        "textwrap.dedent(' a\\n' * 10 ** 5)",
+    ),
+    *(
+        "('ü' * 10 ** 5).encode('punycode')",
+        "('ü' * 10 ** 5).encode('idna')",
+        "'a'.encode('zip')",
+        "b'x'.decode('unicode_escape')",
+    ),
+    *(
+        "os.path.join(*['x' * 10 ** 6] * 9999)",
+        "pathlib.Path(*['x' * 10 ** 6] * 9999)",
+        "os.path.commonprefix([['x'] * 9999] * 9999)",
+    ),
+    *(
+        "pathlib.PurePath('a' * 10 ** 5).match('*a' * 10 ** 4)",
+        "os.path.normpath('/..' * 10 ** 6)",
+        "json.dumps(['x' * 10 ** 6] * 9999)",
+    ),
+    *(
+        "json.dumps([1], indent=10 ** 9)",
+        "json.dumps([[[[1] * 99] * 99] * 99] * 99)",
+        "yaml.dump([[[[1] * 99] * 99] * 99] * 99)",
+    ),
+    *(
+        "f\"{'x' * 10 ** 6}\" + " + " + ".join(["f\"{'x' * 10 ** 6}\""] * 40),
+        "('x' * 10 ** 6).split('x')",
+        "list('x' * 10 ** 6)",
+    ),
     # Collections and iterators.
-    *("list(range(10 ** 9))", "[*range(10 ** 9)]", "sum(range(10 ** 9))", "max(range(10 ** 9))", "set(range(10 ** 9))", "tuple(reversed(range(10 ** 9)))"),
-    *("[x for x in range(10 ** 9)]", "list(iter(int, 1))", "any(iter(int, 1))", "dict.fromkeys(iter(int, 1))", "all(iter(str, 1))"),
-    *("','.join(iter(str, 1))", "next(filter(None, iter(int, 1)))", "list(zip(iter(int, 1), iter(int, 1)))", "list(itertools.islice(iter(int, 1), 10 ** 9))"),
-    *("list(itertools.product(range(999), repeat=9))", "7 in itertools.product(range(999), repeat=9)", "list(itertools.permutations(range(20)))"),
-    *("list(itertools.count())", "list(itertools.cycle([1]))", "list(itertools.repeat(1))", "list(itertools.combinations(range(99), 20))"),
-    *("list(itertools.chain(*[range(40000)] * 40000))", "list(itertools.zip_longest(*[range(40000)] * 40000))", "collections.deque([0]) * 10 ** 9"),
-    *("[0] * 10 ** 9", "(0,) * 10 ** 9", "[[0] * 10 ** 4] * 10 ** 4 + [[0] * 10 ** 4] * 10 ** 4", "sum([[0] * 9999] * 9999, [])"),
-    *("list(collections.Counter({'a': 10 ** 9}).elements())", "sorted([[0] * 49999] * 49999)", "[[0] * 49999] * 49999 == [[0] * 49999] * 49998 + [[1]]"),
-    *("[[0] * 9999] * 9999 in [[[0] * 9999] * 9999]", "[[[0] * 9999] * 9999].index([[1] * 9999] * 9999)", "hash(((0,) * 49999,) * 49999)"),
-    *("{((0,) * 49999,) * 49999: 1}", "{((0,) * 49999,) * 49999}", "{}.get(((0,) * 49999,) * 49999)", "{}[((0,) * 49999,) * 49999]"),
-    *("set([((0,) * 49999,) * 49999])", "dict([(((0,) * 49999,) * 49999, 1)])", "{**{'a': 1}, ((0,) * 49999,) * 49999: 1}", "copy.deepcopy([[[0] * 999] * 999] * 999)"),
-    *("min([[[0] * 9999] * 9999] * 2)", "[[[0] * 9999] * 9999].count([[0] * 9999] * 9998 + [1])", "functools.reduce(lambda a, b: a + a, range(99), [1])"),
+    *(
+        "list(range(10 ** 9))",
+        "[*range(10 ** 9)]",
+        "sum(range(10 ** 9))",
+        "max(range(10 ** 9))",
+        "set(range(10 ** 9))",
+        "tuple(reversed(range(10 ** 9)))",
+    ),
+    *(
+        "[x for x in range(10 ** 9)]",
+        "list(iter(int, 1))",
+        "any(iter(int, 1))",
+        "dict.fromkeys(iter(int, 1))",
+        "all(iter(str, 1))",
+    ),
+    *(
+        "','.join(iter(str, 1))",
+        "next(filter(None, iter(int, 1)))",
+        "list(zip(iter(int, 1), iter(int, 1)))",
+        "list(itertools.islice(iter(int, 1), 10 ** 9))",
+    ),
+    *(
+        "list(itertools.product(range(999), repeat=9))",
+        "7 in itertools.product(range(999), repeat=9)",
+        "list(itertools.permutations(range(20)))",
+    ),
+    *(
+        "list(itertools.count())",
+        "list(itertools.cycle([1]))",
+        "list(itertools.repeat(1))",
+        "list(itertools.combinations(range(99), 20))",
+    ),
+    *(
+        "list(itertools.chain(*[range(40000)] * 40000))",
+        "list(itertools.zip_longest(*[range(40000)] * 40000))",
+        "collections.deque([0]) * 10 ** 9",
+    ),
+    *(
+        "[0] * 10 ** 9",
+        "(0,) * 10 ** 9",
+        "[[0] * 10 ** 4] * 10 ** 4 + [[0] * 10 ** 4] * 10 ** 4",
+        "sum([[0] * 9999] * 9999, [])",
+    ),
+    *(
+        "list(collections.Counter({'a': 10 ** 9}).elements())",
+        "sorted([[0] * 49999] * 49999)",
+        "[[0] * 49999] * 49999 == [[0] * 49999] * 49998 + [[1]]",
+    ),
+    *(
+        "[[0] * 9999] * 9999 in [[[0] * 9999] * 9999]",
+        "[[[0] * 9999] * 9999].index([[1] * 9999] * 9999)",
+        "hash(((0,) * 49999,) * 49999)",
+    ),
+    *(
+        "{((0,) * 49999,) * 49999: 1}",
+        "{((0,) * 49999,) * 49999}",
+        "{}.get(((0,) * 49999,) * 49999)",
+        "{}[((0,) * 49999,) * 49999]",
+    ),
+    *(
+        "set([((0,) * 49999,) * 49999])",
+        "dict([(((0,) * 49999,) * 49999, 1)])",
+        "{**{'a': 1}, ((0,) * 49999,) * 49999: 1}",
+        "copy.deepcopy([[[0] * 999] * 999] * 999)",
+    ),
+    *(
+        "min([[[0] * 9999] * 9999] * 2)",
+        "[[[0] * 9999] * 9999].count([[0] * 9999] * 9998 + [1])",
+        "functools.reduce(lambda a, b: a + a, range(99), [1])",
+    ),
     # Patterns.
-    *("re.match('(a+)+$', 'a' * 99 + 'b')", "re.match('(a?){40}a{40}', 'a' * 40)", "re.match('a?' * 99 + 'a' * 99, 'a' * 99)", "re.search('(a|aa)+$', 'a' * 99 + 'b')"),
-    *("re.match('(a|a|a)*b', 'a' * 99)", "re.sub('', 'y' * 10 ** 6, 'x' * 10 ** 4)", "re.sub('(x+)', '\\\\1' * 10 ** 5, 'x' * 10 ** 4)", "re.match('(?:a#)\\n+)+', 'a' * 99, re.X)"),
-    *("re.match('(?x)(?:a#)\\n+)+', 'a' * 99)", "re.findall('.*.*.*.*x', 'a' * 9999)", "re.split('a*a*a*a*b', 'a' * 9999)", "re.match(r'(a*)*\\1b', 'a' * 99)"),
-    *("re.match('(?=(a+)+$)', 'a' * 99 + 'b')", "re.compile('(a+)+$').match('a' * 99 + 'b')", "re.fullmatch('(.*a){25}', 'a' * 99)", "re.match('((a{0,9}){0,9}){0,9}b', 'a' * 99)"),
-    *("re.match('(x+x+)+y', 'x' * 99)", "re.match('(?i)(a+)+$', 'a' * 99 + 'b')", "re.match('((a)|(a))*b', 'a' * 99)", "re.match('a{0,9}' * 20 + 'b', 'a' * 99)"),
+    *(
+        "re.match('(a+)+$', 'a' * 99 + 'b')",
+        "re.match('(a?){40}a{40}', 'a' * 40)",
+        "re.match('a?' * 99 + 'a' * 99, 'a' * 99)",
+        "re.search('(a|aa)+$', 'a' * 99 + 'b')",
+    ),
+    *(
+        "re.match('(a|a|a)*b', 'a' * 99)",
+        "re.sub('', 'y' * 10 ** 6, 'x' * 10 ** 4)",
+        "re.sub('(x+)', '\\\\1' * 10 ** 5, 'x' * 10 ** 4)",
+        "re.match('(?:a#)\\n+)+', 'a' * 99, re.X)",
+    ),
+    *(
+        "re.match('(?x)(?:a#)\\n+)+', 'a' * 99)",
+        "re.findall('.*.*.*.*x', 'a' * 9999)",
+        "re.split('a*a*a*a*b', 'a' * 9999)",
+        "re.match(r'(a*)*\\1b', 'a' * 99)",
+    ),
+    *(
+        "re.match('(?=(a+)+$)', 'a' * 99 + 'b')",
+        "re.compile('(a+)+$').match('a' * 99 + 'b')",
+        "re.fullmatch('(.*a){25}', 'a' * 99)",
+        "re.match('((a{0,9}){0,9}){0,9}b', 'a' * 99)",
+    ),
+    *(
+        "re.match('(x+x+)+y', 'x' * 99)",
+        "re.match('(?i)(a+)+$', 'a' * 99 + 'b')",
+        "re.match('((a)|(a))*b', 'a' * 99)",
+        "re.match('a{0,9}' * 20 + 'b', 'a' * 99)",
+    ),
     # Data.
-    *("json.loads('[' * 10 ** 5)", "json.loads('{\"a\":' * 10 ** 5)", "json.loads('9' * 10 ** 6)", "yaml.safe_load('[' * 10 ** 5)", "yaml.safe_load('- ' * 10 ** 5)"),
-    *("yaml.safe_load('{' * 10 ** 5)", "yaml.safe_load('? ' * 10 ** 5)", "yaml.safe_load('a: ' + '9' * 10 ** 5)", "yaml.safe_load('a: ' + '1:' * 10 ** 5 + '1')"),
+    *(
+        "json.loads('[' * 10 ** 5)",
+        "json.loads('{\"a\":' * 10 ** 5)",
+        "json.loads('9' * 10 ** 6)",
+        "yaml.safe_load('[' * 10 ** 5)",
+        "yaml.safe_load('- ' * 10 ** 5)",
+    ),
+    *(
+        "yaml.safe_load('{' * 10 ** 5)",
+        "yaml.safe_load('? ' * 10 ** 5)",
+        "yaml.safe_load('a: ' + '9' * 10 ** 5)",
+        "yaml.safe_load('a: ' + '1:' * 10 ** 5 + '1')",
+    ),
     "yaml.safe_load('a: &a [1, 1]\\n' + ''.join(f'b{i}: &a [*a, *a]\\n' for i in range(60)))",
     "yaml.safe_load('a0: &a0 {x: 1, y: 2}\\n' + ''.join(f'a{i + 1}: &a{i + 1}\\n  <<: [*a{i}, *a{i}]\\n' for i in range(60)))",
     "str(yaml.safe_load('a: &a [1, 1]\\n' + ''.join(f'b{i}: &a [*a, *a]\\n' for i in range(60))))",
     "yaml.safe_load('\\n'.join(' ' * i + 'a:' for i in range(500)))",
     "yaml.safe_load(('x: ' + 'a' * 99 + '\\n') * 3000)",
     # Expressions within texts.
-    *("PythonExpression('9 ** 9 ** 9', []).perform(C)", "PythonExpression('(' * 9999 + ')' * 9999, []).perform(C)", "PythonExpression(['1', '+1' * 10 ** 5], []).perform(C)"),
-    *("PythonExpression('\"a\" * 9 ** 9', []).perform(C)", "PythonExpression('[x for x in range(9 ** 9)]', []).perform(C)"),
+    *(
+        "PythonExpression('9 ** 9 ** 9', []).perform(C)",
+        "PythonExpression('(' * 9999 + ')' * 9999, []).perform(C)",
+        "PythonExpression(['1', '+1' * 10 ** 5], []).perform(C)",
+    ),
+    *(
+        "PythonExpression('\"a\" * 9 ** 9', []).perform(C)",
+        "PythonExpression('[x for x in range(9 ** 9)]', []).perform(C)",
+    ),
 )
 ENDLESS_STATEMENTS = (
-    *("while True: pass", "while True:\n    try: 1 / 0\n    except Exception: pass", "while True:\n    try: continue\n    finally: pass"),
-    *("for x in itertools.count(): pass", "for x in iter(int, 1): pass", "def f(): f()\nf()", "f = lambda: f()\nf()", "class A:\n    def __getattr__(self, n): return getattr(self, n + 'x')\nA().y"),
+    *(
+        "while True: pass",
+        "while True:\n    try: 1 / 0\n    except Exception: pass",
+        "while True:\n    try: continue\n    finally: pass",
+    ),
+    *(
+        "for x in itertools.count(): pass",
+        "for x in iter(int, 1): pass",
+        "def f(): f()\nf()",
+        "f = lambda: f()\nf()",
+        "class A:\n    def __getattr__(self, n): return getattr(self, n + 'x')\nA().y",
+    ),
     "x = 'ab'\nwhile True: x += x",
     "x = 'ab'\nwhile True: x = f'{x}{x}'",
     "x = 'ab'\nwhile True: x = x.replace('a', 'aa')",
@@ -266,13 +595,50 @@ ENDLESS_STATEMENTS = (
     "from large_module import *",
 )
 TEXTS = (
-    *("x = " + "(" * 10_000 + ")" * 10_000, "x = " + "-" * 10_000 + "1", "x = a" + ".b" * 10_000, "x = a" + "[0]" * 10_000),
-    *("x = a" + "()" * 10_000, "x = 1" + "+1" * 10_000, "x = " + "not " * 10_000 + "1", "x = " + "lambda: " * 5_000 + "1"),
-    *("x = " + "[" * 150 + "]" * 150, "x = " + "1 if 1 else " * 5_000 + "1", "x = " + "f'{" * 3 + "}'" * 3, "x = '" + "a" * 200_000 + "'"),
-    *("x = " + "9" * 100_000, "x = [" + "1," * 100_000 + "]", "def f(): pass\n" * 15_000, "\n".join(" " * i + "if 1:" for i in range(99)) + "\n" + " " * 99 + "pass"),
-    *("x = 1 " + "< 1 " * 10_000, "x = " + "1 and " * 10_000 + "1", "x" + "=x" * 10_000 + " = 1", "@f\n" * 5_000 + "def g(): pass"),
-    *("x = {" + "1:{" * 90 + "}" * 90 + "}", "\0", "\ufdd0\ufdd1 = 1", "x = '\\ud800'", "x = '\ufdd0'", "if 1:\n  x\n\ty", "x = '''"),
-    *("global " + ", ".join(f"a{i}" for i in range(9_999)), "class A" + ": pass\nclass A" * 9_999 + ": pass", "try: pass\n" + "except A: pass\n" * 9_999),
+    *(
+        "x = " + "(" * 10_000 + ")" * 10_000,
+        "x = " + "-" * 10_000 + "1",
+        "x = a" + ".b" * 10_000,
+        "x = a" + "[0]" * 10_000,
+    ),
+    *(
+        "x = a" + "()" * 10_000,
+        "x = 1" + "+1" * 10_000,
+        "x = " + "not " * 10_000 + "1",
+        "x = " + "lambda: " * 5_000 + "1",
+    ),
+    *(
+        "x = " + "[" * 150 + "]" * 150,
+        "x = " + "1 if 1 else " * 5_000 + "1",
+        "x = " + "f'{" * 3 + "}'" * 3,
+        "x = '" + "a" * 200_000 + "'",
+    ),
+    *(
+        "x = " + "9" * 100_000,
+        "x = [" + "1," * 100_000 + "]",
+        "def f(): pass\n" * 15_000,
+        "\n".join(" " * i + "if 1:" for i in range(99)) + "\n" + " " * 99 + "pass",
+    ),
+    *(
+        "x = 1 " + "< 1 " * 10_000,
+        "x = " + "1 and " * 10_000 + "1",
+        "x" + "=x" * 10_000 + " = 1",
+        "@f\n" * 5_000 + "def g(): pass",
+    ),
+    *(
+        "x = {" + "1:{" * 90 + "}" * 90 + "}",
+        "\0",
+        "\ufdd0\ufdd1 = 1",
+        "x = '\\ud800'",
+        "x = '\ufdd0'",
+        "if 1:\n  x\n\ty",
+        "x = '''",
+    ),
+    *(
+        "global " + ", ".join(f"a{i}" for i in range(9_999)),
+        "class A" + ": pass\nclass A" * 9_999 + ": pass",
+        "try: pass\n" + "except A: pass\n" * 9_999,
+    ),
 )
 
 
@@ -287,7 +653,9 @@ def here(tmp_path: Path) -> Path:
     os.mkfifo(folder / "pipe")
     os.mkfifo(folder / "pipe_module.py")
     (folder / "large_module.py").write_text("x = 1\n" * 200_000)
-    (folder / "evil.py").write_text(f"import os\nos.mkdir({str(folder / 'done')!r})\ndef generate_launch_description(): pass")
+    (folder / "evil.py").write_text(
+        f"import os\nos.mkdir({str(folder / 'done')!r})\ndef generate_launch_description(): pass"
+    )
     return folder
 
 
@@ -302,7 +670,12 @@ def _read(here: Path, text: str) -> dict[str, Any] | None:
 
 
 def _text(here: Path, statements: str) -> str:
-    names = {"HERE": str(here), "SECRET": str(here.parent / "secret"), "LINK": str(here / "link"), "EVIL": str(here / "evil.py")}
+    names = {
+        "HERE": str(here),
+        "SECRET": str(here.parent / "secret"),
+        "LINK": str(here / "link"),
+        "EVIL": str(here / "evil.py"),
+    }
     names["SHELL"] = f"mkdir {here}/done"
     given = "".join(f"{name} = {value!r}\n" for name, value in names.items())
     end = "\ndef generate_launch_description():\n    return LaunchDescription([LogInfo(msg=str(x)), *([returned] if returned else [])])\n"
@@ -312,7 +685,10 @@ def _text(here: Path, statements: str) -> str:
 @pytest.mark.parametrize("statements", RUNS)
 def test_no_code_runs(here: Path, statements: str) -> None:
     _read(here, _text(here, statements))
-    _read(here, _text(here, f"def f(context): return [LogInfo(msg=str({statements}))]\nreturned = OpaqueFunction(function=f)"))
+    _read(
+        here,
+        _text(here, f"def f(context): return [LogInfo(msg=str({statements}))]\nreturned = OpaqueFunction(function=f)"),
+    )
 
 
 @pytest.mark.parametrize("expression", REACHES)

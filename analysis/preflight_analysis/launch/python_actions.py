@@ -40,6 +40,8 @@ class _Reader:
         self._source, self._python = source, python
         self._keys: dict[int, dict[str, tuple[ast.expr, ast.expr | None]]] = {}
         """What `_pairs` says of an argument, by the keys: looked through once, for all its children."""
+        self._wholes: dict[tuple[int, str], ast.expr | None] = {}
+        """The argument of a call that children of a kind stand in."""
 
     def actions(self, records: object, around: Span, parent: _Parent | None, depth: int) -> tuple[Action, ...]:
         if not isinstance(records, list) or depth > MAX_DEPTH:
@@ -160,15 +162,7 @@ class _Reader:
     ) -> ast.expr | None:
         if parent is None:
             return None
-        keywords = _keywords(parent.call)
-        whole = parent.part or next(
-            (
-                keywords[name]
-                for name in (self._python.parameters.get(kind, kind), parent.made_by.parameter(kind))
-                if name in keywords
-            ),
-            None,
-        )
+        whole = parent.part or self._whole(kind, parent)
         if whole is None:
             return None
         given = record.get("a")
@@ -184,6 +178,14 @@ class _Reader:
         if found is None:
             return whole
         return found[1] if attribute in ("value", "to") and found[1] is not None else found[0]
+
+    def _whole(self, kind: str, parent: _Parent) -> ast.expr | None:
+        key = id(parent.call), kind
+        if key not in self._wholes:
+            keywords = _keywords(parent.call)
+            names = (self._python.parameters.get(kind, kind), parent.made_by.parameter(kind))
+            self._wholes[key] = next((keywords[name] for name in names if name in keywords), None)
+        return self._wholes[key]
 
     def _pairs(self, node: ast.expr) -> Iterator[tuple[ast.expr, ast.expr | None]]:
         """Keys with values in what a call is given: of maps and of pairs; texts by themselves."""

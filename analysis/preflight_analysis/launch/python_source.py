@@ -20,6 +20,7 @@ MAX_CHARACTERS = 500_000
 """Of a text that is read as Python."""
 _NAME_AND_BRACKET = re.compile(r"[\w.]+(\s*\()?")
 _NAME = re.compile(r"\b[A-Za-z_]")
+_QUOTES = re.compile(r"[A-Za-z]{0,2}(\"\"\"|'''|\"|')")
 _MAX_CALLS = 5_000
 _MAX_PARSED = 5_000_000
 """Characters of all calls together that are tried to be read one by one: they may stand in each other."""
@@ -41,17 +42,37 @@ class _Mistake:
     """From 1 on; None where it is the whole text."""
 
 
+class _Program:
+    """What a text is that parses."""
+
+    def __init__(self, module: ast.Module) -> None:
+        self.module = module
+        self.spans: dict[int, Span] = {}
+        """Where nodes stand that were asked for, by `id`."""
+
+    @cached_property
+    def nodes(self) -> tuple[ast.AST, ...]:
+        """All that is in it."""
+        return tuple(ast.walk(self.module))
+
+
 @lru_cache(maxsize=8)
-def _parsed(text: str) -> ast.Module | _Mistake:
+def _parsed(text: str) -> _Program | _Mistake:
     """The syntax tree, or why there is none. One text is asked for several times, and the trees are not changed."""
     if len(text) > MAX_CHARACTERS:
         return _Mistake(f"files of more than {MAX_CHARACTERS:,} characters are not read as Python")
     try:
-        return ast.parse(text)
+        return _Program(ast.parse(text))
     except SyntaxError as error:
         return _Mistake(error.msg or "invalid syntax", error.lineno or 1, error.offset or 1)
     except (ValueError, RecursionError, MemoryError) as error:
         return _Mistake(str(error) or type(error).__name__)
+
+
+def module_of(text: str) -> ast.Module | None:
+    """The syntax tree of a text that parses."""
+    parsed = _parsed(text)
+    return parsed.module if isinstance(parsed, _Program) else None
 
 
 class PythonSource:
@@ -64,14 +85,21 @@ class PythonSource:
         self._bytes = ByteOffsets(text)
         self.problem: tuple[str, Span] | None = None
         self.module: ast.Module | None = None
-        parsed = _parsed(text)
-        if isinstance(parsed, ast.Module):
-            self.module = parsed
+        self._parsed = parsed = _parsed(text)
+        if isinstance(parsed, _Program):
+            self.module = parsed.module
         else:
             start = 0
             if parsed.line is not None and parsed.column is not None:
                 start = lines.line_start(max(parsed.line - 1, 0)) + max(parsed.column - 1, 0)
             self.problem = (parsed.message, Span(min(start, len(text)), min(start + 1, len(text))))
+
+    @cached_property
+    def nodes(self) -> tuple[ast.AST, ...]:
+        """All that is in the pieces."""
+        if isinstance(self._parsed, _Program):
+            return self._parsed.nodes
+        return tuple(node for piece in self.pieces for node in ast.walk(piece))
 
     @cached_property
     def pieces(self) -> tuple[ast.AST, ...]:
@@ -127,24 +155,22 @@ class PythonSource:
     @cached_property
     def _calls(self) -> dict[int, list[ast.Call]]:
         found: dict[int, list[ast.Call]] = {}
-        for piece in self.pieces:
-            for node in ast.walk(piece):
-                if isinstance(node, ast.Call):
-                    found.setdefault(node.lineno, []).append(node)
+        for node in self.nodes:
+            if isinstance(node, ast.Call):
+                found.setdefault(node.lineno, []).append(node)
         return found
 
     @cached_property
     def assigned(self) -> dict[str, ast.expr]:
         """What names stand for that are assigned in one place only."""
         found: dict[str, list[ast.expr]] = {}
-        for piece in self.pieces:
-            for node in ast.walk(piece):
-                if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-                    found.setdefault(node.targets[0].id, []).append(node.value)
-                elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
-                    found.setdefault(node.target.id, []).append(node.value)
-                elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
-                    found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
+        for node in self.nodes:
+            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+                found.setdefault(node.targets[0].id, []).append(node.value)
+            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
+                found.setdefault(node.target.id, []).append(node.value)
+            elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
+                found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
         return {name: values[0] for name, values in found.items() if len(values) == 1}
 
     def resolved(self, node: ast.expr) -> ast.expr:
@@ -178,7 +204,7 @@ class PythonSource:
         """What names stand for that an import binds, and nothing else in the file does: `Node` for
         `launch_ros.actions.Node`, `launch` for itself."""
         bound: dict[str, list[str | None]] = {}
-        for node in ast.walk(self.module) if self.module is not None else ():
+        for node in self.nodes if self.module is not None else ():
             if isinstance(node, ast.ImportFrom):
                 for alias in node.names:
                     full = f"{node.module}.{alias.name}" if node.module and not node.level else None
@@ -213,6 +239,10 @@ class PythonSource:
         """Where a node stands; of a text what is between its quotes."""
         return self._now(self._span(node))
 
+    @property
+    def _spans(self) -> dict[int, Span]:
+        return self._parsed.spans if isinstance(self._parsed, _Program) else {}
+
     def whole_span(self, node: ast.expr) -> Span:
         """Where a node stands, with its quotes."""
         return self._now(self._whole_span(node))
@@ -225,10 +255,17 @@ class PythonSource:
         return Span(start, self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset))
 
     def _span(self, node: ast.expr | ast.keyword) -> Span:
+        spans = self._spans
+        found = spans.get(id(node))
+        if found is None:
+            found = spans[id(node)] = self._span_within(node)
+        return found
+
+    def _span_within(self, node: ast.expr | ast.keyword) -> Span:
         start, end = (whole := self._whole_span(node)).start, whole.end
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.lineno == node.end_lineno:
             written = self.text[start:end]
-            quoted = re.match(r"[A-Za-z]{0,2}(\"\"\"|'''|\"|')", written)
+            quoted = _QUOTES.match(written)
             if quoted and len(written) >= quoted.end() + len(quoted[1]):
                 return Span(start + quoted.end(), end - len(quoted[1]))
         return whole
@@ -251,7 +288,7 @@ class PythonSource:
         return self._now(Span(whole.start + len(text) - len(text.lstrip()), whole.start + len(text.rstrip())))
 
     def _offset(self, line: int, column: int) -> int:
-        start, end = self.lines.line_span(line - 1)
+        start, end = self.lines.line_start(line - 1), self.lines.line_start(line)
         return min(self._bytes.offset(self._bytes.bytes_before(start) + column), end)
 
 

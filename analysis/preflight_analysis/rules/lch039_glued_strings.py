@@ -90,7 +90,7 @@ def _glued(launch_file: LaunchFile) -> tuple[tuple[int, Span, tuple[str, ...]], 
         return ()
     return tuple(
         found
-        for node in ast.walk(source.module)
+        for node in source.nodes
         if isinstance(node, (ast.List, ast.Tuple, ast.Set)) and len(node.elts) > 1
         for found in _in_sequence(source, node.elts)
     )

@@ -80,13 +80,10 @@ class _Finder(ast.NodeVisitor):
         self._names = names
         self._truths = truths
         self.found: list[tuple[Span, str, _Instead | None]] = []
-        self._tests = {
-            id(node.test) for piece in source.pieces for node in ast.walk(piece) if isinstance(node, _WITH_TEST)
-        }
+        self._tests = {id(node.test) for node in source.nodes if isinstance(node, _WITH_TEST)}
         self._performed = {
             id(node.args[0])
-            for piece in source.pieces
-            for node in ast.walk(piece)
+            for node in source.nodes
             if isinstance(node, ast.Call) and node.args and self._names.made_by(node) in _CONDITIONS_ON
         }
 

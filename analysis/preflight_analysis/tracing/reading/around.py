@@ -558,7 +558,8 @@ class Around:
             modules._miss(module.name)
             return self._more.setdefault(below, Anything(below))
         elif top not in sys.stdlib_module_names:
-            return self.unknown(below, _OF_LIBRARY) if top in ("yaml", "xacro") else Anything(below)  # that the module is there is unknown already
+            # Of others it is unknown already whether they are there.
+            return self.unknown(below, _OF_LIBRARY) if top in ("yaml", "xacro") else Anything(below)
         else:
             return self.unknown(below, _OF_LIBRARY)
         raise Raised(AttributeError(f"module '{module.name}' has no attribute '{name}'"))

@@ -13,7 +13,7 @@ import operator
 import re
 import string
 import types
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 from preflight_analysis.tracing.agents.anything import Anything, marked, readable
@@ -24,7 +24,6 @@ from preflight_analysis.tracing.reading.values import (
     MAX_TEXT,
     Function,
     NotRead,
-    Raised,
     Wrapped,
     check_operation,
     is_program_class,
@@ -34,6 +33,7 @@ from preflight_analysis.tracing.reading.values import (
 
 MAX_WIDTH = 10_000
 _CODECS = frozenset(("utf-8", "utf8", "utf_8", "ascii", "latin-1", "latin1", "iso-8859-1"))
+_CODED = _CODECS | {"replace", "ignore", "strict"}
 _WIDE = re.compile(r"\d{5,}")
 _FILLED = frozenset(("center", "ljust", "rjust", "zfill"))
 _CHEAP = frozenset(
@@ -101,9 +101,8 @@ class Natives:
             given = sum(len(each) for each in args if isinstance(each, (list, tuple, dict, set, frozenset, range)))
             if len(of) + given + len(kwargs) > MAX_ITEMS:
                 raise NotRead("a collection is too large")
-        elif isinstance(function, type) and function in (int, float) and args and isinstance(args[0], (str, bytes)):
-            if len(args[0]) > MAX_DIGITS:
-                raise NotRead("a number is too long")
+        elif _is_number(function) and any(isinstance(each, (str, bytes)) and len(each) > MAX_DIGITS for each in args):
+            raise NotRead("a number is too long")
         weight = whole(*args, *kwargs.values())
         if isinstance(of, (list, tuple, dict, set, frozenset)):
             weight += len(of) if name in _CHEAP else whole(of)
@@ -368,6 +367,10 @@ def _conversions(text: str) -> int:
 _CONVERSION = re.compile(r"[#0\- +]*(?:\*|\d+)?(?:\.(?:\*|\d*))?[hlL]?")
 
 
+def _is_number(function: Any) -> bool:
+    return function is int or function is float
+
+
 def _check_text(of: Any, name: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
     if name in _FILLED:
         if any(isinstance(each, int) and each > MAX_WIDTH for each in args):
@@ -381,11 +384,8 @@ def _check_text(of: Any, name: str, args: tuple[Any, ...], kwargs: dict[str, Any
         count = of.count(args[0]) if type(args[0]) is type(of) or isinstance(of, str) else len(of) + 1
         if len(of) + count * len(args[1]) > MAX_TEXT:
             raise NotRead("a text is too long")
-    elif name in ("encode", "decode") and [*args, *kwargs.values()]:
-        if any(
-            str(each).lower() not in (*_CODECS, "replace", "ignore", "strict") for each in (*args, *kwargs.values())
-        ):
-            raise NotRead(f"{name}() with another coding")
+    elif name in ("encode", "decode") and not {str(each).lower() for each in (*args, *kwargs.values())} <= _CODED:
+        raise NotRead(f"{name}() with another coding")
 
 
-__all__ = ["Iterable", "Natives", "Raised"]
+__all__ = ["Natives"]

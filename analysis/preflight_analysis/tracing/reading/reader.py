@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
+from preflight_analysis.launch.python_source import module_of
 from preflight_analysis.tracing.agents import anything
 from preflight_analysis.tracing.agents.anything import AnyBase, Anything, is_unknown, marked, readable, unknown_text
 from preflight_analysis.tracing.agents.fake_launch import (
@@ -31,7 +32,7 @@ from preflight_analysis.tracing.agents.fake_launch.base import RECORDER, LaunchD
 from preflight_analysis.tracing.agents.fake_launch.main import _module_with, _of_ours
 from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
 from preflight_analysis.tracing.reading import interpreter
-from preflight_analysis.tracing.reading.around import Around, Context, Services, parsed
+from preflight_analysis.tracing.reading.around import Around, Context, Services
 from preflight_analysis.tracing.reading.files import Disk, Files, Path
 from preflight_analysis.tracing.reading.values import FAKES, NotRead, Raised, whole
 
@@ -69,7 +70,7 @@ class Surroundings(NamedTuple):
 
 def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
     """The answer to a request (`evaluation.ros2.python_runs.parse_request`), None where it is not read at all."""
-    tree = parsed(job["text"]) if len(job["text"]) <= MAX_TEXT else None
+    tree = module_of(job["text"]) if len(job["text"]) <= MAX_TEXT else None
     if tree is None:
         return None
     with _LOCK, _Fakes(job) as fakes:

@@ -46,6 +46,7 @@ class Function:
         """What the program says that it has."""
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """What it gives; raises what the program does."""
         try:
             return self.call(args, kwargs)
         except Raised as raised:
@@ -99,8 +100,8 @@ _OF_BYTES = (
 )
 _OF_MAPS = "clear copy get items keys pop popitem setdefault update fromkeys"
 _OF_SETS = (
-    "copy difference intersection isdisjoint issubset issuperset symmetric_difference union add clear discard pop remove"
-    " update difference_update intersection_update symmetric_difference_update"
+    "copy difference intersection isdisjoint issubset issuperset symmetric_difference union add clear discard pop"
+    " remove update difference_update intersection_update symmetric_difference_update"
 )
 _OF_LISTS = "append clear copy count extend index insert pop remove reverse sort"
 METHODS: dict[type, frozenset[str]] = {
@@ -265,9 +266,10 @@ def check_operation(name: str, left: Any, right: Any) -> None:
             raise NotRead(f"an operation with a {type(each).__name__}")
     if name == "Mult":
         for one, other in ((left, right), (right, left)):
-            if isinstance(one, (str, bytes, list, tuple)) and isinstance(other, int):
-                if len(one) * max(other, 0) > (MAX_TEXT if isinstance(one, (str, bytes)) else MAX_ITEMS):
-                    raise NotRead("a value is too large")
+            most = MAX_TEXT if isinstance(one, (str, bytes)) else MAX_ITEMS
+            is_repeated = isinstance(one, (str, bytes, list, tuple)) and isinstance(other, int)
+            if is_repeated and len(one) * max(other, 0) > most:
+                raise NotRead("a value is too large")
         if isinstance(left, int) and isinstance(right, int):
             _check_bits(left.bit_length() + right.bit_length())
     elif name == "Add":
