@@ -40,7 +40,7 @@ from preflight_analysis.tracing.reading.values import (
     whole,
 )
 
-MAX_STEPS = 300_000
+MAX_STEPS = 200_000
 MAX_SECONDS = 1.0
 """Of the processor, after the first half second: how busy the machine is changes nothing."""
 _UNMEASURED = 0.5
