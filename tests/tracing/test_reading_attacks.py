@@ -525,6 +525,26 @@ ENDLESS = (
     ),
 )
 ENDLESS_STATEMENTS = (
+    "x = {i * (2 ** 61 - 1): 1 for i in range(40000)}",
+    "x = set([i * (2 ** 61 - 1) for i in range(40000)])",
+    "x = set(range(0, (2 ** 61 - 1) * 40000, 2 ** 61 - 1))",
+    "x = {}\nfor i in range(40000): x[i * (2 ** 61 - 1)] = 1",
+    "@dataclasses.dataclass(frozen=True)\nclass D:\n    n: int\nx = {D(i): 1 for i in range(40000)}",
+    "@dataclasses.dataclass(frozen=True)\nclass D:\n    n: int\nx = {}\nfor i in range(40000): x[D(i)] = 1",
+    "class D:\n    def __hash__(self): return 1\nx = {D(): 1 for i in range(40000)}",
+    "x = ('a' * 10 ** 6).rfind('a' * 250000 + 'b' + 'a' * 250000)",
+    "x = ('a' * 10 ** 6).rsplit('a' * 250000 + 'b' + 'a' * 250000)",
+    "x = 'a' * 250000 + 'b' + 'a' * 250000 in 'a' * 10 ** 6",
+    "x = ('a' * 10 ** 6).strip('b' * 500000 + 'a')",
+    "x = ('a' * 10 ** 6).rpartition('a' * 250000 + 'b' + 'a' * 250000)",
+    "t = 'a' * 10 ** 6\nreturned = LaunchDescription([LogInfo(msg=t) for i in range(9999)])",
+    "t = TextSubstitution(text='a' * 10 ** 6)\nreturned = LogInfo(msg=[t] * 49999)",
+    "t = TextSubstitution(text='a' * 10 ** 6)\nx = AnyLaunchDescriptionSource([t] * 49999).location",
+    "t = TextSubstitution(text='a' * 10 ** 6)\nx = launch.utilities.perform_substitutions(C, [t] * 49999)",
+    "from nav2_common.launch import ReplaceString\nr = {c: d * 9999 for c, d in zip('abcdefgh', 'bcdefghi')}\n"
+    "f = ReplaceString(HERE + '/fine', {'f': 'a' * 9999, **r})\nx = f.perform(C)",
+    "from nav2_common.launch import RewrittenYaml\nx = RewrittenYaml(HERE + '/a.yaml', {'a' + '.a' * 9999: '1'}).perform(C)",
+    "import not_there_at_all",
     *(
         "while True: pass",
         "while True:\n    try: 1 / 0\n    except Exception: pass",
@@ -652,6 +672,8 @@ def here(tmp_path: Path) -> Path:
     (folder / "folder").symlink_to(tmp_path)
     os.mkfifo(folder / "pipe")
     os.mkfifo(folder / "pipe_module.py")
+    (folder / "a.yaml").write_text("a: {ros__parameters: {b: 1}}")
+    (folder / "CMakeLists.txt").write_text("ament_python_install_package(" * 30_000)
     (folder / "large_module.py").write_text("x = 1\n" * 200_000)
     (folder / "evil.py").write_text(
         f"import os\nos.mkdir({str(folder / 'done')!r})\ndef generate_launch_description(): pass"
@@ -660,7 +682,14 @@ def here(tmp_path: Path) -> Path:
 
 
 def _read(here: Path, text: str) -> dict[str, Any] | None:
-    job = {"file": str(here / "a.launch.py"), "text": text, "env": {}, "calls": [], "packages": {}, "assumed": []}
+    job = {
+        "file": str(here / "a.launch.py"),
+        "text": text,
+        "env": {},
+        "calls": [],
+        "packages": {"here": str(here)},
+        "assumed": [],
+    }
     before, began = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.thread_time()
     found = read(job, Surroundings(Disk(), (str(here),), (str(here),), {}, lambda: []))
     assert time.thread_time() - began < SECONDS

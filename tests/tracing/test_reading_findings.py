@@ -11,8 +11,8 @@ from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 
 PACKAGE = """<package format="3"><name>bot</name><version>0.1.0</version><description>d</description>
-<maintainer email="a@example.org">a</maintainer><license>MIT</license><export><build_type>ament_python</build_type></export>
-</package>"""
+<maintainer email="a@example.org">a</maintainer><license>MIT</license>
+<export><build_type>ament_python</build_type></export></package>"""
 SETUP = """from setuptools import setup
 setup(name="bot", packages=["bot"], entry_points={"console_scripts": ["talker = bot.talker:main"]},
       data_files=[("share/bot/config", ["config/params.yaml"]), ("share/bot", ["package.xml"]),
@@ -49,7 +49,8 @@ def node(name, **more):
 
 
 def generate_launch_description():
-    return LaunchDescription([DeclareLaunchArgument("sim", default_value="false"), LogInfo(msg=LaunchConfiguration("sim")), ITEM])
+    sim = DeclareLaunchArgument("sim", default_value="false")
+    return LaunchDescription([sim, LogInfo(msg=LaunchConfiguration("sim")), ITEM])
 """
 ARGUMENT = '<arg name="sim" default="false"/><log message="$(var sim)"/>'
 SAME = [

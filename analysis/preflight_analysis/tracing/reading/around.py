@@ -23,7 +23,7 @@ import types
 import typing
 import xml.etree.ElementTree
 from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import yaml
@@ -123,7 +123,7 @@ _ALLOWED_TYPES = frozenset(
     (
         *SAFE_TYPES,
         *(object, property, type),
-        *(each for contents in _NATIVE.values() for each in contents.values() if isinstance(each, type)),
+        *(each for name in ("itertools", "collections") for each in _NATIVE[name].values() if isinstance(each, type)),
     )
 )
 _ALLOWED_FUNCTIONS = frozenset(
@@ -586,16 +586,22 @@ class Around:
         if share is not None:
             yield posixpath.join(share, top)
             yield posixpath.join(share, "src", top)
-        for package, path in base.RECORDER.packages.items():
-            text = self.files.text(posixpath.join(path, "CMakeLists.txt")) if self._has_cmake(path) else ""
-            for found in modules._INSTALLED.finditer(text if isinstance(text, str) else ""):
-                words = found[1].replace('"', "").split()
-                if words and words[0].replace("${PROJECT_NAME}", package) == top:
-                    folder = dict(itertools.pairwise(words[1:])).get("PACKAGE_DIR", top)
-                    yield posixpath.join(path, folder.replace("${PROJECT_NAME}", package))
+        for package, path, words in self._installed:
+            if words[0].replace("${PROJECT_NAME}", package) == top:
+                folder = dict(itertools.pairwise(words[1:])).get("PACKAGE_DIR", top)
+                yield posixpath.join(path, folder.replace("${PROJECT_NAME}", package))
 
-    def _has_cmake(self, path: str) -> bool:
-        return self.files.has(posixpath.join(path, "CMakeLists.txt"))
+    @cached_property
+    def _installed(self) -> list[tuple[str, str, list[str]]]:
+        """The modules that packages install by CMake."""
+        made: list[tuple[str, str, list[str]]] = []
+        for package, path in base.RECORDER.packages.items():
+            build = posixpath.join(path, "CMakeLists.txt")
+            text = self.files.text(build) if self.files.has(build) else ""
+            if isinstance(text, str) and len(text) <= _MAX_MODULE:
+                words = (found[1].replace('"', "").split() for found in modules._INSTALLED.finditer(text))
+                made += [(package, path, each) for each in words if each]
+        return made
 
     def _read(self, name: str, file: str, is_package: bool) -> Module:
         text = self.files.text(file)

@@ -44,7 +44,7 @@ def dataclass(interpreter: Any, kind: Any = None, **options: Any) -> Any:
         lambda args, kwargs: _init(interpreter, kind, fields, args, kwargs), "__init__", "__init__"
     )
     if "__eq__" not in vars(kind) and options.get("eq", True):
-        kind.__eq__ = Function(lambda args, _: _values(args[0]) == _values(args[1]), "__eq__", "__eq__")
+        kind.__eq__ = Function(lambda args, _: _equal(interpreter, *args), "__eq__", "__eq__")
         kind.__hash__ = Function(lambda args, _: 0, "__hash__", "__hash__")
     return kind
 
@@ -77,6 +77,11 @@ def _init(interpreter: Any, kind: Any, fields: dict[str, Any], args: Any, kwargs
 
 def _values(thing: Any) -> Any:
     return type(thing), tuple(vars(thing).items()) if hasattr(thing, "__dict__") else thing
+
+
+def _equal(interpreter: Any, one: Any, other: Any) -> Any:
+    interpreter.step(2)
+    return _values(one) == _values(other)
 
 
 def members(thing: Any) -> Any:

@@ -20,7 +20,7 @@ from typing import Any, Protocol
 from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.tracing.agents.anything import Anything, UnknownText, is_unknown, marked
 from preflight_analysis.tracing.agents.fake_launch import rewritten
-from preflight_analysis.tracing.reading.natives import Natives
+from preflight_analysis.tracing.reading.natives import Natives, check_search
 from preflight_analysis.tracing.reading.scopes import Scope, names_of
 from preflight_analysis.tracing.reading.values import (
     MAX_TEXT,
@@ -31,6 +31,7 @@ from preflight_analysis.tracing.reading.values import (
     Raised,
     Wrapped,
     check_key,
+    check_keys,
     check_operation,
     check_size,
     is_fake,
@@ -200,7 +201,9 @@ class Interpreter:
     def made(self, value: Any) -> Any:
         """A value that was made; all of them together are bounded."""
         check_size(value)
-        if isinstance(value, (str, bytes)):
+        if isinstance(value, int) and value.bit_length() > 60:
+            self.step(50)  # a few have one hash
+        elif isinstance(value, (str, bytes)):
             if len(value) > 1000:
                 self.step(len(value) // 64)
         elif isinstance(value, (list, tuple, dict, set, frozenset)) and len(value) > 100:
@@ -283,7 +286,7 @@ class Interpreter:
             right = right if is_unknown_object(right) else self.natives.each(right)
         check_operation(name, left, right)
         if name == "Mod" and isinstance(left, (str, bytes)):
-            function = self.natives.percent
+            return self.shown(self.made(marked(self._native(self.natives.percent, left, right))))
         function = function or _OPERATORS.get(name)
         if function is None:
             raise NotRead("an operator")
@@ -503,10 +506,10 @@ class Interpreter:
         for each in bases:
             is_known = isinstance(each, type) and (is_program_class(each) or is_fake(each) or each in _BASES)
             if not is_known and not isinstance(each, Anything):
-                raise NotRead(f"a class made from {each!r}"[:100])
+                return self.around.unknown(name, "a class that is made from one of Python is not read")
         odd = [n for n in values if n.startswith("__") and n.endswith("__") and n not in _SPECIAL]
         if odd:
-            raise NotRead(f"a class with {odd[0]}")
+            return self.around.unknown(name, f"a class with {odd[0]} is not read")
         if values["__module__"] != "python_launch_file" or "preflight_interpreted" in values:
             raise NotRead("a class of another module")
         values["preflight_interpreted"] = True
@@ -657,6 +660,7 @@ class Interpreter:
     def _expr_Set(self, node: ast.Set, scope: Scope) -> Any:
         items = self._items(node.elts, scope)
         whole(items)
+        check_keys(items)
         return self._native(set, items)
 
     def _items(self, nodes: list[ast.expr], scope: Scope) -> list[Any]:
@@ -760,6 +764,8 @@ class Interpreter:
         if not (isinstance(left, (str, int, type(None))) and isinstance(right, (str, int, type(None)))):
             self.step(whole(left, right) // 20)
         if name in ("In", "NotIn"):
+            if isinstance(right, (str, bytes)):
+                check_search(right, left)
             found = self._native(lambda: left in rewritten._in(right))
             return found if name == "In" else not found
         return self._native(_COMPARISONS[name], left, right)
@@ -875,6 +881,7 @@ class Interpreter:
     def _expr_SetComp(self, node: ast.SetComp, scope: Scope) -> Any:
         items = self._expr_ListComp(node, scope)  # type: ignore[arg-type]
         whole(items)
+        check_keys(items)
         return self._native(set, items)
 
     def _expr_GeneratorExp(self, node: ast.GeneratorExp, scope: Scope) -> Any:
@@ -886,7 +893,9 @@ class Interpreter:
             check_key(key)
             return key, self.evaluate(node.value, inner)
 
-        return self._native(dict, self._comprehended(node.generators, pair, scope))
+        pairs = self._comprehended(node.generators, pair, scope)
+        check_keys([key for key, _ in pairs])
+        return self._native(dict, pairs)
 
     def _comprehended(self, generators: Any, element: Callable[[Scope], Any], scope: Scope) -> list[Any]:
         found: list[Any] = []
@@ -1023,7 +1032,8 @@ class Interpreter:
             if isinstance(each, (set, frozenset)) and name not in _UNORDERED:
                 self.in_order(each)
         made = self.made(self._native(instead, *args, **kwargs))
-        return self.shown(made) if isinstance(made, str) and not isinstance(of, str) else made
+        is_shown = isinstance(made, str) and (not isinstance(of, str) or name in ("format", "format_map"))
+        return self.shown(made) if is_shown else made
 
     def _native(self, function: Any, /, *args: Any, **kwargs: Any) -> Any:
         """What Python gives; what it raises is the program's."""

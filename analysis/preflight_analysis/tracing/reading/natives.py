@@ -21,10 +21,12 @@ from preflight_analysis.tracing.agents.fake_launch import rewritten
 from preflight_analysis.tracing.reading.values import (
     MAX_DIGITS,
     MAX_ITEMS,
+    MAX_SEARCH,
     MAX_TEXT,
     Function,
     NotRead,
     Wrapped,
+    check_keys,
     check_operation,
     is_program_class,
     is_unknown_object,
@@ -43,6 +45,15 @@ _CHEAP = frozenset(
     )
 )
 """Methods that look at no more than at the collection itself and the keys that they are given."""
+
+
+_HASHING = frozenset(
+    (
+        *("set", "frozenset", "dict", "_dict", "OrderedDict", "defaultdict", "Counter", "fromkeys", "update", "union"),
+        *("intersection", "difference", "symmetric_difference", "difference_update", "intersection_update"),
+        *("symmetric_difference_update", "issubset", "issuperset", "isdisjoint"),
+    )
+)
 
 
 class Natives:
@@ -103,6 +114,9 @@ class Natives:
                 raise NotRead("a collection is too large")
         elif _is_number(function) and any(isinstance(each, (str, bytes)) and len(each) > MAX_DIGITS for each in args):
             raise NotRead("a number is too long")
+        if name in _HASHING:
+            for each in args:
+                check_keys(each)
         weight = whole(*args, *kwargs.values())
         if isinstance(of, (list, tuple, dict, set, frozenset)):
             weight += len(of) if name in _CHEAP else whole(of)
@@ -186,7 +200,7 @@ class Natives:
         if any(isinstance(each, Anything) for each in args):
             return range(1)
         made = range(*args)
-        if abs(made.stop - made.start) // abs(made.step) > MAX_ITEMS:
+        if abs(made.stop - made.start) // abs(made.step) > MAX_ITEMS or max(abs(made.start), abs(made.stop)) >= 1 << 60:
             raise NotRead("a range is too long")
         return made
 
@@ -371,7 +385,15 @@ def _is_number(function: Any) -> bool:
     return function is int or function is float
 
 
+def check_search(within: Any, *texts: Any) -> None:
+    """Raise `NotRead` where a text takes long to look for."""
+    for each in texts:
+        if isinstance(each, (str, bytes)) and len(each) > 1 and len(each) * len(within) > MAX_SEARCH:
+            raise NotRead("a text takes long to look for")
+
+
 def _check_text(of: Any, name: str, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+    check_search(of, *args, *kwargs.values())
     if name in _FILLED:
         if any(isinstance(each, int) and each > MAX_WIDTH for each in args):
             raise NotRead("a text is too long")

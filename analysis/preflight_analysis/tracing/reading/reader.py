@@ -38,6 +38,9 @@ from preflight_analysis.tracing.reading.values import FAKES, NotRead, Raised, wh
 
 _FUNCTION = "generate_launch_description"
 MAX_TEXT = 300_000
+MAX_PARTS = 2_000_000
+MAX_CHARACTERS = 20_000_000
+"""Of an answer."""
 MAX_ASKED = 300
 """Conditions that are not known."""
 MAX_FRAMES = 30
@@ -76,6 +79,7 @@ def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
     with _LOCK, _Fakes(job) as fakes:
         try:
             made = fakes.answer(tree, within)
+            _measure(made)
             answer: dict[str, Any] = json.loads(_OURS.sub("", json.dumps(made, default=_as_text)))
             return answer
         except (NotRead, TooMuchError, RecursionError, MemoryError) as error:
@@ -84,6 +88,24 @@ def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
         except Exception:
             _log.exception("reading %s failed", job["file"])
             return None
+
+
+def _measure(answer: Any) -> None:
+    """Raise `NotRead` where an answer is larger than anyone writes, with what is in it several times."""
+    items, characters, level = MAX_PARTS, MAX_CHARACTERS, [answer]
+    while level:
+        below: list[Any] = []
+        for each in level:
+            if isinstance(each, str):
+                characters -= len(each)
+            elif isinstance(each, (dict, list, tuple)):
+                items -= len(each)
+                if items < 0:
+                    break
+                below += each.values() if isinstance(each, dict) else each
+        if items < 0 or characters < 0:
+            raise NotRead("the answer is too large")
+        level = below
 
 
 def _as_text(value: Any) -> str:

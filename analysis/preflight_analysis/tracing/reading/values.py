@@ -13,12 +13,17 @@ from typing import Any
 
 from preflight_analysis.tracing.agents import anything
 from preflight_analysis.tracing.agents.anything import AnyBase, AnyModule, Anything
+from preflight_analysis.tracing.agents.fake_launch.base import TextSubstitution
 
 MAX_TEXT = 1_000_000
 MAX_ITEMS = 50_000
 MAX_BITS = 4_000
 MAX_DIGITS = 5_000
 MAX_DEPTH = 60
+MAX_KEYS = 2_000
+"""Of other kinds than texts, that are made at once."""
+MAX_SEARCH = 20_000_000
+"""Characters of a text, times those that are looked for in it."""
 AGENTS = anything.__name__.rpartition(".")[0]
 FAKES = f"{AGENTS}.fake_launch"
 FILES = f"{__name__.rpartition('.')[0]}.files"
@@ -243,6 +248,8 @@ def whole(*values: Any) -> int:
         for each in level:
             if isinstance(each, (str, bytes)):
                 left -= len(each) // 100
+            elif isinstance(each, TextSubstitution):
+                left -= len(each.text) // 100
             elif isinstance(each, (dict, list, tuple, set, frozenset, collections.deque)):
                 if len(below) + len(each) > left:
                     raise NotRead("a value is too large")
@@ -251,6 +258,13 @@ def whole(*values: Any) -> int:
                     below += dict.values(each)
         level = below
     return MAX_ITEMS - left
+
+
+def check_keys(keys: Any) -> None:
+    """The same for many: that they are equal to each other is found out for each pair of them at worst."""
+    is_large = isinstance(keys, (list, tuple, set, frozenset, range)) and len(keys) > MAX_KEYS
+    if is_large and not all(isinstance(each, str) for each in keys):
+        raise NotRead("a collection is too large")
 
 
 def check_key(key: Any) -> None:
