@@ -43,17 +43,78 @@ class _Mistake:
 
 
 class _Program:
-    """What a text is that parses."""
+    """What there is to read of a text, whoever asks."""
 
-    def __init__(self, module: ast.Module) -> None:
-        self.module = module
+    def __init__(self, module: ast.Module | None, pieces: tuple[ast.AST, ...]) -> None:
+        self.module, self.pieces = module, pieces
         self.spans: dict[int, Span] = {}
         """Where nodes stand that were asked for, by `id`."""
 
     @cached_property
     def nodes(self) -> tuple[ast.AST, ...]:
-        """All that is in it."""
-        return tuple(ast.walk(self.module))
+        """All that is in the pieces."""
+        return tuple(node for piece in self.pieces for node in ast.walk(piece))
+
+    @cached_property
+    def calls(self) -> dict[int, list[ast.Call]]:
+        """By their lines."""
+        found: dict[int, list[ast.Call]] = {}
+        for node in self.nodes:
+            if isinstance(node, ast.Call):
+                found.setdefault(node.lineno, []).append(node)
+        return found
+
+    @cached_property
+    def assigned(self) -> dict[str, ast.expr]:
+        """What names stand for that are assigned in one place only."""
+        found: dict[str, list[ast.expr]] = {}
+        for node in self.nodes:
+            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+                found.setdefault(node.targets[0].id, []).append(node.value)
+            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
+                found.setdefault(node.target.id, []).append(node.value)
+            elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
+                found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
+        return {name: values[0] for name, values in found.items() if len(values) == 1}
+
+    @cached_property
+    def sure(self) -> frozenset[int]:
+        """By `id`: what is evaluated whatever happens, as it stands in `generate_launch_description`, or in a function
+        that is called there or given to an `OpaqueFunction`, and not below `if` and the like."""
+        found: set[int] = set()
+        body = self.module.body if self.module is not None else []
+        functions = {each.name: each for each in body if isinstance(each, ast.FunctionDef)}
+        called = ["generate_launch_description"]
+        while called:
+            function = functions.pop(called.pop(), None)
+            for node in _in_any_case(function.body) if function is not None else ():
+                found.add(id(node))
+                if isinstance(node, ast.Call):
+                    called += [last_name(node.func)] if isinstance(node.func, ast.Name) else []
+                    called += [last_name(k.value) for k in node.keywords if k.arg == "function"]
+        return frozenset(found)
+
+    @cached_property
+    def imported(self) -> dict[str, str]:
+        """What names stand for that an import binds, and nothing else in the file does: `Node` for
+        `launch_ros.actions.Node`, `launch` for itself."""
+        bound: dict[str, list[str | None]] = {}
+        for node in self.nodes if self.module is not None else ():
+            if isinstance(node, ast.ImportFrom):
+                for alias in node.names:
+                    full = f"{node.module}.{alias.name}" if node.module and not node.level else None
+                    bound.setdefault(alias.asname or alias.name, []).append(full)
+            elif isinstance(node, ast.Import):
+                for alias in node.names:
+                    top = alias.name.partition(".")[0]
+                    bound.setdefault(alias.asname or top, []).append(alias.name if alias.asname else top)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, (ast.Store, ast.Del)):
+                bound.setdefault(node.id, []).append(None)
+            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                bound.setdefault(node.name, []).append(None)
+            elif isinstance(node, ast.arg):
+                bound.setdefault(node.arg, []).append(None)
+        return {name: full[0] for name, full in bound.items() if len(set(full)) == 1 and full[0] is not None}
 
 
 @lru_cache(maxsize=8)
@@ -62,7 +123,8 @@ def _parsed(text: str) -> _Program | _Mistake:
     if len(text) > MAX_CHARACTERS:
         return _Mistake(f"files of more than {MAX_CHARACTERS:,} characters are not read as Python")
     try:
-        return _Program(ast.parse(text))
+        module = ast.parse(text)
+        return _Program(module, (module,))
     except SyntaxError as error:
         return _Mistake(error.msg or "invalid syntax", error.lineno or 1, error.offset or 1)
     except (ValueError, RecursionError, MemoryError) as error:
@@ -95,11 +157,28 @@ class PythonSource:
             self.problem = (parsed.message, Span(min(start, len(text)), min(start + 1, len(text))))
 
     @cached_property
+    def _program(self) -> _Program:
+        return self._parsed if isinstance(self._parsed, _Program) else _Program(None, self.pieces)
+
+    @property
     def nodes(self) -> tuple[ast.AST, ...]:
         """All that is in the pieces."""
-        if isinstance(self._parsed, _Program):
-            return self._parsed.nodes
-        return tuple(node for piece in self.pieces for node in ast.walk(piece))
+        return self._program.nodes
+
+    @property
+    def assigned(self) -> dict[str, ast.expr]:
+        """What names stand for that are assigned in one place only."""
+        return self._program.assigned
+
+    @property
+    def sure(self) -> frozenset[int]:
+        """By `id`: what is evaluated whatever happens (`_Program.sure`)."""
+        return self._program.sure
+
+    @property
+    def imported(self) -> dict[str, str]:
+        """What names stand for that an import binds, and nothing else in the file does."""
+        return self._program.imported
 
     @cached_property
     def pieces(self) -> tuple[ast.AST, ...]:
@@ -152,27 +231,6 @@ class PythonSource:
                 each.lineno += line
                 each.end_lineno = (each.end_lineno or 1) + line
 
-    @cached_property
-    def _calls(self) -> dict[int, list[ast.Call]]:
-        found: dict[int, list[ast.Call]] = {}
-        for node in self.nodes:
-            if isinstance(node, ast.Call):
-                found.setdefault(node.lineno, []).append(node)
-        return found
-
-    @cached_property
-    def assigned(self) -> dict[str, ast.expr]:
-        """What names stand for that are assigned in one place only."""
-        found: dict[str, list[ast.expr]] = {}
-        for node in self.nodes:
-            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-                found.setdefault(node.targets[0].id, []).append(node.value)
-            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
-                found.setdefault(node.target.id, []).append(node.value)
-            elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
-                found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
-        return {name: values[0] for name, values in found.items() if len(values) == 1}
-
     def resolved(self, node: ast.expr) -> ast.expr:
         """What a name stands for; anything else is itself."""
         for _ in range(10):
@@ -181,45 +239,6 @@ class PythonSource:
                 break
             node = known
         return node
-
-    @cached_property
-    def sure(self) -> frozenset[int]:
-        """By `id`: what is evaluated whatever happens, as it stands in `generate_launch_description`, or in a function
-        that is called there or given to an `OpaqueFunction`, and not below `if` and the like."""
-        found: set[int] = set()
-        body = self.module.body if self.module is not None else []
-        functions = {each.name: each for each in body if isinstance(each, ast.FunctionDef)}
-        called = ["generate_launch_description"]
-        while called:
-            function = functions.pop(called.pop(), None)
-            for node in _in_any_case(function.body) if function is not None else ():
-                found.add(id(node))
-                if isinstance(node, ast.Call):
-                    called += [last_name(node.func)] if isinstance(node.func, ast.Name) else []
-                    called += [last_name(k.value) for k in node.keywords if k.arg == "function"]
-        return frozenset(found)
-
-    @cached_property
-    def imported(self) -> dict[str, str]:
-        """What names stand for that an import binds, and nothing else in the file does: `Node` for
-        `launch_ros.actions.Node`, `launch` for itself."""
-        bound: dict[str, list[str | None]] = {}
-        for node in self.nodes if self.module is not None else ():
-            if isinstance(node, ast.ImportFrom):
-                for alias in node.names:
-                    full = f"{node.module}.{alias.name}" if node.module and not node.level else None
-                    bound.setdefault(alias.asname or alias.name, []).append(full)
-            elif isinstance(node, ast.Import):
-                for alias in node.names:
-                    top = alias.name.partition(".")[0]
-                    bound.setdefault(alias.asname or top, []).append(alias.name if alias.asname else top)
-            elif isinstance(node, ast.Name) and isinstance(node.ctx, (ast.Store, ast.Del)):
-                bound.setdefault(node.id, []).append(None)
-            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-                bound.setdefault(node.name, []).append(None)
-            elif isinstance(node, ast.arg):
-                bound.setdefault(node.arg, []).append(None)
-        return {name: full[0] for name, full in bound.items() if len(set(full)) == 1 and full[0] is not None}
 
     def full_name(self, node: ast.expr) -> str | None:
         """`launch_ros.actions.Node` of what an import binds; None of anything else."""
@@ -230,7 +249,7 @@ class PythonSource:
 
     def call(self, line: int, column: int, name: str) -> ast.Call | None:
         """The call of a class at a place (column in bytes, -1 if it is not known)."""
-        at = [c for c in self._calls.get(line, ()) if column in (-1, c.col_offset)]
+        at = [c for c in self._program.calls.get(line, ()) if column in (-1, c.col_offset)]
         return next(
             (c for c in at if last_name(c.func) == name), at[0] if len(at) == 1 or (at and column >= 0) else None
         )
@@ -238,10 +257,6 @@ class PythonSource:
     def span(self, node: ast.expr | ast.keyword) -> Span:
         """Where a node stands; of a text what is between its quotes."""
         return self._now(self._span(node))
-
-    @property
-    def _spans(self) -> dict[int, Span]:
-        return self._parsed.spans if isinstance(self._parsed, _Program) else {}
 
     def whole_span(self, node: ast.expr) -> Span:
         """Where a node stands, with its quotes."""
@@ -255,7 +270,7 @@ class PythonSource:
         return Span(start, self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset))
 
     def _span(self, node: ast.expr | ast.keyword) -> Span:
-        spans = self._spans
+        spans = self._program.spans
         found = spans.get(id(node))
         if found is None:
             found = spans[id(node)] = self._span_within(node)
