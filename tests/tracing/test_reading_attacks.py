@@ -796,3 +796,42 @@ def test_statements_end_soon(here: Path, statements: str) -> None:
 @pytest.mark.parametrize("text", TEXTS, ids=lambda text: text[:20])
 def test_a_text_of_any_shape_is_read_or_not(here: Path, text: str) -> None:
     _read(here, _text(here, text))
+
+
+ASKS = (
+    *(
+        "v.startswith('a')",
+        "v == 'a'",
+        "'a' in v",
+        "v in ['a', 'b']",
+        "v",
+        "bool(v)",
+        "v.isdigit()",
+        "v and 1",
+        "not v",
+    ),
+    *(
+        "any([v])",
+        "max([v, 'a'])",
+        "[1 for x in 'a' if v]",
+        "sorted([v, 'a'])",
+        "v > 'a'",
+        "{'a': 1}.get(v)",
+        "isinstance(os.uname(), int)",
+    ),
+    *(
+        "list(filter(None, [v]))",
+        "v.endswith(('a', 'b'))",
+        "os.path.exists(v) or 1",
+        "(1 if v else 2)",
+        "[*map(bool, [v])]",
+        "1 < int(v) < 3",
+    ),
+)
+
+
+@pytest.mark.parametrize("expression", ASKS)
+def test_what_depends_on_what_is_not_known_is_noted(here: Path, expression: str) -> None:
+    found = _read(here, _text(here, f"v = os.environ['NOT_SET_ANYWHERE']\nx = 1 if {expression} else 2"))
+    assert found is not None
+    assert found["guessed"], found

@@ -824,7 +824,7 @@ class Interpreter:
     def _not_had(self, thing: Any, name: str) -> Any:
         kind = type(thing)
         if (kind in METHODS or thing is None) and not name.startswith("_"):
-            if hasattr(kind, name):
+            if hasattr(kind, name) or kind is UnknownText:
                 return self.around.unknown(f"{kind.__name__}.{name}", "it is known only when it is launched")
             raise Raised(AttributeError(f"'{kind.__name__}' object has no attribute '{name}'", name=name))
         if name.startswith(("_", "preflight")):

@@ -31,7 +31,7 @@ from preflight_analysis.tracing.agents.fake_launch import (
 from preflight_analysis.tracing.agents.fake_launch.base import RECORDER, LaunchDescription
 from preflight_analysis.tracing.agents.fake_launch.main import _module_with, _of_ours
 from preflight_analysis.tracing.agents.fake_launch.serialize import Serializer, TooMuchError
-from preflight_analysis.tracing.reading import interpreter
+from preflight_analysis.tracing.reading import data_classes, interpreter, natives
 from preflight_analysis.tracing.reading.around import Around, Context, Services
 from preflight_analysis.tracing.reading.files import Disk, Files, Path
 from preflight_analysis.tracing.reading.values import FAKES, NotRead, Raised, whole
@@ -48,7 +48,7 @@ _LOCK = threading.RLock()
 """The fakes have what they remember in one place."""
 _FIRST = next(RECORDER.count)
 """The number of what is made first: importing the fakes makes some."""
-_OF_PROGRAM = interpreter.__file__
+_OF_PROGRAM = (interpreter.__file__, natives.__file__, data_classes.__file__)
 """In whose frames the program asks."""
 _OURS = re.compile(r"\bpreflight_analysis\.tracing\.(?:\w+\.)+")
 """Before the name of a class that takes the place of one of launch."""
@@ -160,7 +160,7 @@ class _Fakes:
             RECORDER.assumed_in.setdefault(variable, self._place())
 
     def _guess(self, name: str, frame: Any, answer: bool) -> bool:
-        if frame.f_code.co_filename != _OF_PROGRAM:
+        if frame.f_code.co_filename not in _OF_PROGRAM:
             return answer
         self._asked += 1
         if self._asked > MAX_ASKED:
@@ -314,7 +314,7 @@ def _in_fakes(around: Around) -> Iterator[None]:
         listdir=files.names,
         **{name: getattr(os, name) for name in ("fspath", "fsdecode", "PathLike", "sep", "pathsep")},
     )
-    instead = {name: Services() for name in _OF_SYSTEM}
+    instead: dict[str, Any] = {name: Services() for name in _OF_SYSTEM}
     instead |= dict.fromkeys(_BUILT_IN, _nothing_of_system)
     instead |= {
         "os": system,
