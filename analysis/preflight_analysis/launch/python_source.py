@@ -318,16 +318,16 @@ def _in_any_case(body: list[ast.stmt]) -> Iterator[ast.AST]:
 
 def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
     """The nodes of a statement or expression that are evaluated with it, once."""
-    yield node
-    inside: list[ast.AST] = list(ast.iter_child_nodes(node))
-    if isinstance(node, ast.BoolOp):
-        inside = [node.values[0]]
-    elif isinstance(node, ast.IfExp):
-        inside = [node.test]
-    elif isinstance(node, (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)):
-        inside = []
-    for each in inside:
-        yield from _evaluated(each)
+    waiting = [node]
+    while waiting:
+        each = waiting.pop()
+        yield each
+        if isinstance(each, ast.BoolOp):
+            waiting.append(each.values[0])
+        elif isinstance(each, ast.IfExp):
+            waiting.append(each.test)
+        elif not isinstance(each, (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)):
+            waiting.extend(ast.iter_child_nodes(each))
 
 
 def last_name(node: ast.expr) -> str:

@@ -114,7 +114,10 @@ def _in_sequence(source: PythonSource, elements: list[ast.expr]) -> Iterator[tup
 
 
 def _strings(text: str) -> list[tuple[int, str]]:
-    """The literals that an expression is made of, each with the offset of its end; none where one is not plain."""
+    """The literals that an expression is made of, each with the offset of its end; none where there is one alone, or
+    one is not plain."""
+    if text[:1] in ("'", '"') and text[-1] == text[0] and text.count(text[0]) == 2:
+        return []  # one alone
     lines = text.splitlines(keepends=True)
     found: list[tuple[int, str]] = []
     try:

@@ -27,6 +27,7 @@ _BEFORE = ("foxy", "galactic")
 """The distributions whose launch does not have these substitutions yet."""
 _CONDITIONS_ON = ("IfCondition", "UnlessCondition")
 _WITH_TEST = (ast.If, ast.IfExp, ast.While, ast.Assert)
+_LOOKED_AT = (ast.BoolOp, ast.UnaryOp, ast.IfExp, ast.If, ast.Compare, ast.JoinedStr, ast.Call)
 _TRUTHS = ("true", "false")
 _SAME_TEXT = ("casefold", "lower", "strip", "title", "upper")
 """Methods of a text that leave `true` and `false` what they are, but for the case of letters."""
@@ -92,7 +93,8 @@ class _Finder(ast.NodeVisitor):
         waiting: list[ast.AST] = [module]
         while waiting:
             node = waiting.pop()
-            self.visit(node)
+            if isinstance(node, _LOOKED_AT):
+                self.visit(node)
             if not isinstance(node, ast.JoinedStr):
                 waiting.extend(ast.iter_child_nodes(node))
 

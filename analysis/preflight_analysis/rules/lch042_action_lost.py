@@ -109,7 +109,7 @@ def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) ->
         target = statement.targets[0] if isinstance(statement, ast.Assign) and len(statement.targets) == 1 else None
         made = names.made_by(statement.value) if isinstance(statement, ast.Assign) else None
         own = target if isinstance(target, ast.Name) else None
-        for each in ast.walk(statement):
+        for each in ast.walk(statement) if waiting else ():
             if isinstance(each, ast.Name) and each is not own:
                 waiting.pop(each.id, None)
         if own is None:
