@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -559,11 +558,11 @@ class _Reader:
 @query(limit=MAX_READINGS_KEPT)
 def _reading(db: Database, workspace: Workspace, environment: Environment, line: str) -> CommandResult | None:
     """What reading a Python launch file says in the place of a run."""
-    from preflight_analysis.tracing.reading.answers import answer as read  # noqa: PLC0415 - who has none starts faster
+    from preflight_analysis.tracing.reading.answers import tell  # noqa: PLC0415 - who has none starts faster
 
     request = parse_request(line) if workspace.reads else None
-    answer = read(environment, workspace.sources, request) if request is not None else None
-    return CommandResult("done", json.dumps(answer)) if answer is not None else None
+    told = tell(environment, workspace.sources, request) if request is not None else None
+    return CommandResult("done", told) if told is not None else None
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)

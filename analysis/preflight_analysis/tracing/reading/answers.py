@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import posixpath
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -10,12 +11,20 @@ from preflight_analysis.documents.disk import Disk
 from preflight_analysis.environment.ament import DISTRIBUTIONS, distribution
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.tracing import ros2_recipe
-from preflight_analysis.tracing.reading.reader import Surroundings, read
+from preflight_analysis.tracing.reading import reader
+from preflight_analysis.tracing.reading.reader import Surroundings
 
 
 def answer(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> dict[str, Any] | None:
     """The answer to a request (`evaluation.ros2.python_runs.parse_request`) in an environment, with what of it only a
     run tells as `unread`; None where the file is not read at all."""
+    told = tell(environment, disk, request)
+    found: dict[str, Any] | None = None if told is None else json.loads(told)
+    return found
+
+
+def tell(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> str | None:
+    """The same as JSON."""
     packages = {name: package.share for name, package in environment.packages.items()} | request.get("packages", {})
     folders = tuple(dict.fromkeys(_module_folders(packages, disk)))
     shares = tuple(dict.fromkeys((*packages.values(), *folders)))
@@ -33,7 +42,7 @@ def answer(environment: Environment, disk: Disk, request: Mapping[str, Any]) -> 
         lambda: ros2_recipe.installed_for(environment, str(request["file"]), str(request["text"]), disk),
         tuple(root.rstrip("/") for root in shares),
     )
-    return read(job, around)
+    return reader.tell(job, around)
 
 
 def _module_folders(packages: Mapping[str, str], disk: Disk) -> Iterator[str]:

@@ -73,6 +73,13 @@ class Surroundings(NamedTuple):
 
 def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
     """The answer to a request (`evaluation.ros2.python_runs.parse_request`), None where it is not read at all."""
+    told = tell(job, within)
+    answer: dict[str, Any] | None = None if told is None else json.loads(told)
+    return answer
+
+
+def tell(job: Mapping[str, Any], within: Surroundings) -> str | None:
+    """The same as JSON."""
     tree = module_of(job["text"]) if len(job["text"]) <= MAX_TEXT else None
     if tree is None:
         return None
@@ -80,8 +87,7 @@ def read(job: Mapping[str, Any], within: Surroundings) -> dict[str, Any] | None:
         try:
             made = fakes.answer(tree, within)
             _measure(made)
-            answer: dict[str, Any] = json.loads(_OURS.sub("", json.dumps(made, default=_as_text)))
-            return answer
+            return _OURS.sub("", json.dumps(made, default=_as_text))
         except (NotRead, TooMuchError, RecursionError, MemoryError) as error:
             _log.debug("%s is not read: %s %s", job["file"], type(error).__name__, error)
             return None
