@@ -10,6 +10,7 @@ import ast
 import builtins
 import collections
 import copy
+import importlib
 import itertools
 import json
 import math
@@ -869,13 +870,16 @@ def is_quick(pattern: str, text: str, flags: int) -> bool:
     if flags & re.VERBOSE or "(?" in pattern.replace("(?:", "").replace("(?P<", ""):
         return False
     try:
-        tree = re._parser.parse(pattern)  # type: ignore[attr-defined]
-    except Exception:
+        tree = _PARSER.parse(pattern)
+    except (re.error, OverflowError):
         return True  # it raises
+    except RecursionError:
+        return False
     ways = _ways(tree, max(len(text), 2))
     return ways is not None and (len(text) + 1) * ways <= _MAX_PATTERN_WORK
 
 
+_PARSER: Any = importlib.import_module("re._parser" if sys.version_info >= (3, 11) else "sre_parse")
 _ONE_WAY = frozenset(("LITERAL", "NOT_LITERAL", "IN", "ANY", "AT", "CATEGORY", "RANGE"))
 
 
