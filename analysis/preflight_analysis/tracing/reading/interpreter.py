@@ -812,8 +812,6 @@ class Interpreter:
             return self._native(getattr, thing, name)
         if not may_have(thing, name):
             return self._not_had(thing, name)
-        if isinstance(thing, PurePosixPath) and not hasattr(thing, name) and hasattr(PosixPath, name):
-            return self.around.unknown(f"Path.{name}", "what is done with files is known only when it is launched")
         if isinstance(thing, UnknownText):
             return Wrapped(lambda args, kwargs: self.natives.of_unknown(thing, name, args, kwargs), name, name)
         found = self._native(getattr, thing, name)
@@ -823,6 +821,10 @@ class Interpreter:
 
     def _not_had(self, thing: Any, name: str) -> Any:
         kind = type(thing)
+        if isinstance(thing, PurePosixPath) and not name.startswith("_"):
+            if hasattr(PosixPath, name):
+                return self.around.unknown(f"Path.{name}", "what is done with files is known only when it is launched")
+            raise Raised(AttributeError(f"'PosixPath' object has no attribute '{name}'", name=name))
         if (kind in METHODS or thing is None) and not name.startswith("_"):
             if hasattr(kind, name) or kind is UnknownText:
                 return self.around.unknown(f"{kind.__name__}.{name}", "it is known only when it is launched")

@@ -136,6 +136,12 @@ _ITERATED = frozenset(
     )
 )
 SAFE_TYPES: frozenset[type] = frozenset((*METHODS, *_ITERATED, type(None), type(Ellipsis), complex, super, object))
+_OF_PATHS = _names(
+    "parts drive root anchor parents parent name suffix suffixes stem as_posix joinpath relative_to is_relative_to",
+    "with_name with_stem with_suffix is_absolute",
+    "exists is_file is_dir read_text open resolve absolute expanduser glob rglob iterdir cwd home",
+)
+"""Of `pathlib.Path`; the last line is of `files.Path`."""
 _OF_ERRORS = _names("args errno strerror filename name path msg code value lineno offset problem problem_mark")
 _OPERANDS: tuple[type, ...] = (
     *(str, bytes, int, float, complex, bool, type(None), list, tuple, dict, set, frozenset, collections.Counter),
@@ -176,8 +182,9 @@ def may_have(thing: Any, name: str) -> bool:
         known = METHODS.get(thing)
         if known is not None:
             return name in known or name in ("__name__", "__init__", "__qualname__")
-        is_open = is_fake(thing) or issubclass(thing, PurePosixPath)
-        return name in ("__name__", "__init__", "__qualname__") or (is_open and not name.startswith("_"))
+        is_open = is_fake(thing) and not name.startswith("_")
+        is_of_path = issubclass(thing, PurePosixPath) and name in _OF_PATHS
+        return is_open or is_of_path or name in ("__name__", "__init__", "__qualname__")
     if is_program_class(kind):
         if _is_special(name):
             return name == "__class__" or _is_in_program(kind, name) or (name == "__dict__" and _is_plain_class(kind))
@@ -192,7 +199,7 @@ def may_have(thing: Any, name: str) -> bool:
     if known is not None:
         return name in known
     if isinstance(thing, PurePosixPath):
-        return True
+        return name in _OF_PATHS
     return is_fake(kind) or (kind.__module__ == FILES and kind.__name__ in _FILES)
 
 
