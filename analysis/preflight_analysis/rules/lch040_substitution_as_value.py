@@ -27,7 +27,6 @@ _BEFORE = ("foxy", "galactic")
 """The distributions whose launch does not have these substitutions yet."""
 _CONDITIONS_ON = ("IfCondition", "UnlessCondition")
 _WITH_TEST = (ast.If, ast.IfExp, ast.While, ast.Assert)
-_LOOKED_AT = (ast.BoolOp, ast.UnaryOp, ast.IfExp, ast.If, ast.Compare, ast.JoinedStr, ast.Call)
 _TRUTHS = ("true", "false")
 _SAME_TEXT = ("casefold", "lower", "strip", "title", "upper")
 """Methods of a text that leave `true` and `false` what they are, but for the case of letters."""
@@ -279,6 +278,9 @@ class _Finder(ast.NodeVisitor):
 
     def _say(self, node: ast.expr, message: str, instead: _Instead | None = None) -> None:
         self.found.append((self._source.whole_span(node), message, instead))
+
+
+_LOOKED_AT = tuple(getattr(ast, name[6:]) for name in vars(_Finder) if name.startswith("visit_"))
 
 
 RULE = Rule(
