@@ -5,22 +5,25 @@
 Through the real server process, over its standard input and output. Each round inserts or removes one line break near
 the start of the file, so that everything below it moves; then a letter of a topic's name, in a launch where most topics
 have one end only and each is compared with the others of its type, and one that is in the name of each. Of ROS 2 it is
-a launch of as many nodes in 60 included files, in XML and in YAML. The baselines are measured in the same rounds: a
-request that the server answers without looking at anything, and the time that `xml.dom.minidom` (PyYAML for YAML) takes
-to parse the same text. The figures are the median and the 95th percentile in milliseconds, and the medians' ratio to
-each baseline.
+a launch of as many nodes in 60 included files, in XML and in YAML; then one file of 300 lines, in XML and in Python,
+which is read and not run, and of which a letter in the name of a node changes. The baselines are measured in the same
+rounds: a request that the server answers without looking at anything, and the time that `xml.dom.minidom` (PyYAML for
+YAML, `ast` for Python) takes to parse the same text. The figures are the median and the 95th percentile in
+milliseconds, and the medians' ratio to each baseline.
 It fails where a letter of a topic's name takes more than `RENAMED_OVER_MOVED` times as long as lines that move, in the
 same file.
 """
 
 from __future__ import annotations
 
+import ast
 import shutil
 import statistics
 import tempfile
 import time
 import xml.dom.minidom
 from collections.abc import Callable
+from functools import partial
 from itertools import islice, permutations
 from pathlib import Path
 from string import ascii_letters
@@ -66,6 +69,45 @@ ROS2_FILES = {
     ".launch.xml": '<launch>\n\n  <arg name="rate" default="5"/>\n{body}</launch>\n',
     ".launch.yaml": "launch:\n\n  - arg: {{name: rate, default: '5'}}\n{body}",
 }
+ROS2_ONE_FILE = {
+    ".launch.xml": (
+        '<launch>\n\n  <arg name="rate" default="5"/>\n{body}</launch>\n',
+        """  <node pkg="fleet" exec="talker" name="talker_{n}" namespace="robot_{g}">
+    <param name="rate" value="$(var rate)"/>
+    <param name="frame" value="base_{n}"/>
+    <remap from="chatter" to="/robot_{g}/words"/>
+    <remap from="scan" to="/robot_{g}/scan"/>
+
+  </node>
+""",
+        42,
+    ),
+    ".launch.py": (
+        """from launch import LaunchDescription
+
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    rate = LaunchConfiguration("rate")
+    return LaunchDescription([
+        DeclareLaunchArgument("rate", default_value="5"),
+{body}    ])
+""",
+        """        Node(
+            package="fleet",
+            executable="talker",
+            name="talker_{n}",
+            namespace="robot_{g}",
+            parameters=[{{"rate": rate, "frame": "base_{n}"}}],
+            remappings=[("chatter", "/robot_{g}/words"), ("scan", "/robot_{g}/scan")]),
+""",
+        41,
+    ),
+}
+"""The same nodes in 300 lines: the file, a node, and how many."""
 ROS2_PACKAGE = """<package format="3"><name>fleet</name><version>0.1.0</version><description>d</description>
 <maintainer email="a@example.org">a</maintainer><license>MIT</license>
 <export><build_type>ament_python</build_type></export></package>
@@ -124,6 +166,17 @@ def fleet(workspace: Path, suffix: str, count: int) -> Path:
     return root
 
 
+def one_file(workspace: Path, suffix: str) -> Path:
+    """A launch of ROS 2 of 300 lines."""
+    whole, node, count = ROS2_ONE_FILE[suffix]
+    folder = workspace / "fleet" / "launch"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder.parent / "package.xml").write_text(ROS2_PACKAGE)
+    path = folder / f"one{suffix}"
+    path.write_text(whole.format(body="".join(node.format(n=n, g=n % 10) for n in range(count))))
+    return path
+
+
 def line_break(version: int) -> dict[str, object]:
     """Inserted in even versions, removed in odd ones."""
     start = {"line": 1, "character": 0}
@@ -143,6 +196,15 @@ def first_robot(version: int) -> dict[str, object]:
     return {"range": {"start": start, "end": end}, "text": ascii_letters[version % len(ascii_letters)]}
 
 
+def a_name(path: Path, version: int) -> dict[str, object]:
+    """A letter in the name of the first node of `one_file` becomes another one, and none that it was lately."""
+    lines = path.read_text().splitlines()
+    line = next(n for n, text in enumerate(lines) if "talker_0" in text)
+    column = lines[line].index("talker_0")
+    start, end = {"line": line, "character": column}, {"line": line, "character": column + 1}
+    return {"range": {"start": start, "end": end}, "text": ascii_letters[version % len(ascii_letters)]}
+
+
 def measure(
     name: str,
     path: Path,
@@ -156,8 +218,8 @@ def measure(
     """Print the figures of one case. Returns the last one: the median over the time to parse the text."""
     client = Client(path.parents[1], home, trusted=trusted)
     uri = path.as_uri()
-    is_yaml = path.suffix == ".yaml"
-    item = {"uri": uri, "languageId": "yaml" if is_yaml else "roslaunch", "version": 1, "text": text}
+    language = {".yaml": "yaml", ".py": "python"}.get(path.suffix, "roslaunch")
+    item = {"uri": uri, "languageId": language, "version": 1, "text": text}
     client.notify("textDocument/didOpen", {"textDocument": item})
     if trusted:  # until the runs are done
         client.diagnostics(lambda p: p["uri"] == uri and any(d["code"] == "TOP001" for d in p["diagnostics"]))
@@ -178,8 +240,10 @@ def measure(
         trips.append(time.perf_counter() - began)
 
         began = time.perf_counter()
-        if is_yaml:
+        if language == "yaml":
             yaml.safe_load(text)
+        elif language == "python":
+            ast.parse(text)
         else:
             xml.dom.minidom.parseString(text.encode())
         parses.append(time.perf_counter() - began)
@@ -216,6 +280,9 @@ def main() -> None:
         for suffix in ROS2_NODES:
             root = fleet(workspace, suffix, nodes)
             measure(f"{nodes} nodes of ROS 2, {suffix}", root, root.read_text(), home, rounds)
+        for suffix in ROS2_ONE_FILE:
+            root = one_file(workspace, suffix)
+            measure(f"300 lines of ROS 2, {suffix}", root, root.read_text(), home, rounds, edit=partial(a_name, root))
     if renamed > RENAMED_OVER_MOVED * moved:
         raise SystemExit(f"a renamed topic takes {renamed / moved:.1f} times as long as moved lines")
 

@@ -130,6 +130,43 @@ PYTHON = (
     "*",
     "**",
 )
+READ = [
+    b"""import functools, itertools, json, os, re, yaml
+from launch import LaunchDescription
+from launch.actions import *
+from launch.substitutions import *
+from launch_ros.actions import Node
+
+class Robot:
+    def __init__(self, name, *more, **values):
+        self.name, self.more, self.values = name, more, values
+    def __str__(self):
+        return f"{self.name:>8}{self.more!r}"
+    def __eq__(self, other):
+        return self.name == other.name
+
+def nodes(context, *args):
+    robots = [Robot(str(i), *range(i), a=i ** 2) for i in range(3) if i % 2 == 0 or i > 1]
+    for robot in sorted(robots, key=lambda each: each.name):
+        yield Node(package="p", executable="%s_%03d" % (robot, 1), parameters=[{**robot.values, "x": [1, 2][-1:]}])
+
+def generate_launch_description():
+    try:
+        with open(os.path.join(os.path.dirname(__file__), "x.yaml")) as file:
+            values = yaml.safe_load(file)["a"]
+    except (KeyError, OSError) as error:
+        values = {"{0.name}/{1[0]}".format(Robot("r"), [1]): str(error).split()[0]}
+    while len(values) < 3:
+        values[len(values)] = functools.reduce(lambda a, b: a + b, itertools.chain("ab", values), "")
+    text = re.sub("a+", "b", "-".join(map(str, values)))
+    condition = PythonExpression(["'", LaunchConfiguration("a"), "' == 'b' and ", text])
+    return LaunchDescription([DeclareLaunchArgument("a", default_value=text), OpaqueFunction(function=nodes)])
+""",
+]
+READ_WORDS = (
+    *(".__class__", ".format(", ".perform(", "class A(Node):", "try:", "except:", "for x in ", "while ", "yield "),
+    *("'%s' % ", "map(", "sorted(", "range(", "10 ** 9", "open(", "yaml.safe_load(", "re.match(", "iter(", "x[:] = "),
+)
 CPP = ("#include ", "nh.advertise<", "create_publisher<", "template<", "#define ", 'R"x(', "operator", "for(", "::")
 CMAKE = (
     "add_executable(",

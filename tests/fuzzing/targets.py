@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from hypothesis import strategies as st
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.reading import Unreadable, _decode
 from preflight_analysis.documents.span import LineIndex, Location, Span
@@ -82,6 +83,7 @@ from preflight_analysis.tracing import node_recipe
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.tracing.observation import observe
+from preflight_analysis.tracing.reading import reader
 from preflight_analysis.tracing.recipe import Recipe
 from preflight_analysis.tracing.request import Component, TraceRequest
 from preflight_analysis.tracing.run import RawRun, _take
@@ -296,6 +298,7 @@ def place(generation: int) -> Place:
 class _Answers:
     """Every command line, and every run of a Python launch file, gave this."""
 
+    reader = None
     edition = 0
     placeholder = None
 
@@ -395,6 +398,25 @@ def ros2_yaml(data: bytes) -> None:
 
 def ros2_python(data: bytes) -> None:
     look(2, {"launch/x.launch.py": text_of(data)}, "launch/x.launch.py")
+
+
+class _Raises(logging.Handler):
+    """What is logged where a reading raised."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        if record.exc_info is not None and record.exc_info[1] is not None:
+            raise record.exc_info[1]
+
+
+def python_reading(data: bytes) -> None:
+    """A Python launch file that is read, and then each function that it leaves to be called."""
+    there = place(2)
+    share = there.environment.packages["p"].share
+    job = {"file": f"{share}/launch/x.launch.py", "text": text_of(data), "env": {}, "calls": [], "assumed": []}
+    log = logging.getLogger(reader.__name__)
+    log.handlers[:] = [_Raises()]
+    within = reader.Surroundings(Disk(), (str(there.folder),), (share,), {}, lambda: [])
+    check_json(reader.read({**job, "packages": {"p": share}}, within))
 
 
 _CALLER = "from p import other\ndef generate_launch_description():\n    return LaunchDescription([Node(package='p')])\n"
@@ -725,6 +747,12 @@ TARGETS = (
         (*seeds.YAML, *seeds.ROS2),
     ),
     Target("ros2-python", ros2_python, lambda: seeds.files("ros2/**/*launch.py"), seeds.PYTHON),
+    Target(
+        "python-reading",
+        python_reading,
+        lambda: [*seeds.files("ros2/**/*launch.py"), *seeds.READ],
+        (*seeds.PYTHON, *seeds.READ_WORDS),
+    ),
     Target("launch-answers", launch_answers, lambda: seeds.json_lines(*seeds.ANSWERS), seeds.JSON),
     Target("ros1-params", ros1_params, lambda: seeds.files("ros1/**/*.yaml"), seeds.YAML),
     Target(

@@ -358,7 +358,7 @@ def test_a_python_launch_file_that_was_not_run_tells_of_its_nodes(tmp_path: Path
     text = _PYTHON.replace("SIM", "false") + PACKAGE
     said, led_to = _said(tmp_path, text, '"tal$0ker')
     assert said[0] == "**/node** `p/talker` — [talker.py](file:///p/p/talker.py)"
-    assert said[-1] == "It is not known whether this launch takes it: condition `IfCondition(sim)` (`if`) is not known"
+    assert said[-1] == "Left out of this launch: condition `IfCondition(sim)` (`if`) is false"
     assert led_to == ["p/p/talker.py:9 def start():"]
 
 

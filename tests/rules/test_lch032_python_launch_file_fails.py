@@ -28,6 +28,7 @@ HELPER = "def made(n):\n    return {}[n]\n"
 class Answers:
     """The answer of all runs."""
 
+    reader = None
     edition = 0
     placeholder: str | None = None
 

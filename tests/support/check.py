@@ -162,7 +162,7 @@ def analyse(
     for path, text in fixture.files.items():
         sources.open(path, text)
     results = {line: _result(data) for line, data in fixture.commands.items()}
-    workspace = _Workspace(environment_of(fixture), sources, "/", KnownResults(None, results, {}, None))
+    workspace = _Workspace(environment_of(fixture), sources, "/", KnownResults(None, results, {}, None), reads=False)
     analysis = workspace.evaluated(fixture.root, args)
     if branches:
         analysis = analysis.with_branches(workspace.branches(analysis))

@@ -1,4 +1,4 @@
-"""Python launch files of a small workspace, run in the sandbox and evaluated."""
+"""Python launch files of a small workspace, run in the sandbox and evaluated. What is read of them has to agree."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from preflight_analysis.workspace.commands import CommandResults
 from preflight_analysis.workspace.resolve_commands import Resolving, resolve_commands
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Analysis, Workspace
+
+from support.readings import assert_readings_agree
 
 MANIFEST = """<package format="3"><name>{}</name><version>0.1.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>BSD</license><export><build_type>ament_python</build_type></export>
@@ -58,11 +60,15 @@ class PythonHarness:
         given = {name: value for name, value in {**ros, **(variables or {})}.items() if value}
         environment = detect_environment(None, given, (str(self.folder / "src"),), underlay)
         results = CommandResults(lambda: why_not)
-        self.workspace = workspace = Workspace(environment, sources or Sources(), str(self.folder), results)
+        self.workspace = workspace = Workspace(
+            environment, sources or Sources(), str(self.folder), results, reads=False
+        )
         if why_not is not None:
             return workspace.static(str(path), args)
         runner = CommandRunner(environment, str(self.folder), CommandCache(self.folder / "cache"))
-        return resolve_commands(workspace, str(path), args or {}, Resolving(results, runner))
+        analysis = resolve_commands(workspace, str(path), args or {}, Resolving(results, runner))
+        assert_readings_agree(analysis.tree, workspace.environment_of(str(path)), workspace.sources)
+        return analysis
 
 
 def line_of(analysis: Analysis, index: int = 0) -> tuple[str, int]:

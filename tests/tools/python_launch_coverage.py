@@ -33,7 +33,7 @@ from preflight_analysis.workspace.workspace import Workspace
 
 from tools.ros2_python_corpus import take_over
 
-_DEFINES = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
+DEFINES = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
 
 
 def main() -> int:
@@ -94,7 +94,7 @@ def _trees(folder: Path, cache: Path) -> Iterator[tuple[str, LaunchTree]]:
     paths = [
         str(path)
         for path in sorted(folder.rglob("*.py"))
-        if path.is_file() and _DEFINES.search(path.read_text(encoding="utf-8", errors="replace"))
+        if path.is_file() and DEFINES.search(path.read_text(encoding="utf-8", errors="replace"))
     ]
     if not paths:
         return

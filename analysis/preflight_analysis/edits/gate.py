@@ -115,7 +115,7 @@ def _of_python(text: str) -> tuple[Mistake, ...]:
     if source.problem is not None or source.module is None:
         message, span = source.problem or ("no program", None)
         return ((span.start if span is not None else 0, message),)
-    calls = (node for node in ast.walk(source.module) if isinstance(node, ast.Call))
+    calls = (node for node in source.nodes if isinstance(node, ast.Call))
     # What the compiler refuses and the parser takes.
     return tuple(sorted(each for call in calls for each in _given_twice(source, call)))
 

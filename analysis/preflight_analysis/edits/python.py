@@ -414,9 +414,9 @@ class PythonWriter(HashComments):
     def _calls(self) -> Iterator[ast.Call]:
         return (node for node in self._nodes if isinstance(node, ast.Call))
 
-    @cached_property
-    def _nodes(self) -> list[ast.AST]:
-        return list(ast.walk(self._source.module)) if self._source.module is not None else []
+    @property
+    def _nodes(self) -> tuple[ast.AST, ...]:
+        return self._source.nodes if self._source.module is not None else ()
 
     @cached_property
     def _parents(self) -> dict[int, ast.AST]:

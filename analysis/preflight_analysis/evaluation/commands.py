@@ -43,6 +43,16 @@ def named_paths(words: Iterable[str], cwd: str) -> Iterator[str]:
                 yield os.path.normpath(os.path.join(cwd, os.path.expanduser(candidate)))
 
 
+class Reader(Protocol):
+    """Reads Python launch files in the place of a run."""
+
+    def reading(self, line: str) -> CommandResult | None:
+        """The answer to a request for a run, by reading the file; None where it is not read at all."""
+
+    def texts_before(self, path: str) -> tuple[str, ...]:
+        """Texts that an open file had before and that parse, the latest first."""
+
+
 class Commands(Protocol):
     """The results that are known."""
 
@@ -62,6 +72,10 @@ class Commands(Protocol):
     def answering(self, question: str) -> tuple[str, ...]:
         """The lines of the runs of Python launch files that answer a question in some context, the latest last."""
 
+    @property
+    def reader(self) -> Reader | None:
+        """What reads Python launch files that were not run; None where nothing does."""
+
     def snapshot(self) -> Commands:
         """The results as they are now, for another process."""
 
@@ -71,6 +85,7 @@ class NoResults:
 
     edition = 0
     placeholder: str | None = None
+    reader: Reader | None = None
 
     def result(self, line: str) -> CommandResult | None:
         """None."""
@@ -94,6 +109,7 @@ class KnownResults:
     lines_answering: Mapping[str, tuple[str, ...]]
     otherwise: CommandResult | None
     edition: int = 0
+    reader: Reader | None = None
 
     def result(self, line: str) -> CommandResult | None:
         """The result of a command line."""
@@ -132,9 +148,10 @@ def lines_answering(db: Database, commands: Commands, question: str) -> tuple[st
 class QueriedCommands:
     """The same results for queries, which depend on those that they ask for. Implements `Commands`."""
 
-    def __init__(self, db: Database, commands: Commands) -> None:
+    def __init__(self, db: Database, commands: Commands, reader: Reader | None) -> None:
         self._db = db
         self._commands = commands
+        self.reader = reader
         self.placeholder = commands.placeholder
 
     @property

@@ -40,6 +40,8 @@ class _Reader:
         self._source, self._python = source, python
         self._keys: dict[int, dict[str, tuple[ast.expr, ast.expr | None]]] = {}
         """What `_pairs` says of an argument, by the keys: looked through once, for all its children."""
+        self._wholes: dict[tuple[int, str], ast.expr | None] = {}
+        """The argument of a call that children of a kind stand in."""
 
     def actions(self, records: object, around: Span, parent: _Parent | None, depth: int) -> tuple[Action, ...]:
         if not isinstance(records, list) or depth > MAX_DEPTH:
@@ -79,14 +81,17 @@ class _Reader:
         elif line:
             kind_span = head = span = source.line_span(line)
         else:
-            kind_span = head = span = self._part_span(kind, record, parent) or around
+            kind_span = head = span = around
+        pair = self._pair(kind, record, parent) if call is None and parent is not None else None
+        if pair is not None and not line:
+            kind_span = head = span = source.span(pair[0])
         made_by = self._python.by_kind.get(kind, _NO_CLASS)
         given = _arguments(call, made_by) if call is not None else {}
         attributes = []
         for name, value in _items(record.get("a")):
             node = given.get(made_by.parameter(name)) if call is not None else None
-            if call is None and parent is not None:
-                node = self._pair_node(kind, record, name, parent)
+            if pair is not None:
+                node = pair[1] if name in ("value", "to") and pair[1] is not None else pair[0]
             attributes.append(self._attribute(name, value, node, kind_span, call))
         if isinstance(record.get("error"), str):
             attributes.append(self._text("error", record["error"], kind_span))
@@ -150,25 +155,9 @@ class _Reader:
         text = f"$({shown})"
         return Substitution(command, span, arguments, inside, text, span, words)
 
-    def _part_span(self, kind: str, record: dict[str, Any], parent: _Parent | None) -> Span | None:
-        """Of a child that is no object: its pair in the parent's argument, or that argument."""
-        node = self._pair_node(kind, record, None, parent) if parent is not None else None
-        return self._source.span(node) if node is not None else None
-
-    def _pair_node(
-        self, kind: str, record: dict[str, Any], attribute: str | None, parent: _Parent | None
-    ) -> ast.expr | None:
-        if parent is None:
-            return None
-        keywords = _keywords(parent.call)
-        whole = parent.part or next(
-            (
-                keywords[name]
-                for name in (self._python.parameters.get(kind, kind), parent.made_by.parameter(kind))
-                if name in keywords
-            ),
-            None,
-        )
+    def _pair(self, kind: str, record: dict[str, Any], parent: _Parent) -> tuple[ast.expr, ast.expr | None] | None:
+        """Of a child that is no object: its key and its value in the parent's argument, or that argument alone."""
+        whole = parent.part or self._whole(kind, parent)
         if whole is None:
             return None
         given = record.get("a")
@@ -180,10 +169,15 @@ class _Reader:
             for first, second in self._pairs(whole):
                 if isinstance(first, ast.Constant) and isinstance(first.value, str):
                     known.setdefault(first.value, (first, second))
-        found = self._keys[id(whole)].get(key or "")
-        if found is None:
-            return whole
-        return found[1] if attribute in ("value", "to") and found[1] is not None else found[0]
+        return self._keys[id(whole)].get(key or "") or (whole, None)
+
+    def _whole(self, kind: str, parent: _Parent) -> ast.expr | None:
+        key = id(parent.call), kind
+        if key not in self._wholes:
+            keywords = _keywords(parent.call)
+            names = (self._python.parameters.get(kind, kind), parent.made_by.parameter(kind))
+            self._wholes[key] = next((keywords[name] for name in names if name in keywords), None)
+        return self._wholes[key]
 
     def _pairs(self, node: ast.expr) -> Iterator[tuple[ast.expr, ast.expr | None]]:
         """Keys with values in what a call is given: of maps and of pairs; texts by themselves."""

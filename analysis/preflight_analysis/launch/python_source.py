@@ -20,6 +20,7 @@ MAX_CHARACTERS = 500_000
 """Of a text that is read as Python."""
 _NAME_AND_BRACKET = re.compile(r"[\w.]+(\s*\()?")
 _NAME = re.compile(r"\b[A-Za-z_]")
+_QUOTES = re.compile(r"[A-Za-z]{0,2}(\"\"\"|'''|\"|')")
 _MAX_CALLS = 5_000
 _MAX_PARSED = 5_000_000
 """Characters of all calls together that are tried to be read one by one: they may stand in each other."""
@@ -41,17 +42,99 @@ class _Mistake:
     """From 1 on; None where it is the whole text."""
 
 
+class _Program:
+    """What there is to read of a text, whoever asks."""
+
+    def __init__(self, module: ast.Module | None, pieces: tuple[ast.AST, ...]) -> None:
+        self.module, self.pieces = module, pieces
+        self.spans: dict[int, Span] = {}
+        """Where nodes stand that were asked for, by `id`."""
+
+    @cached_property
+    def nodes(self) -> tuple[ast.AST, ...]:
+        """All that is in the pieces."""
+        return tuple(node for piece in self.pieces for node in ast.walk(piece))
+
+    @cached_property
+    def calls(self) -> dict[int, list[ast.Call]]:
+        """By their lines."""
+        found: dict[int, list[ast.Call]] = {}
+        for node in self.nodes:
+            if isinstance(node, ast.Call):
+                found.setdefault(node.lineno, []).append(node)
+        return found
+
+    @cached_property
+    def assigned(self) -> dict[str, ast.expr]:
+        """What names stand for that are assigned in one place only."""
+        found: dict[str, list[ast.expr]] = {}
+        for node in self.nodes:
+            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+                found.setdefault(node.targets[0].id, []).append(node.value)
+            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
+                found.setdefault(node.target.id, []).append(node.value)
+            elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
+                found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
+        return {name: values[0] for name, values in found.items() if len(values) == 1}
+
+    @cached_property
+    def sure(self) -> frozenset[int]:
+        """By `id`: what is evaluated whatever happens, as it stands in `generate_launch_description`, or in a function
+        that is called there or given to an `OpaqueFunction`, and not below `if` and the like."""
+        found: set[int] = set()
+        body = self.module.body if self.module is not None else []
+        functions = {each.name: each for each in body if isinstance(each, ast.FunctionDef)}
+        called = ["generate_launch_description"]
+        while called:
+            function = functions.pop(called.pop(), None)
+            for node in _in_any_case(function.body) if function is not None else ():
+                found.add(id(node))
+                if isinstance(node, ast.Call):
+                    called += [last_name(node.func)] if isinstance(node.func, ast.Name) else []
+                    called += [last_name(k.value) for k in node.keywords if k.arg == "function"]
+        return frozenset(found)
+
+    @cached_property
+    def imported(self) -> dict[str, str]:
+        """What names stand for that an import binds, and nothing else in the file does: `Node` for
+        `launch_ros.actions.Node`, `launch` for itself."""
+        bound: dict[str, list[str | None]] = {}
+        for node in self.nodes if self.module is not None else ():
+            if isinstance(node, ast.ImportFrom):
+                for alias in node.names:
+                    full = f"{node.module}.{alias.name}" if node.module and not node.level else None
+                    bound.setdefault(alias.asname or alias.name, []).append(full)
+            elif isinstance(node, ast.Import):
+                for alias in node.names:
+                    top = alias.name.partition(".")[0]
+                    bound.setdefault(alias.asname or top, []).append(alias.name if alias.asname else top)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, (ast.Store, ast.Del)):
+                bound.setdefault(node.id, []).append(None)
+            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                bound.setdefault(node.name, []).append(None)
+            elif isinstance(node, ast.arg):
+                bound.setdefault(node.arg, []).append(None)
+        return {name: full[0] for name, full in bound.items() if len(set(full)) == 1 and full[0] is not None}
+
+
 @lru_cache(maxsize=8)
-def _parsed(text: str) -> ast.Module | _Mistake:
+def _parsed(text: str) -> _Program | _Mistake:
     """The syntax tree, or why there is none. One text is asked for several times, and the trees are not changed."""
     if len(text) > MAX_CHARACTERS:
         return _Mistake(f"files of more than {MAX_CHARACTERS:,} characters are not read as Python")
     try:
-        return ast.parse(text)
+        module = ast.parse(text)
+        return _Program(module, (module,))
     except SyntaxError as error:
         return _Mistake(error.msg or "invalid syntax", error.lineno or 1, error.offset or 1)
     except (ValueError, RecursionError, MemoryError) as error:
         return _Mistake(str(error) or type(error).__name__)
+
+
+def module_of(text: str) -> ast.Module | None:
+    """The syntax tree of a text that parses."""
+    parsed = _parsed(text)
+    return parsed.module if isinstance(parsed, _Program) else None
 
 
 class PythonSource:
@@ -64,14 +147,38 @@ class PythonSource:
         self._bytes = ByteOffsets(text)
         self.problem: tuple[str, Span] | None = None
         self.module: ast.Module | None = None
-        parsed = _parsed(text)
-        if isinstance(parsed, ast.Module):
-            self.module = parsed
+        self._parsed = parsed = _parsed(text)
+        if isinstance(parsed, _Program):
+            self.module = parsed.module
         else:
             start = 0
             if parsed.line is not None and parsed.column is not None:
                 start = lines.line_start(max(parsed.line - 1, 0)) + max(parsed.column - 1, 0)
             self.problem = (parsed.message, Span(min(start, len(text)), min(start + 1, len(text))))
+
+    @cached_property
+    def _program(self) -> _Program:
+        return self._parsed if isinstance(self._parsed, _Program) else _Program(None, self.pieces)
+
+    @property
+    def nodes(self) -> tuple[ast.AST, ...]:
+        """All that is in the pieces."""
+        return self._program.nodes
+
+    @property
+    def assigned(self) -> dict[str, ast.expr]:
+        """What names stand for that are assigned in one place only."""
+        return self._program.assigned
+
+    @property
+    def sure(self) -> frozenset[int]:
+        """By `id`: what is evaluated whatever happens (`_Program.sure`)."""
+        return self._program.sure
+
+    @property
+    def imported(self) -> dict[str, str]:
+        """What names stand for that an import binds, and nothing else in the file does."""
+        return self._program.imported
 
     @cached_property
     def pieces(self) -> tuple[ast.AST, ...]:
@@ -124,29 +231,6 @@ class PythonSource:
                 each.lineno += line
                 each.end_lineno = (each.end_lineno or 1) + line
 
-    @cached_property
-    def _calls(self) -> dict[int, list[ast.Call]]:
-        found: dict[int, list[ast.Call]] = {}
-        for piece in self.pieces:
-            for node in ast.walk(piece):
-                if isinstance(node, ast.Call):
-                    found.setdefault(node.lineno, []).append(node)
-        return found
-
-    @cached_property
-    def assigned(self) -> dict[str, ast.expr]:
-        """What names stand for that are assigned in one place only."""
-        found: dict[str, list[ast.expr]] = {}
-        for piece in self.pieces:
-            for node in ast.walk(piece):
-                if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
-                    found.setdefault(node.targets[0].id, []).append(node.value)
-                elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.value is not None:
-                    found.setdefault(node.target.id, []).append(node.value)
-                elif isinstance(node, (ast.AugAssign, ast.For)) and isinstance(node.target, ast.Name):
-                    found.setdefault(node.target.id, []).extend([ast.Constant(None)] * 2)
-        return {name: values[0] for name, values in found.items() if len(values) == 1}
-
     def resolved(self, node: ast.expr) -> ast.expr:
         """What a name stands for; anything else is itself."""
         for _ in range(10):
@@ -155,45 +239,6 @@ class PythonSource:
                 break
             node = known
         return node
-
-    @cached_property
-    def sure(self) -> frozenset[int]:
-        """By `id`: what is evaluated whatever happens, as it stands in `generate_launch_description`, or in a function
-        that is called there or given to an `OpaqueFunction`, and not below `if` and the like."""
-        found: set[int] = set()
-        body = self.module.body if self.module is not None else []
-        functions = {each.name: each for each in body if isinstance(each, ast.FunctionDef)}
-        called = ["generate_launch_description"]
-        while called:
-            function = functions.pop(called.pop(), None)
-            for node in _in_any_case(function.body) if function is not None else ():
-                found.add(id(node))
-                if isinstance(node, ast.Call):
-                    called += [last_name(node.func)] if isinstance(node.func, ast.Name) else []
-                    called += [last_name(k.value) for k in node.keywords if k.arg == "function"]
-        return frozenset(found)
-
-    @cached_property
-    def imported(self) -> dict[str, str]:
-        """What names stand for that an import binds, and nothing else in the file does: `Node` for
-        `launch_ros.actions.Node`, `launch` for itself."""
-        bound: dict[str, list[str | None]] = {}
-        for node in ast.walk(self.module) if self.module is not None else ():
-            if isinstance(node, ast.ImportFrom):
-                for alias in node.names:
-                    full = f"{node.module}.{alias.name}" if node.module and not node.level else None
-                    bound.setdefault(alias.asname or alias.name, []).append(full)
-            elif isinstance(node, ast.Import):
-                for alias in node.names:
-                    top = alias.name.partition(".")[0]
-                    bound.setdefault(alias.asname or top, []).append(alias.name if alias.asname else top)
-            elif isinstance(node, ast.Name) and isinstance(node.ctx, (ast.Store, ast.Del)):
-                bound.setdefault(node.id, []).append(None)
-            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-                bound.setdefault(node.name, []).append(None)
-            elif isinstance(node, ast.arg):
-                bound.setdefault(node.arg, []).append(None)
-        return {name: full[0] for name, full in bound.items() if len(set(full)) == 1 and full[0] is not None}
 
     def full_name(self, node: ast.expr) -> str | None:
         """`launch_ros.actions.Node` of what an import binds; None of anything else."""
@@ -204,7 +249,7 @@ class PythonSource:
 
     def call(self, line: int, column: int, name: str) -> ast.Call | None:
         """The call of a class at a place (column in bytes, -1 if it is not known)."""
-        at = [c for c in self._calls.get(line, ()) if column in (-1, c.col_offset)]
+        at = [c for c in self._program.calls.get(line, ()) if column in (-1, c.col_offset)]
         return next(
             (c for c in at if last_name(c.func) == name), at[0] if len(at) == 1 or (at and column >= 0) else None
         )
@@ -225,10 +270,17 @@ class PythonSource:
         return Span(start, self._offset(node.end_lineno or node.lineno, node.end_col_offset or node.col_offset))
 
     def _span(self, node: ast.expr | ast.keyword) -> Span:
+        spans = self._program.spans
+        found = spans.get(id(node))
+        if found is None:
+            found = spans[id(node)] = self._span_within(node)
+        return found
+
+    def _span_within(self, node: ast.expr | ast.keyword) -> Span:
         start, end = (whole := self._whole_span(node)).start, whole.end
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.lineno == node.end_lineno:
             written = self.text[start:end]
-            quoted = re.match(r"[A-Za-z]{0,2}(\"\"\"|'''|\"|')", written)
+            quoted = _QUOTES.match(written)
             if quoted and len(written) >= quoted.end() + len(quoted[1]):
                 return Span(start + quoted.end(), end - len(quoted[1]))
         return whole
@@ -251,7 +303,7 @@ class PythonSource:
         return self._now(Span(whole.start + len(text) - len(text.lstrip()), whole.start + len(text.rstrip())))
 
     def _offset(self, line: int, column: int) -> int:
-        start, end = self.lines.line_span(line - 1)
+        start, end = self.lines.line_start(line - 1), self.lines.line_start(line)
         return min(self._bytes.offset(self._bytes.bytes_before(start) + column), end)
 
 
@@ -266,16 +318,16 @@ def _in_any_case(body: list[ast.stmt]) -> Iterator[ast.AST]:
 
 def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
     """The nodes of a statement or expression that are evaluated with it, once."""
-    yield node
-    inside: list[ast.AST] = list(ast.iter_child_nodes(node))
-    if isinstance(node, ast.BoolOp):
-        inside = [node.values[0]]
-    elif isinstance(node, ast.IfExp):
-        inside = [node.test]
-    elif isinstance(node, (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)):
-        inside = []
-    for each in inside:
-        yield from _evaluated(each)
+    waiting = [node]
+    while waiting:
+        each = waiting.pop()
+        yield each
+        if isinstance(each, ast.BoolOp):
+            waiting.append(each.values[0])
+        elif isinstance(each, ast.IfExp):
+            waiting.append(each.test)
+        elif not isinstance(each, (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)):
+            waiting.extend(ast.iter_child_nodes(each))
 
 
 def last_name(node: ast.expr) -> str:

@@ -67,13 +67,12 @@ def read_ros2_python(source: Text, classes: PythonClasses) -> LaunchFile:
 
 def _named(source: PythonSource) -> Iterator[Substitution]:
     """The names of arguments, packages, variables and components, wherever they are written."""
-    for piece in source.pieces:
-        for node in ast.walk(piece):
-            found = _name_in(node) or _component_in(node)
-            if found is not None:
-                command, name, at = found
-                span = source.span(at)
-                yield Substitution(command, span, name, span, f"$({command} {name})", span, ((Literal(name, span),),))
+    for node in source.nodes:
+        found = _name_in(node) or _component_in(node)
+        if found is not None:
+            command, name, at = found
+            span = source.span(at)
+            yield Substitution(command, span, name, span, f"$({command} {name})", span, ((Literal(name, span),),))
 
 
 def _component_in(node: ast.AST) -> tuple[str, str, ast.expr] | None:
@@ -115,7 +114,7 @@ class _Reader:
 
     def actions(self) -> list[dict[str, Any]]:
         """All actions that are written, each once, those within others inside of them."""
-        calls = [c for piece in self._source.pieces for c in ast.walk(piece) if isinstance(c, ast.Call)]
+        calls = [node for node in self._source.nodes if isinstance(node, ast.Call)]
         known = [call for call in calls if last_name(call.func) in self._classes.kinds]
         known.sort(key=lambda call: (call.lineno, call.col_offset))
         inner = {id(each) for call in known for each in self._inside(call)}

@@ -45,7 +45,7 @@ def made_twice(launch_file: LaunchFile) -> tuple[Twice, ...]:
     """The pairs of nodes of which one is made always, and the other one of its name only in a branch."""
     source = python_source(launch_file.document)
     found: list[Twice] = []
-    for function in ast.walk(source.module) if source.module is not None else ():
+    for function in source.nodes if source.module is not None else ():
         if not isinstance(function, ast.FunctionDef):
             continue
         assigned = [n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]

@@ -33,7 +33,7 @@ def unknown_keywords(launch_file: LaunchFile) -> tuple[UnknownKeyword, ...]:
 
 
 def _unknown(source: PythonSource) -> Iterator[UnknownKeyword]:
-    for node in ast.walk(source.module) if source.module is not None else ():
+    for node in source.nodes if source.module is not None else ():
         if not isinstance(node, ast.Call) or id(node) not in source.sure:
             continue
         made = source.full_name(node.func)

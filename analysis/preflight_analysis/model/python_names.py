@@ -29,20 +29,19 @@ class BoundNames:
     def __init__(self, source: PythonSource) -> None:
         bound: Counter[str] = Counter()
         self._imported: set[str] = set()
-        for piece in source.pieces:
-            for node in ast.walk(piece):
-                if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
-                    bound[node.id] += 1
-                elif isinstance(node, ast.arg):
-                    bound[node.arg] += 2
-                elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
-                    bound[node.name] += 1
-                elif isinstance(node, (ast.Import, ast.ImportFrom)):
-                    module = node.module or "" if isinstance(node, ast.ImportFrom) else ""
-                    for alias in node.names:
-                        bound[alias.asname or alias.name] += 1
-                        if "launch" in f"{module}.{alias.name}":
-                            self._imported.add(alias.asname or alias.name)
+        for node in source.nodes:
+            if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load):
+                bound[node.id] += 1
+            elif isinstance(node, ast.arg):
+                bound[node.arg] += 2
+            elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                bound[node.name] += 1
+            elif isinstance(node, (ast.Import, ast.ImportFrom)):
+                module = node.module or "" if isinstance(node, ast.ImportFrom) else ""
+                for alias in node.names:
+                    bound[alias.asname or alias.name] += 1
+                    if "launch" in f"{module}.{alias.name}":
+                        self._imported.add(alias.asname or alias.name)
         self._values = {name: value for name, value in source.assigned.items() if bound[name] == 1}
         self._bound = bound
 

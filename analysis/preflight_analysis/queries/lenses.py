@@ -58,7 +58,7 @@ def _why_not(context: QueryContext, launch_file: LaunchFile) -> str:
             if command.result is None:
                 return "it has not run in the sandbox yet"
             return command.result.reason if command.result.status != "done" else _raised(context)
-    return ""
+    return _raised(context)  # it was read
 
 
 def _raised(context: QueryContext) -> str:

@@ -90,7 +90,7 @@ def _glued(launch_file: LaunchFile) -> tuple[tuple[int, Span, tuple[str, ...]], 
         return ()
     return tuple(
         found
-        for node in ast.walk(source.module)
+        for node in source.nodes
         if isinstance(node, (ast.List, ast.Tuple, ast.Set)) and len(node.elts) > 1
         for found in _in_sequence(source, node.elts)
     )
@@ -114,7 +114,10 @@ def _in_sequence(source: PythonSource, elements: list[ast.expr]) -> Iterator[tup
 
 
 def _strings(text: str) -> list[tuple[int, str]]:
-    """The literals that an expression is made of, each with the offset of its end; none where one is not plain."""
+    """The literals that an expression is made of, each with the offset of its end; none where there is one alone, or
+    one is not plain."""
+    if text[:1] in ("'", '"') and text[-1] == text[0] and text.count(text[0]) == 2:
+        return []  # one alone
     lines = text.splitlines(keepends=True)
     found: list[tuple[int, str]] = []
     try:

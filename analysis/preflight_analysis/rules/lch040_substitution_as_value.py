@@ -80,13 +80,10 @@ class _Finder(ast.NodeVisitor):
         self._names = names
         self._truths = truths
         self.found: list[tuple[Span, str, _Instead | None]] = []
-        self._tests = {
-            id(node.test) for piece in source.pieces for node in ast.walk(piece) if isinstance(node, _WITH_TEST)
-        }
+        self._tests = {id(node.test) for node in source.nodes if isinstance(node, _WITH_TEST)}
         self._performed = {
             id(node.args[0])
-            for piece in source.pieces
-            for node in ast.walk(piece)
+            for node in source.nodes
             if isinstance(node, ast.Call) and node.args and self._names.made_by(node) in _CONDITIONS_ON
         }
 
@@ -95,7 +92,8 @@ class _Finder(ast.NodeVisitor):
         waiting: list[ast.AST] = [module]
         while waiting:
             node = waiting.pop()
-            self.visit(node)
+            if isinstance(node, _LOOKED_AT):
+                self.visit(node)
             if not isinstance(node, ast.JoinedStr):
                 waiting.extend(ast.iter_child_nodes(node))
 
@@ -280,6 +278,9 @@ class _Finder(ast.NodeVisitor):
 
     def _say(self, node: ast.expr, message: str, instead: _Instead | None = None) -> None:
         self.found.append((self._source.whole_span(node), message, instead))
+
+
+_LOOKED_AT = tuple(getattr(ast, name[6:]) for name in vars(_Finder) if name.startswith("visit_"))
 
 
 RULE = Rule(

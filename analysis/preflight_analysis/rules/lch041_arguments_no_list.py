@@ -38,7 +38,7 @@ def _no_lists(launch_file: LaunchFile) -> tuple[tuple[Span, str], ...]:
         return ()
     names = bound_names(launch_file.document)
     found: list[tuple[Span, str]] = []
-    for node in ast.walk(source.module):
+    for node in source.nodes:
         made = names.made_by(node) if isinstance(node, ast.Call) else None
         for keyword in node.keywords if isinstance(node, ast.Call) and made is not None else ():
             why = _problem(keyword.value) if keyword.arg in _TAKE_LISTS.get(made or "", ()) else None

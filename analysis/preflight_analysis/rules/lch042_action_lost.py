@@ -72,13 +72,9 @@ def _lost(launch_file: LaunchFile) -> tuple[_Lost, ...]:
     if source.module is None:
         return ()
     names = bound_names(launch_file.document)
-    blocks = [
-        node.body
-        for node in ast.walk(source.module)
-        if isinstance(node, (ast.Module, ast.FunctionDef, ast.If, ast.With))
-    ]
+    blocks = [node.body for node in source.nodes if isinstance(node, (ast.Module, ast.FunctionDef, ast.If, ast.With))]
     again = [lost for block in blocks for lost in _in_block(source, names, block)]
-    loaded = {node.id for node in ast.walk(source.module) if isinstance(node, ast.Name) and _is_used(node)}
+    loaded = {node.id for node in source.nodes if isinstance(node, ast.Name) and _is_used(node)}
     bare = [lost for block in blocks for lost in _bare(source, names, block, loaded)]
     return (*again, *bare)
 
@@ -113,7 +109,7 @@ def _in_block(source: PythonSource, names: BoundNames, block: list[ast.stmt]) ->
         target = statement.targets[0] if isinstance(statement, ast.Assign) and len(statement.targets) == 1 else None
         made = names.made_by(statement.value) if isinstance(statement, ast.Assign) else None
         own = target if isinstance(target, ast.Name) else None
-        for each in ast.walk(statement):
+        for each in ast.walk(statement) if waiting else ():
             if isinstance(each, ast.Name) and each is not own:
                 waiting.pop(each.id, None)
         if own is None:

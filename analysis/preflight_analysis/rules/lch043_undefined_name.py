@@ -15,7 +15,7 @@ from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.model import LaunchFile
-from preflight_analysis.launch.python_source import python_source
+from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.problems import fix, problems_of
@@ -69,11 +69,11 @@ def _undefined(launch_file: LaunchFile) -> tuple[tuple[str, str | None, Span, bo
         if symbol.is_referenced() and (symbol.is_global() or (table is top and not symbol.is_local()))
     ]
     missing = [(name, line) for name, line in outside if name not in defined and name not in _KNOWN]
-    if not missing or _is_open(source.module):
+    if not missing or _is_open(source):
         return ()
-    noted = {id(inner) for each in ast.walk(source.module) for note in _notes(each) for inner in ast.walk(note)}
+    noted = {id(inner) for each in source.nodes for note in _notes(each) for inner in ast.walk(note)}
     scopes: dict[int, ast.AST] = {0: source.module}
-    for node in ast.walk(source.module):
+    for node in source.nodes:
         if isinstance(node, _SCOPES):
             scopes.setdefault(node.lineno, node)
     places: dict[str, ast.Name] = {}
@@ -111,9 +111,9 @@ def _tables(table: symtable.SymbolTable) -> Iterator[symtable.SymbolTable]:
         yield from _tables(child)
 
 
-def _is_open(module: ast.Module) -> bool:
+def _is_open(source: PythonSource) -> bool:
     """Whether more names may be there than the text tells."""
-    for node in ast.walk(module):
+    for node in source.nodes:
         if isinstance(node, ast.ImportFrom) and any(alias.name == "*" for alias in node.names):
             return True
         if isinstance(node, ast.Name) and node.id in _MADE_AT_RUN_TIME:

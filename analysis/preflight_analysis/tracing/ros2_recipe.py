@@ -194,13 +194,13 @@ def _installed_for_node(environment: Environment, executable: str) -> str | None
     return text if pairs and len(text) <= _MOST_INSTALLED else None
 
 
-def installed_for(environment: Environment, file: str, text: str) -> list[tuple[str, str]]:
+def installed_for(environment: Environment, file: str, text: str, disk: Disk | None = None) -> list[tuple[str, str]]:
     """What the packages that a program names, and its own, install at other places of their share folders: it may open
     those."""
     own = package_around(environment, file)
     named = (environment.packages.get(name) for name in sorted(set(_TEXT.findall(text))))
     packages = {package.name: package for package in (own, *named) if package is not None}
-    disk = Disk()
+    disk = disk or Disk()
     return [pair for package in packages.values() for pair in installed_elsewhere(disk, package)]
 
 

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from preflight_analysis.evaluation.commands import CommandResult, Commands, KnownResults
+from preflight_analysis.evaluation.commands import CommandResult, Commands, KnownResults, Reader
 from preflight_analysis.evaluation.ros2.python_runs import MARK, answered_questions
 from preflight_analysis.evaluation.tree import LaunchTree
 
@@ -24,6 +24,8 @@ class CommandResults:
 
     `why_not_run` tells why commands are not run; None where they are, and those without a result have yet to be.
     """
+
+    reader: Reader | None = None
 
     def __init__(self, why_not_run: Callable[[], str | None], placeholder: str | None = None) -> None:
         self.placeholder = placeholder

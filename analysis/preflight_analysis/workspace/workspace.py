@@ -19,12 +19,13 @@ from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
-from preflight_analysis.evaluation.commands import EDITION, Commands, NoResults, QueriedCommands
+from preflight_analysis.evaluation.commands import EDITION, CommandResult, Commands, NoResults, QueriedCommands
 from preflight_analysis.evaluation.inversion import Assignment, arguments_and_variables
 from preflight_analysis.evaluation.launch import evaluate_launch, outline_of
 from preflight_analysis.evaluation.meanings import KnownMeanings
 from preflight_analysis.evaluation.partial_text import is_whole
 from preflight_analysis.evaluation.ros2.params import sections_for_any_name
+from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
@@ -67,12 +68,14 @@ from preflight_analysis.workspace.project_settings import (
 )
 from preflight_analysis.workspace.resolve_node_names import resolve_node_names
 from preflight_analysis.workspace.run_results import RESULTS, RunResults
-from preflight_analysis.workspace.sources import Sources
+from preflight_analysis.workspace.sources import TEXTS_BEFORE, Sources
 
 MAX_ANALYSES = 64
 """How many analyses are remembered, the latest."""
 MAX_WHAT_IFS_KEPT = 96
 """How many launches with other arguments, for the tags that these take."""
+MAX_READINGS_KEPT = 1_000
+"""How many readings of Python launch files, and of calls of their code."""
 _MAX_AHEAD = 2
 """The same of those that were completed without runs, for who types just now."""
 _MAX_AROUND = 10
@@ -181,7 +184,7 @@ class Workspace:
 
     `cwd` is what relative paths in launch files are relative to, the folder where roslaunch would be called.
     `commands` knows what commands of parameters gave; none was run where it is left out. `similar` knows what
-    executables did under other configurations.
+    executables did under other configurations. Without `reads` Python launch files are only run.
     """
 
     def __init__(
@@ -191,8 +194,11 @@ class Workspace:
         cwd: str | None = None,
         commands: Commands | None = None,
         similar: SimilarTraces | None = None,
+        *,
+        reads: bool = True,
     ) -> None:
         self.environment = environment
+        self.reads = reads
         self.sources = sources
         sources.undecided = environment.generation
         sources.access = environment.access
@@ -528,9 +534,35 @@ def _plugins(db: Database, workspace: Workspace, environment: Environment) -> Pl
 
 @query
 def _surroundings(db: Database, workspace: Workspace, environment: Environment) -> Surroundings:
-    executables, commands = _executables(db, workspace, environment), QueriedCommands(db, workspace.commands)
+    executables = _executables(db, workspace, environment)
+    commands = QueriedCommands(db, workspace.commands, _Reader(db, workspace, environment))
     knowledge = workspace.own_knowledge.files
     return Surroundings(workspace.sources, executables, environment, workspace.cwd, commands, knowledge)
+
+
+class _Reader:
+    """Implements `evaluation.commands.Reader`."""
+
+    def __init__(self, db: Database, workspace: Workspace, environment: Environment) -> None:
+        self._db, self._workspace, self._environment = db, workspace, environment
+
+    def reading(self, line: str) -> CommandResult | None:
+        """The answer to a request for a run."""
+        return _reading(self._db, self._workspace, self._environment, line)
+
+    def texts_before(self, path: str) -> tuple[str, ...]:
+        """Texts that an open file had before."""
+        return TEXTS_BEFORE(self._db, path)
+
+
+@query(limit=MAX_READINGS_KEPT)
+def _reading(db: Database, workspace: Workspace, environment: Environment, line: str) -> CommandResult | None:
+    """What reading a Python launch file says in the place of a run."""
+    from preflight_analysis.tracing.reading.answers import tell  # noqa: PLC0415 - who has none starts faster
+
+    request = parse_request(line) if workspace.reads else None
+    told = tell(environment, workspace.sources, request) if request is not None else None
+    return CommandResult("done", told) if told is not None else None
 
 
 @query(limit=MAX_WHAT_IFS_KEPT)

@@ -36,6 +36,9 @@ class PythonRun:
     """The variables of the user's environment that the text names: the sandbox hands on no others."""
     packages: Mapping[str, str] = field(default_factory=dict)
     """The folders of packages that are others for the launch than for most."""
+    read_partly: bool = False
+    """Whether it is a reading that left something to the run: what its code gives is only read then, as the run may
+    give other numbers to what it makes."""
     replaced: bool = False
     """Whether the text is another one by now, and this the last run that went well: nothing is asked for it again."""
 

@@ -125,7 +125,9 @@ def recorded(
     children = _actions(reply.output, run.source, whole, context.python)
     for name, value in _variables(reply).items():
         context.set_variable(name, value)
-    return replace(launch_file, root=replace(launch_file.root, children=children), partial=False), run
+    partly = bool(reply.values.get("unread"))
+    run = replace(run, read_partly=partly) if partly else run
+    return replace(launch_file, root=replace(launch_file.root, children=children), partial=partly), run
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,6 +203,8 @@ def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Spa
     """The last run of the launch file (or of the same call in it) that went well, what it told, and what of the text
     is another one since. It counts until there is one of the text as it is: half typed it cannot be run, and a run
     takes its time."""
+    if (reading := _last_reading(state, run)) is not None:
+        return reading
     for line in reversed(state.results.answering(_question(run, None))):
         known, result = _known_of(state, line), state.results.result(line)
         if known is None or result is None or not known.answers(run):
@@ -211,6 +215,20 @@ def _last_good(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Spa
             run, text=known.text, source=source, variables=known.variables, calls=known.calls, replaced=True
         )
         return earlier, _Reply(_read(result.output), result.output), changed.after
+    return None
+
+
+def _last_reading(state: Collector, run: PythonRun) -> tuple[PythonRun, _Reply, Span] | None:
+    """The same by reading, where that leaves nothing to a run."""
+    reader = state.results.reader
+    for text in reader.texts_before(run.file) if reader is not None else ():
+        earlier = replace(run, text=text)
+        reading = reader.reading(request(earlier)) if reader is not None and text != run.text else None
+        values = _read(reading.output) if reading is not None else None
+        if reading is not None and isinstance(values, dict) and values.get("unread") == [] and "error" not in values:
+            changed = change(text, run.text)
+            earlier = replace(earlier, source=_source(text, changed), replaced=True)
+            return earlier, _Reply(values, reading.output), changed.after
     return None
 
 
@@ -343,17 +361,27 @@ def _configurations(context: Context) -> dict[str, Any]:
 def _ask(state: Collector, context: Context, place: Place, run: PythonRun, origin: Origin) -> _Reply | None:
     """The answer to a run, None if there is none or it has failed."""
     line = request(run)
-    result = state.results.result(line)
-    if not run.replaced:
-        state.commands.append(Command(line, "", origin, result, launch_file=True))
+    result = state.results.result(line) if not run.read_partly else None
     what = "the launch file" if not run.calls else str(run.calls[-1]["name"])
-    if result is None:
-        state.note_unknown(what, "it was not run", origin[-1])
-        return None
-    if result.status == "not-run":
-        state.note_unknown(what, f"it was not run: {result.reason}", origin[-1])
-        state.problem(LaunchFileNotRun(what, result.reason), origin)
-        return None
+    if result is None or result.status == "not-run":
+        reading = reader.reading(line) if (reader := state.results.reader) is not None else None
+        values = _read(reading.output) if reading is not None else None
+        unread = values.get("unread") if isinstance(values, dict) else None
+        if result is None and unread and not run.read_partly and state.results.answering(_question(run, None)):
+            reading = None  # until the run is there, the last one tells more
+        if unread != [] and not run.replaced and not run.read_partly:
+            state.commands.append(Command(line, "", origin, result, launch_file=True))
+        if unread != [] and result is not None:
+            state.note_unknown(what, f"it was not run: {result.reason}", origin[-1])
+            state.problem(LaunchFileNotRun(what, result.reason), origin)
+        if reading is None:
+            if result is None:
+                state.note_unknown(what, "it was not run", origin[-1])
+            return None
+        _unread(state, place, run, unread, origin)
+        result = reading
+    elif not run.replaced:
+        state.commands.append(Command(line, "", origin, result, launch_file=True))
     if result.status != "done":
         state.problem(PythonException("", result.reason), origin)
         state.note_unknown(what, result.reason, origin[-1])
@@ -419,6 +447,14 @@ def _missed(state: Collector, context: Context, place: Place, run: PythonRun, mi
                 state.problem(undeclared, _line(place, run, at, origin), fatal=undeclared.not_followed is None)
             case [str(what), str(name), at] if what in _MISSED:
                 state.problem(_MISSED[what](name), _line(place, run, at, origin))
+
+
+def _unread(state: Collector, place: Place, run: PythonRun, unread: object, origin: Origin) -> None:
+    """What only a run of the file tells."""
+    for each in unread if isinstance(unread, list) else ():
+        match each:
+            case [str(name), str(reason), at]:
+                state.note_unknown(name, reason, _line(place, run, at, origin)[-1])
 
 
 def _assumed(state: Collector, place: Place, run: PythonRun, assumed: object, origin: Origin) -> None:

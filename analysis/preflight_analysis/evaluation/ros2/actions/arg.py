@@ -11,6 +11,7 @@ from preflight_analysis.evaluation.ros2.substitute import Performer
 from preflight_analysis.evaluation.ros2.walk import LaunchAction, Walk
 from preflight_analysis.evaluation.tree import Arg, Use
 from preflight_analysis.launch.model import Action
+from preflight_analysis.launch.python_actions import OF_CODE
 from preflight_analysis.launch.python_classes import PythonClass
 from preflight_analysis.launch.schema import Attribute
 
@@ -46,7 +47,10 @@ def evaluate(walk: Walk, performer: Performer, action: Action) -> None:
 
 
 def _check_choices(walk: Walk, performer: Performer, action: Action, name: str, value: Resolved | None) -> None:
-    choices = [v.text for c in action.children if c.kind == "choice" and (v := c.value("value")) is not None]
+    written = [v for c in action.children if c.kind == "choice" and (v := c.value("value")) is not None]
+    if any(part.command in OF_CODE for each in written for part in each.substitutions):
+        return
+    choices = [each.text for each in written]
     if not choices or value is None or value.text in choices:
         return
     found = walk.context.get(name)

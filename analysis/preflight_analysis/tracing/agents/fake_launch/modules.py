@@ -178,7 +178,7 @@ _COMPILES = {
     "setup.py": r"Extension\w*\s*\(\s*(?:name\s*=\s*)?['\"][\w.]*\b%s['\"]",
 }
 """Where a package says which modules it compiles, and how."""
-_INSTALLED = re.compile(r"ament_python_install_package\s*\(([^)]*)\)")
+_INSTALLED = re.compile(r"ament_python_install_package\s*\(([^()]*)\)")
 
 
 class _PackageFinder(importlib.abc.MetaPathFinder):

@@ -334,7 +334,7 @@ def generate_setup_assistant_launch(moveit_config: Any) -> LaunchDescription:
     return ld
 
 
-_JOINT = re.compile(r"<virtual_joint\b([^>]*)>")
+_JOINT = re.compile(r"<virtual_joint\b([^<>]{,2000})>")
 _ATTRIBUTE = re.compile(r"""(\w+)\s*=\s*["']([^"']*)["']""")
 
 

@@ -14,6 +14,7 @@ from ..anything import Anything, is_unknown, unknown_text
 from .base import LaunchContext, Substitution, normalize_to_list_of_substitutions, perform_substitutions
 from .substitutions import LaunchConfiguration
 
+_MAX_TEXT = 10_000_000
 _MARK = "ros__parameters"
 _TRUE = ("true", "1", "yes", "on")
 
@@ -142,6 +143,8 @@ class ReplaceString(_OfFile):
         with open(path) as file:
             text = file.read()
         for old, new in _performed(context, self._replacements).items():
+            if len(text) + text.count(old) * len(new) > _MAX_TEXT:
+                raise ValueError("the file becomes too large")
             text = text.replace(old, new)
         with tempfile.NamedTemporaryFile("w", delete=False) as written:
             written.write(text)

@@ -29,11 +29,12 @@ from .ros_substitutions import FindPackage
 from .worded import Worded
 
 MAX_ACTIONS = 20_000
+MAX_PARTS = 200_000
 MAX_DEPTH = 100
 
 
 class TooMuchError(Exception):
-    """More actions than anyone writes."""
+    """More actions, or more of what they are given, than anyone writes."""
 
 
 class Serializer:
@@ -41,6 +42,7 @@ class Serializer:
 
     def __init__(self) -> None:
         self.count = 0
+        self._parts = 0
         self._open: list[dict[str, Any]] = []
 
     def description(self, entities: Iterable[Any]) -> list[dict[str, Any]]:
@@ -210,6 +212,9 @@ class Serializer:
 
     def _pieces(self, sub: Any) -> Iterable[Any]:
         """One piece, or those of a text in which something is not known."""
+        self._parts += 1
+        if self._parts > MAX_PARTS:
+            raise TooMuchError
         if type(sub) is not TextSubstitution or not is_unknown(sub.text):
             yield self._part(sub)
             return
