@@ -116,3 +116,10 @@ def test_a_mistake_is_told_as_in_xml(workspace: Path, xml: str, python: str, rul
     in_python = _found(workspace, "a.launch.py", HEAD.replace("ITEM", python))
     assert in_python == in_xml
     assert rule in [each for each, _ in in_python]
+
+
+@pytest.mark.parametrize(("loader", "fails"), [("SafeLoader", True), ("UnsafeLoader", False), ("FullLoader", False)])
+def test_what_only_a_loader_of_objects_reads_is_no_mistake(workspace: Path, loader: str, fails: bool) -> None:
+    load = f'yaml.load("!!python/tuple [1, 2]", Loader=yaml.{loader}) and Node(package="bot", executable="talker")'
+    found = _found(workspace, "a.launch.py", "import yaml\n" + HEAD.replace("ITEM", load))
+    assert ("LCH032" in [rule for rule, _ in found]) == fails

@@ -64,6 +64,7 @@ from preflight_analysis.tracing.reading.values import (
 
 _OURS = __name__.rpartition(".")[0]
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_SAFE = "safe loader"
 _MAX_YAML = 300_000
 _MAX_EXPRESSION = 5_000
 _MAX_MANIFEST = 100_000
@@ -799,12 +800,12 @@ class Around:
         return {"annotations": None}
 
     def _yaml(self) -> dict[str, Any]:
-        loaders = dict.fromkeys(("SafeLoader", "FullLoader", "CSafeLoader", "Loader", "UnsafeLoader"), "loader")
         return {
-            **loaders,
+            **dict.fromkeys(("SafeLoader", "CSafeLoader"), _SAFE),
+            **dict.fromkeys(("FullLoader", "Loader", "UnsafeLoader"), "loader"),
             "safe_load": self.load_yaml,
-            "load": lambda stream, Loader=None: self.load_yaml(stream),  # noqa: N803
-            "full_load": self.load_yaml,
+            "load": lambda stream, Loader=None: self._load_yaml_by(Loader, stream),  # noqa: N803
+            "full_load": lambda stream: self._load_yaml_by(None, stream),
             "YAMLError": yaml.YAMLError,
             "dump": self.dump_yaml,
             "safe_dump": self.dump_yaml,
@@ -823,6 +824,15 @@ class Around:
         value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a safe one
         self.interpreter.step(whole(value))
         return value
+
+    def _load_yaml_by(self, loader: Any, stream: Any) -> Any:
+        """`yaml.load`. What a loader that is not safe makes of a tag only a run knows."""
+        try:
+            return self.load_yaml(stream)
+        except yaml.constructor.ConstructorError:
+            if loader == _SAFE:
+                raise
+            return self.unknown("yaml.load()", "it makes objects of Python")
 
     def dump_yaml(self, data: Any, stream: Any = None, **kwargs: Any) -> Any:
         """`yaml.dump`."""
