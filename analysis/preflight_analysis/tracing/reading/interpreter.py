@@ -15,7 +15,7 @@ import time
 import types
 from collections.abc import Callable, Iterator
 from pathlib import PosixPath, PurePosixPath
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from preflight_analysis.incremental.database import Cancelled
 from preflight_analysis.tracing.agents.anything import Anything, UnknownText, is_unknown, marked
@@ -498,7 +498,7 @@ class Interpreter:
                 scope.set(node.name, self.around.unknown(node.name, "classes with a metaclass are not read"))
                 return
         values: dict[str, Any] = {"__module__": "python_launch_file", "__qualname__": scope.qualified(node.name)}
-        inner = Scope(values, scope, scope.globals, None, is_class=True, name=values["__qualname__"])
+        inner = Scope(values, scope, scope.globals, None, of="class", name=values["__qualname__"])
         self.block(node.body, inner)
         scope.set(node.name, self._decorated(node, self._class(node.name, tuple(bases), values), scope))
 
@@ -901,7 +901,7 @@ class Interpreter:
 
     def _comprehended(self, generators: Any, element: Callable[[Scope], Any], scope: Scope) -> list[Any]:
         found: list[Any] = []
-        inner = Scope({}, scope, scope.globals, None, is_comprehension=True)
+        inner = Scope({}, scope, scope.globals, None, of="comprehension")
 
         def rounds(index: int) -> None:
             if index == len(generators):
@@ -1058,11 +1058,20 @@ class Interpreter:
 
     def _function(self, node: Any, name: str, body: list[ast.stmt], scope: Scope) -> Function:
         arguments = node.args
-        defaults = [self.evaluate(each, scope) for each in arguments.defaults]
-        kw_defaults = [None if each is None else (self.evaluate(each, scope),) for each in arguments.kw_defaults]
-        code = _Code(self, node, name, body, scope, defaults, kw_defaults)
+        defaults = _Defaults(
+            [self.evaluate(each, scope) for each in arguments.defaults],
+            [None if each is None else (self.evaluate(each, scope),) for each in arguments.kw_defaults],
+        )
+        code = _Code(self, node, name, body, scope, defaults)
         doc = ast.get_docstring(node) if isinstance(node, ast.FunctionDef) else None
         return Function(code.call, name, code.qualified, doc)
+
+
+class _Defaults(NamedTuple):
+    """Those of the last arguments that have places, and of those that have names alone: None where there is none."""
+
+    by_place: list[Any]
+    by_name: list[tuple[Any] | None]
 
 
 class _Code:
@@ -1075,11 +1084,10 @@ class _Code:
         name: str,
         body: list[ast.stmt],
         scope: Scope,
-        defaults: list[Any],
-        kw_defaults: list[Any],
+        defaults: _Defaults,
     ) -> None:
         self.interpreter, self.node, self.name, self.body = interpreter, node, name, body
-        self.scope, self.defaults, self.kw_defaults = scope, defaults, kw_defaults
+        self.scope, self.defaults = scope, defaults
         self.file = interpreter.frame.file
         self.qualified = scope.qualified(name)
         self.owner: Any = None
@@ -1089,7 +1097,9 @@ class _Code:
         """What it gives for some arguments."""
         interpreter = self.interpreter
         values = self._bound(args, kwargs)
-        scope = Scope(values, self.scope, self.scope.globals, self.names, name=f"{self.qualified}.<locals>")
+        scope = Scope(
+            values, self.scope, self.scope.globals, self.names, of="function", name=f"{self.qualified}.<locals>"
+        )
         frame = Frame(self.file, self.name, self.node)
         frame.owner, frame.first = self.owner, args[0] if args else None
         frame.generated = [] if self.names.is_generator else None
@@ -1130,9 +1140,9 @@ class _Code:
                 values[name] = value
         if given.kwarg is not None:
             values[given.kwarg.arg] = more
-        for name, value in zip(reversed(by_place), reversed(self.defaults), strict=False):
+        for name, value in zip(reversed(by_place), reversed(self.defaults.by_place), strict=False):
             values.setdefault(name, value)
-        for each, default in zip(given.kwonlyargs, self.kw_defaults, strict=True):
+        for each, default in zip(given.kwonlyargs, self.defaults.by_name, strict=True):
             if default is not None:
                 values.setdefault(each.arg, default[0])
         self._check(by_place, [each.arg for each in given.kwonlyargs], values, kwargs)
@@ -1154,9 +1164,10 @@ class _Code:
             raise Raised(TypeError(message))
 
     def _too_many(self, by_place: list[str], count: int) -> str:
-        least = len(by_place) - len(self.defaults)
-        takes = f"from {least} to {len(by_place)}" if self.defaults else str(len(by_place))
-        several = "" if not self.defaults and len(by_place) == 1 else "s"
+        with_default = len(self.defaults.by_place)
+        least = len(by_place) - with_default
+        takes = f"from {least} to {len(by_place)}" if with_default else str(len(by_place))
+        several = "" if not with_default and len(by_place) == 1 else "s"
         were = "was" if count == 1 else "were"
         return f"{self.qualified}() takes {takes} positional argument{several} but {count} {were} given"
 

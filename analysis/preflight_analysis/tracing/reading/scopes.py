@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 
 class Names(NamedTuple):
@@ -27,12 +27,11 @@ class Scope:
         module: dict[str, Any],
         names: Names | None,
         *,
-        is_class: bool = False,
-        is_comprehension: bool = False,
+        of: Literal["module", "class", "function", "comprehension"] = "module",
         name: str = "",
     ) -> None:
         self.values, self.outer, self.globals, self.names = values, outer, module, names
-        self.is_class, self.is_comprehension, self.name = is_class, is_comprehension, name
+        self.is_class, self.is_comprehension, self.name = of == "class", of == "comprehension", name
         self.handled: Any = None
 
     def get(self, name: str) -> Any:
