@@ -44,7 +44,7 @@ def found(done: Any) -> list[tuple[str, str, str]]:
         (
             "CMakeLists.txt",
             f"# preflight: ignore[PKG012] made later\n{BROKEN}",
-            [("PKG012", "error", "CMakeLists.txt")],
+            [("LCH019", "warning", "CMakeLists.txt"), ("PKG012", "error", "CMakeLists.txt")],
         ),
         (
             "CMakeLists.txt",
