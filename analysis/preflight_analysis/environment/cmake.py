@@ -41,6 +41,7 @@ from preflight_analysis.environment.cmake_values import (
     words_of,
 )
 from preflight_analysis.environment.walk import walk
+from preflight_analysis.generation import ros
 
 _MAX_COMMANDS = 20_000
 _MAX_FOLDERS = 500
@@ -100,7 +101,8 @@ def read_build(folder: str, package: str, disk: Disk, generation: int | None = N
     lists = _Lists(folder, disk, generation)
     complete = False
     with contextlib.suppress(_TooLargeError):
-        names = _CATKIN_FOLDERS if generation == 1 else {}
+        is_catkin = generation is not None and not ros(generation).ament
+        names = _CATKIN_FOLDERS if is_catkin else {}
         of_catkin = {f"CATKIN_PACKAGE_{name}_DESTINATION": below.format(package) for name, below in names.items()}
         complete = lists.folder(folder, {**_FOLDERS, **of_catkin, "PROJECT_NAME": package}, 0)
     return replace(lists.build(), complete=complete and lists.complete)
