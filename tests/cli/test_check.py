@@ -42,7 +42,7 @@ def test_the_demo_in_json(harness: Harness, preflight: Run) -> None:
     }
     assert data["coverage"] == {
         **{"files": 1, "evaluated": 1, "not_evaluated": [], "untried": 0},
-        **{"nodes": 2, "sources": {"trace": 2}, "unknown_nodes": []},
+        **{"nodes": 2, "sources": {"trace": 2}, "unknown_nodes": [], "other_files": 0},
     }
     assert (data["schema"], data["files"], data["nodes"], data["traced"]) == ("ros-preflight/check/1", 1, 2, 2)
     (finding,) = data["findings"]

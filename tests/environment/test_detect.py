@@ -297,6 +297,15 @@ def test_each_generation_has_its_packages_where_both_are(tmp_path: Path) -> None
     assert "rospy" not in ros2
 
 
+def test_of_two_sources_of_one_name_each_generation_means_its_own(tmp_path: Path) -> None:
+    manifest = "<package><name>{}</name><export><build_type>{}</build_type></export></package>"
+    for folder, build_type in (("a/ros2/one", "ament_cmake"), ("b/ros1/one", "catkin")):
+        (package(tmp_path / "ws" / "src" / folder) / "package.xml").write_text(manifest.format("one", build_type))
+    environment = detect_environment(str(tmp_path / "ws"), {}, root=str(tmp_path))
+    found = [of_generation(environment, generation).packages["one"].share for generation in (1, 2)]
+    assert found == [str(tmp_path / "ws/src/b/ros1/one"), str(tmp_path / "ws/src/a/ros2/one")]
+
+
 def test_a_package_that_both_generations_build_is_seen_by_each_as_it_builds_it(tmp_path: Path) -> None:
     manifest = """<package format="3"><name>both</name><export>
       <build_type condition="$ROS_VERSION == 1">catkin</build_type>

@@ -59,7 +59,7 @@ def test_json() -> None:
         "environment": {"complete": True, "missing": [], "commands": [], "problems": []},
         "coverage": {
             **{"files": 1, "evaluated": 1, "not_evaluated": [], "untried": 0},
-            **{"nodes": 2, "sources": {"trace": 2}, "unknown_nodes": []},
+            **{"nodes": 2, "sources": {"trace": 2}, "unknown_nodes": [], "other_files": 0},
         },
         **{"files": 1, "nodes": 2, "traced": 2},
     }

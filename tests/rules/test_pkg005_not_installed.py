@@ -1,4 +1,4 @@
-"""PKG005: a file of the source that the package does not install (ROS 2)."""
+"""PKG005: a file of the source that the package does not install."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from preflight_analysis.environment.detect import detect_environment
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
-from support.packaging import CMAKE, LISTS, said
+from support.packaging import CMAKE, LISTS, lay_out, said
 from support.unbuilt_packages import SETUP, findings, manifest
 
 
@@ -41,7 +41,8 @@ def test_the_fixes_install_it(workspace: Path) -> None:
 @pytest.mark.silent
 def test_nothing_is_said_where_the_build_files_do_more_than_is_understood(workspace: Path) -> None:
     setup = workspace / "src/robot/setup.py"
-    setup.write_text(SETUP.replace("    data_files=[", "    data_files=more_of_it() + ["))
+    text = SETUP.replace("    data_files=[", "    data_files=more_of_it() + [")
+    setup.write_text(f"from more import more_of_it\n{text}")
     (workspace / "src/arm/CMakeLists.txt").unlink()
     found = [f.rule for f in findings(workspace, renamed=False)]
     assert found == ["PKG002"], "an executable that no entry point makes"
@@ -170,3 +171,48 @@ def test_what_nodes_and_descriptions_open(tmp_path: Path) -> None:
 )
 def test_what_is_opened_and_installed(tmp_path: Path, lists: str) -> None:
     assert said(tmp_path, {**CMAKE, **OPENED, "CMakeLists.txt": lists}, "PKG005") == []
+
+
+CATKIN = {
+    "package.xml": CMAKE["package.xml"].replace("ament_cmake", "catkin"),
+    "CMakeLists.txt": """project(arm)
+find_package(catkin REQUIRED)
+catkin_package()
+install(DIRECTORY launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+catkin_install_python(PROGRAMS scripts/report.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+""",
+    "config/a.yaml": "a: 1\n",
+    "config/b.yaml": "b: 1\n",
+    "scripts/report.py": "#!/usr/bin/env python3\n",
+    "scripts/drive.py": "#!/usr/bin/env python3\n",
+    "launch/arm.launch.xml": """<launch>
+  <rosparam command="load" file="$(find arm)/config/a.yaml"/>
+  <rosparam command="load" file="$(find arm)/config/b.yaml"/>
+  <node pkg="arm" type="drive.py" name="drive"/>
+</launch>
+""",
+}
+ONLY = "it is found in the devel space only"
+
+
+def test_of_catkin(tmp_path: Path) -> None:
+    (lay_out(tmp_path, CATKIN) / "scripts/drive.py").chmod(0o755)
+    assert said(tmp_path, CATKIN, "PKG005") == [
+        "launch/arm.launch.xml:2 info file 'config/a.yaml' is not installed: CMakeLists.txt of 'arm' installs other "
+        f"files, not this one; {ONLY}",
+        "launch/arm.launch.xml:4 info script 'scripts/drive.py' is not installed: CMakeLists.txt of 'arm' installs "
+        f"other scripts, not this one; {ONLY}",
+    ]
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "lists",
+    [
+        CATKIN["CMakeLists.txt"].replace("launch", "launch config").replace("report.py", "report.py scripts/drive.py"),
+        "project(arm)\nfind_package(catkin REQUIRED)\ncatkin_package()\n",
+        CATKIN["CMakeLists.txt"] + "install_all_of_it()\n",
+    ],
+)
+def test_nothing_of_catkin(tmp_path: Path, lists: str) -> None:
+    assert said(tmp_path, {**CATKIN, "CMakeLists.txt": lists}, "PKG005") == []

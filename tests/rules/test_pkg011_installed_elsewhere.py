@@ -105,6 +105,13 @@ def test_a_link_to_a_script_that_may_be_executed_works(tmp_path: Path) -> None:
         {**PYTHON, "setup.py": SETUP.replace("name=package", "**more, name=package"), "setup.cfg": None},
         {**PYTHON, "setup.py": SETUP.replace("name=package_name", "name='ARM'")},
         CMAKE,
+        # What a program beside it imports, and nobody starts.
+        {
+            **CMAKE,
+            "CMakeLists.txt": LISTS.replace("PROGRAMS", "FILES"),
+            "scripts/report.py": SCRIPT,
+            "scripts/all_reports.py": "from report import main\n",
+        },
         # What a program imports, and what gets its permissions otherwise.
         {**CMAKE, "CMakeLists.txt": LISTS.replace("PROGRAMS", "FILES"), "scripts/report.py": "def report(): pass\n"},
         {
@@ -118,3 +125,10 @@ def test_a_link_to_a_script_that_may_be_executed_works(tmp_path: Path) -> None:
 )
 def test_what_is_found(tmp_path: Path, files: dict[str, str | None]) -> None:
     assert said(tmp_path, files, "PKG011") == []
+
+
+def test_a_script_that_another_imports_and_a_launch_file_starts(tmp_path: Path) -> None:
+    node = '<launch><node pkg="arm" exec="report.py"/></launch>'
+    files = {**CMAKE, "CMakeLists.txt": LISTS.replace("PROGRAMS", "FILES"), "launch/arm.launch.xml": node}
+    files["scripts/all_reports.py"] = "import report\n"
+    assert said(tmp_path, files, "PKG011") == [f"CMakeLists.txt:6 error {NO_RUN}"]

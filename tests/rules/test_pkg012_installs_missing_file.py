@@ -1,4 +1,4 @@
-"""PKG012: a build file installs what is not there (ROS 2)."""
+"""PKG012: a build file installs what is not there."""
 
 from __future__ import annotations
 
@@ -56,6 +56,55 @@ def test_of_cmake(tmp_path: Path, old: str, new: str, expected: list[str]) -> No
     assert text.partition(" ")[2] == f"error CMakeLists.txt {MISSING.format(written)}" + (
         f"; did you mean '{near}'?" if near else ""
     )
+
+
+CATKIN = {
+    **CMAKE,
+    "package.xml": CMAKE["package.xml"].replace("ament_cmake", "catkin"),
+    "CMakeLists.txt": """project(arm)
+find_package(catkin REQUIRED)
+catkin_package()
+install(PROGRAMS scripts/report.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(
+  DIRECTORY launch
+  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+catkin_install_python(PROGRAMS scripts/report.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+""",
+}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            "install(PROGRAMS scripts/report",
+            "install(PROGRAMS scripts/reprot",
+            "4 warning {}: `catkin_make install` fails",
+        ),
+        ("DIRECTORY launch", "DIRECTORY lanch", "6 warning {}: `catkin_make install` fails"),
+        ("python(PROGRAMS scripts/report", "python(PROGRAMS scripts/reprot", "8 error {}: the package does not build"),
+    ],
+)
+def test_of_catkin(tmp_path: Path, old: str, new: str, expected: str) -> None:
+    (text,) = said(tmp_path, {**CATKIN, "CMakeLists.txt": CATKIN["CMakeLists.txt"].replace(old, new, 1)}, "PKG012")
+    written = new.rpartition(" ")[2] + (".py" if "report" in old else "")
+    missing = f"CMakeLists.txt installs '{written}', which does not exist"
+    assert text.startswith(f"CMakeLists.txt:{expected.format(missing)}")
+
+
+@pytest.mark.silent
+@pytest.mark.parametrize(
+    "lists",
+    [
+        CATKIN["CMakeLists.txt"],
+        CATKIN["CMakeLists.txt"].replace("install(PROGRAMS", "install(\n  PROGRAMS src/driver.cpp\n  PROGRAMS"),
+        CATKIN["CMakeLists.txt"].replace(
+            "install(", "install(FILES ${catkin_FOLDER}/x DESTINATION share)\ninstall(", 1
+        ),
+    ],
+)
+def test_nothing_of_catkin(tmp_path: Path, lists: str) -> None:
+    assert said(tmp_path, {**CATKIN, "CMakeLists.txt": lists}, "PKG012") == []
 
 
 def test_what_the_build_may_make(tmp_path: Path) -> None:

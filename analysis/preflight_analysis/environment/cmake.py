@@ -41,6 +41,7 @@ from preflight_analysis.environment.cmake_values import (
     words_of,
 )
 from preflight_analysis.environment.walk import walk
+from preflight_analysis.generation import ros
 
 _MAX_COMMANDS = 20_000
 _MAX_FOLDERS = 500
@@ -68,6 +69,15 @@ _FOLDERS = {
     "CMAKE_INSTALL_LIBDIR": "lib",
 }
 """Variables that CMake sets, as they are in a ROS workspace; GNUInstallDirs' among them."""
+_CATKIN_FOLDERS = {
+    "BIN": "lib/{}",
+    "ETC": "etc/{}",
+    "INCLUDE": "include/{}",
+    "LIB": "lib",
+    "PYTHON": "lib/python3/dist-packages/{}",
+    "SHARE": "share/{}",
+}
+"""By the middle of `CATKIN_PACKAGE_..._DESTINATION`, which catkin sets (`catkin_destinations`)."""
 _AT_BUILD = re.compile(r"\A\$<BUILD_INTERFACE:([^<>]*)>\Z")
 """A folder that only counts where the package is built, not where it is installed."""
 _LINK_WORDS = frozenset("PUBLIC PRIVATE INTERFACE LINK_PUBLIC LINK_PRIVATE debug optimized general".split())  # noqa: SIM905
@@ -91,7 +101,10 @@ def read_build(folder: str, package: str, disk: Disk, generation: int | None = N
     lists = _Lists(folder, disk, generation)
     complete = False
     with contextlib.suppress(_TooLargeError):
-        complete = lists.folder(folder, {**_FOLDERS, "PROJECT_NAME": package}, 0)
+        is_catkin = generation is not None and not ros(generation).ament
+        names = _CATKIN_FOLDERS if is_catkin else {}
+        of_catkin = {f"CATKIN_PACKAGE_{name}_DESTINATION": below.format(package) for name, below in names.items()}
+        complete = lists.folder(folder, {**_FOLDERS, **of_catkin, "PROJECT_NAME": package}, 0)
     return replace(lists.build(), complete=complete and lists.complete)
 
 
@@ -198,7 +211,10 @@ class _Lists:
                 if command.name == "install" and any(map(is_only_known_to_cmake(variables), command.words)):
                     self.complete = False
                     self._said = replace(self._said, sure=False)
-                self._command(command.name, words_of(command.words, variables), variables, depth)
+                words = words_of(command.words, variables)
+                if command.name == "install":  # the kind may stand before each of the files
+                    words = [word for at, word in enumerate(words) if at == 0 or word != words[0]]
+                self._command(command.name, words, variables, depth)
 
     def _if(self, command: Command, variables: dict[str, str], depth: int) -> None:
         """All branches, unless a condition says that it is for another platform."""

@@ -94,6 +94,17 @@ def crawl(
             folders.clear()
 
 
+def package_of(path: str) -> Package | None:
+    """The package whose folder a file is in, also one that all tools ignore."""
+    folder = os.path.dirname(path)
+    while folder != os.path.dirname(folder):
+        manifest = os.path.join(folder, MANIFEST)
+        if os.path.isfile(manifest):
+            return _read_manifest(folder, manifest, metapackages=False, problems=[])
+        folder = os.path.dirname(folder)
+    return None
+
+
 def walk_unignored(top: str, skip: Collection[str] = ()) -> Iterator[tuple[str, list[str], list[str], bool]]:
     """As `walk`, without what all tools ignore and what colcon has made; last is whether colcon ignores the folder."""
     marked: tuple[str, ...] = ()

@@ -24,6 +24,8 @@ def of_generation(environment: Environment, generation: int) -> Environment:
             candidates = by_generation(p for p in candidates if not is_installed_ros1(p, installed, prefixes))
         else:  # rospkg takes what its path has, whatever it is built with
             candidates = tuple(p for p in candidates if p.share.startswith(path) or not p.share.startswith(prefixes))
+            # Of two sources of one name that of catkin is the one that it is built with.
+            candidates = tuple(sorted(candidates, key=lambda package: package.is_ament))
         if candidates:
             packages[name] = candidates[0]
         if len(candidates) > 1:

@@ -417,6 +417,11 @@ class LaunchTree(Remembering):
         return edited is not None and problem.location.span in edited.wrong
 
 
+def nothing_launched(file: str, generation: int) -> LaunchTree:
+    """The tree of a file that is no launch file."""
+    return LaunchTree(file, generation, {}, (), {}, (), (), {}, (), (), (), ())
+
+
 @derived
 def _nodes_and_simulated(tree: LaunchTree) -> tuple[LaunchNode, ...]:
     return (*tree.nodes, *tree.simulated) if tree.simulated else tree.nodes

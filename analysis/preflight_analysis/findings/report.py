@@ -136,6 +136,7 @@ def to_json(report: Report) -> dict[str, Any]:
             "nodes": coverage.total_nodes,
             "sources": dict(coverage.nodes),
             "unknown_nodes": list(coverage.unknown_nodes),
+            "other_files": coverage.other_files,
         },
         "files": coverage.files,
         "nodes": coverage.total_nodes,

@@ -20,6 +20,8 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 
 Format = Literal["xml", "yaml", "python"]
+FileKind = Literal["launch file", "parameter file", "build file", "robot description", "behavior tree", "module"]
+"""What a file is, as far as there are checks for it."""
 
 YAML_SUFFIXES = (".yaml", ".yml")
 LAUNCH_SUFFIXES = (
@@ -30,6 +32,11 @@ LAUNCH_SUFFIXES = (
 """What launch files are called; others are known by what is in them."""
 LAUNCH_FOLDER = "launch"
 """Where packages have their launch files, whatever they are called."""
+_BUILD_FILES = ("package.xml", "CMakeLists.txt", "setup.py", "setup.cfg")
+_DESCRIPTION_SUFFIXES = (".xacro", ".urdf", ".srdf", ".sdf", ".world")
+_DESCRIPTION_ROOTS = frozenset(("robot", "sdf", "gazebo", "world", "model"))
+_TREE_ROOT = "root"
+"""Of behavior trees, as BehaviorTree.CPP has it."""
 _SUFFIXES = (".xml", *YAML_SUFFIXES, PYTHON_SUFFIX)
 """Of files that may be launch files whatever else they are called."""
 _OTHER_ROOTS = frozenset(("launchConfiguration", "sdf", "gazebo", "robot", "COLLADA", "html", "opencv_storage"))
@@ -73,6 +80,30 @@ def launch_files_of(db: Database, paths: Iterable[str]) -> list[str]:
     """Those of these files that are launch files; in Python those that are called so or lie in a launch folder."""
     placed = (p for p in paths if not p.endswith(PYTHON_SUFFIX) or p.endswith(LAUNCH_SUFFIXES) or _in_launch_folder(p))
     return [path for path in placed if launch_format_on_disk(db, path) is not None]
+
+
+def file_kind(db: Database, path: str) -> FileKind | None:
+    """What a file is, by its name and by what is in it; None of a kind for which there are no checks. XML without any
+    element is a launch file that is being written."""
+    name = os.path.basename(path)
+    if launch_format_on_disk(db, path) is not None:
+        return "launch file"
+    if name in _BUILD_FILES:
+        return "build file"
+    if is_yaml(path):
+        return "parameter file"
+    if path.endswith(_DESCRIPTION_SUFFIXES):
+        return "robot description"
+    text = text_of(db, path)
+    content = text.text if isinstance(text, Text) else ""
+    if is_python(path, content):
+        return "module"
+    tag = document_element(content)
+    if tag == "launch" or (path.endswith(".xml") and tag is None):
+        return "launch file"
+    if tag in _DESCRIPTION_ROOTS:
+        return "robot description"
+    return "behavior tree" if tag == _TREE_ROOT and "BehaviorTree" in content else None
 
 
 @query

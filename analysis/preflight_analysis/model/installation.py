@@ -129,7 +129,7 @@ def packages_in(environment: Environment, files: Iterable[str], nodes: Iterable[
     found = {package.name: package for file in files if (package := package_around(environment, file))}
     named = {node.package for node in nodes} & environment.packages.keys()
     found |= {name: environment.packages[name] for name in sorted(named)}
-    return tuple(package for package in found.values() if package.is_ament and not environment.is_installed(package))
+    return tuple(package for package in found.values() if not environment.is_installed(package))
 
 
 def build_files_of(disk: Disk, package: Package) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ BEHAVIOR_TREES = (
 CLOCK = f"[ROS 1: Clock]({_WIKI}/Clock)"
 CLOCK_AND_TIME = f"[ROS 2 design: Clock and time]({_DESIGN}/clock_and_time.html)"
 COMMAND_LINE = f"[ROS 2 design: ROS command line arguments]({_DESIGN}/ros_command_line_arguments.html)"
+CMAKE_VARIABLES = "[CMake: Variables](https://cmake.org/cmake/help/latest/manual/cmake-language.7.html#variables)"
 COMPOSITION = f"[ROS 2: About composition]({_DOCS}/Concepts/Intermediate/About-Composition.html)"
 CONTROLLER_MANAGER = (
     "[ros2_control: Controller manager]"
@@ -101,6 +102,9 @@ SECURITY = "[Security](../security.md)"
 SERVICES = f"[ROS 1: Services]({_WIKI}/Services)"
 SERVICES_2 = f"[ROS 2: About services]({_DOCS}/Concepts/Basic/About-Services.html)"
 LAUNCH_SUBSTITUTIONS = f"[ROS 2: Using substitutions]({_DOCS}/Tutorials/Intermediate/Launch/Using-Substitutions.html)"
+SETUP_CFG = (
+    "[setuptools 78.0.2: dash-separated fields in setup.cfg](https://setuptools.pypa.io/en/latest/history.html#v78-0-2)"
+)
 TF2 = f"[ROS 2: tf2]({_DOCS}/Concepts/Intermediate/About-Tf2.html)"
 TOPICS = f"[ROS 1: Topics]({_WIKI}/Topics)"
 TOPICS_2 = f"[ROS 2: About topics]({_DOCS}/Concepts/Basic/About-Topics.html)"

@@ -16,9 +16,10 @@ from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast,
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.ros2.param_files import MARK, read_param_file
-from preflight_analysis.findings.claim import Subject
+from preflight_analysis.evaluation.yaml_params import YamlError, load_yaml
+from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import doubts
-from preflight_analysis.findings.finding import Finding
+from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.incremental.query import query
@@ -30,6 +31,7 @@ from preflight_analysis.model.refused_files import not_marked
 from preflight_analysis.model.sections import first_getters
 from preflight_analysis.robot.of_launch import robots_of
 from preflight_analysis.rules import ctl001_unknown_joint as ctl001
+from preflight_analysis.rules import prm004_bad_yaml as prm004
 from preflight_analysis.rules import prm006_parameter_set_twice as prm006
 from preflight_analysis.rules import prm012_missing_ros_parameters as prm012
 from preflight_analysis.rules import prm016_parameter_file_refused as prm016
@@ -61,7 +63,8 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         return
     if not context.tree.ros.own_parameters:
         around = (package_around(context.environment, path) for path in context.launch_files)
-        own = {each.share for each in around if each is not None and not context.environment.is_installed(each)}
+        own = {package.share}
+        own |= {each.share for each in around if each is not None and not context.environment.is_installed(each)}
         for share in sorted(own):
             yield from _of_ros1(context, share)
         return
@@ -72,41 +75,91 @@ def findings_of_loose_files(context: Context) -> Iterator[Finding]:
         document = context.disk.text(path)
         if path in given or not isinstance(document, Document):
             continue
-        file = read_param_file(document)
-        if (file.unmarked or file.refused) and os.path.basename(path) in _read_by_programs(
-            context.disk.db, package.share
-        ):
-            continue  # they look for its keys, and rcl does not get it
-        # Only what has a section of a node is one for certain.
-        for name, span in file.unmarked[:1] if file.sections else ():
-            message = prm012.MESSAGE.format(not_marked(name))
-            place, fixes = document.location(span), prm012.marked(document, span)
-            yield prm012.RULE.claim(message, place, subject=Subject("parameter", name), doubts=_LOOSE, fixes=fixes)
-        for what, span in file.refused[:1]:
-            message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
-            of_file = Subject("file", path)
-            yield prm016.RULE.claim(message, document.location(span), subject=of_file, doubts=_LOOSE)
-        yield from prm006.repeated_in(document, *_LOOSE)
-        for missing in prm018.missing_in(document):
-            if _is_in_base(context, files | given, missing):
-                continue
-            yield prm018.RULE.claim(
-                missing.message,
-                document.location(missing.span),
-                subject=missing.subject,
-                effect=missing.effect,
-                doubts=_LOOSE,
-                candidates=missing.meant,
-            )
-        yield from _unknown_names(context, package.share, document)
-        for wrong in prm022.wrong_in(document, context.plugins):
-            yield prm022.RULE.claim(
-                wrong.message,
-                document.location(wrong.span),
-                subject=Subject("parameter", wrong.name),
-                doubts=(*wrong.doubts, *_LOOSE),
-                candidates=(wrong.meant,),
-            )
+        yield from _of_ros2(context, document, package.share, files | given)
+
+
+def findings_of_param_file(context: Context) -> Iterator[Finding]:
+    """What is wrong with the parameter file that `context` is of, whoever gets it."""
+    path = context.root
+    document = context.disk.text(path)
+    package = package_around(context.environment, path)
+    if not isinstance(document, Document):
+        return
+    share = package.share if package is not None else os.path.dirname(path)
+    # Others may be of programs that read another YAML.
+    is_likely = MARK in document.text or "param" in os.path.basename(path) or _is_in_their_folder(path, share)
+    if MARK in document.text or context.tree.ros.own_parameters:
+        if MARK in document.text or (is_likely and read_param_file(document).problem is not None):
+            around = files_in(context.disk, os.path.dirname(path), deep=False)
+            beside = (each for each in around if each.endswith(_SUFFIXES))
+            yield from _of_ros2(context, document, share, beside)
+        return
+    try:
+        loaded = load_yaml(document.text)
+    except YamlError as error:
+        at = error.offset or 0
+        yield from [_no_yaml(document, error.message, Span(at, at))] if is_likely else ()
+        return
+    for key, first, second in loaded.twice:
+        place = document.location(second)
+        yield prm006.RULE.claim(
+            prm006.KEY_TWICE.format(key),
+            document.location(first),
+            subject=Subject("parameter", key),
+            doubts=_LOOSE,
+            related=(Related("the value that applies", place),),
+        )
+    if package is not None:
+        yield from _unknown_names(context, share, document)
+        yield from _unknown_joints(context, document)
+
+
+def _no_yaml(document: Document, message: str, span: Span) -> Finding:
+    text = say("invalid parameters: {quoted}", quoted=message)
+    about = Subject("file", document.path)
+    return prm004.RULE.claim(text, document.location(span), subject=about, doubts=_LOOSE)
+
+
+def _of_ros2(context: Context, document: Document, share: str, beside: Iterable[str | None]) -> Iterator[Finding]:
+    """Of one file of a package; `beside` are those that nodes may get with it."""
+    file, name = read_param_file(document), os.path.basename(document.path)
+    if (file.unmarked or file.refused) and name in _read_by_programs(context.disk.db, share):
+        return  # they look for its keys, and rcl does not get it
+    if file.problem is not None:
+        yield _no_yaml(document, *file.problem)
+        return
+    # Only what has a section of a node is one for certain.
+    for name, span in file.unmarked[:1] if file.sections else ():
+        message = prm012.MESSAGE.format(not_marked(name))
+        place, fixes = document.location(span), prm012.marked(document, span)
+        yield prm012.RULE.claim(message, place, subject=Subject("parameter", name), doubts=_LOOSE, fixes=fixes)
+    # What a substitution comes to may be fine.
+    for what, span in [each for each in file.refused if "$(" not in document.text[slice(*each[1])]][:1]:
+        message = f"{what}; rcl refuses the whole file, and no node that gets it starts"
+        of_file = Subject("file", document.path)
+        yield prm016.RULE.claim(message, document.location(span), subject=of_file, doubts=_LOOSE)
+    yield from prm006.repeated_in(document, *_LOOSE)
+    others = tuple(beside)
+    for missing in prm018.missing_in(document):
+        if _is_in_base(context, others, missing):
+            continue
+        yield prm018.RULE.claim(
+            missing.message,
+            document.location(missing.span),
+            subject=missing.subject,
+            effect=missing.effect,
+            doubts=_LOOSE,
+            candidates=missing.meant,
+        )
+    yield from _unknown_names(context, share, document)
+    for wrong in prm022.wrong_in(document, context.plugins):
+        yield prm022.RULE.claim(
+            wrong.message,
+            document.location(wrong.span),
+            subject=Subject("parameter", wrong.name),
+            doubts=(*wrong.doubts, *_LOOSE),
+            candidates=(wrong.meant,),
+        )
 
 
 def _of_ros1(context: Context, share: str) -> Iterator[Finding]:

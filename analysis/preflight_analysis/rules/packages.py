@@ -22,7 +22,8 @@ def check_packages(of_package: OfPackage) -> Check:
 
     def check(rule: Rule, context: Context) -> Iterator[Finding]:
         for package in packages_of(context):
-            yield from said_of_package(context.disk.db, of_package, rule, context.environment, package)
+            if package.generation in rule.generations:
+                yield from said_of_package(context.disk.db, of_package, rule, context.environment, package)
 
     return check
 

@@ -37,7 +37,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
-    """The packages that the Python modules of a package import and its manifest does not name, each once."""
+    """The packages that the Python modules of a package import and its manifest does not name, each once. In ROS 1 what
+    a module imports need not be a package of that name."""
+    if not package.is_ament:
+        return
     said = {package.name, *package.dependencies}
     manifest = disk.text(package.manifest)
     for path in files_in(disk, package.share, deep=True)[:_MOST_FILES]:

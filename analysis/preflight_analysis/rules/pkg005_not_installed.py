@@ -1,4 +1,4 @@
-"""PKG005: a file of the source that the package does not install (ROS 2)."""
+"""PKG005: a file of the source that the package does not install."""
 
 import os
 import re
@@ -10,6 +10,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.edits import cmake
 from preflight_analysis.edits.python import PythonWriter
+from preflight_analysis.environment.installed_paths import cmake_build, installed_at, package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.evaluation.tree import Param, Use
@@ -37,6 +38,7 @@ _LAUNCH = "launch"
 _DESCRIPTIONS = (".urdf", ".xacro", ".srdf", ".sdf", ".world")
 _REFERENCE = re.compile(r"(?:package://|\$\(find )\s*([\w-]+)\)?/([^\s\"'<>)]+)")
 """How descriptions of robots name a file of a package."""
+_SCRIPT = ".py"
 _MOST_FILES = 200
 _LONGEST = 1_000_000
 _LONGEST_PATH = 4096
@@ -44,12 +46,17 @@ _NOT_OURS = frozenset(("test", "tests", "build", "install", "log"))
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    yield from _of_launch(rule, context)
-    yield from check_packages(of_package)(rule, context)
+    if context.tree.ros.ament:
+        yield from _of_launch(rule, context)
+        yield from check_packages(of_package)(rule, context)
+    else:
+        yield from _of_catkin(rule, context)
 
 
 def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
     """What the robot descriptions of a package name and no package installs, once for each folder."""
+    if not package.is_ament:
+        return
     said = set[str]()
     paths = (path for path in files_in(disk, package.share, deep=True) if path.endswith(_DESCRIPTIONS))
     for file in islice(paths, _MOST_FILES):
@@ -81,6 +88,49 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
 def _known_part(path: str) -> str:
     """A path, or the folder before the first part of it that xacro computes."""
     return os.path.normpath(path if "$" not in path else os.path.dirname(path[: path.index("$")] + "_"))
+
+
+def _of_catkin(rule: Rule, context: Context) -> Iterator[Finding]:
+    """What a launch of ROS 1 uses of packages that install other files of the kind: it is found in the devel space, and
+    missing where the package is installed. Once for each folder, and for each script."""
+    said = set[str]()
+    for use in filter(None, context.each(_of_file, context.tree.uses)):
+        path = os.path.normpath(use.name)
+        package, document = package_around(context.environment, path), context.documents.get(use.location.file)
+        if package is None or document is None or not _installs_some(context, package):
+            continue
+        written, folder = document.text[slice(*use.location.span)], os.path.dirname(path)
+        if folder in said or f"$(find {package.name})" not in written or installed_at(context.disk, package, path):
+            continue
+        said.add(folder)
+        about = Subject("file", path)
+        yield rule.claim(_not_in(package, "file", path, "files"), use.location, subject=about, effect="note")
+    for node in context.tree.nodes:
+        path = node.resolved.path or ""
+        package = package_around(context.environment, path)
+        if path in said or package is None or not path.endswith(_SCRIPT) or not _installs_some(context, package):
+            continue
+        programs = {program.path for program in cmake_build(context.disk, package).programs.values()}
+        if programs and path not in programs and path.startswith(package.share + os.sep):
+            said.add(path)
+            about = Subject("executable", node.executable)
+            yield rule.claim(_not_in(package, "script", path, "scripts"), node.location, subject=about, effect="note")
+
+
+def _installs_some(context: Context, package: Package) -> bool:
+    """Whether all that a catkin package installs is known, and something goes to its share folder."""
+    if package.build_type != "catkin" or context.environment.is_installed(package):
+        return False
+    build, share = cmake_build(context.disk, package), f"share/{package.name}"
+    return build.complete and any(f"{each.destination}/".startswith(f"{share}/") for each in build.installed)
+
+
+def _not_in(package: Package, what: str, path: str, others: str) -> str:
+    below = os.path.relpath(path, package.share)
+    return (
+        f"{what} '{below}' is not installed: CMakeLists.txt of '{package.name}' installs other {others}, not this one; "
+        "it is found in the devel space only"
+    )
 
 
 def _of_launch(rule: Rule, context: Context) -> Iterator[Finding]:
@@ -166,10 +216,10 @@ RULE = Rule(
     name="not-installed",
     effect="misbehaves",
     kind="absent",
-    sometimes=(Reason.SET_ASIDE,),
+    sometimes=("note", Reason.SET_ASIDE),
     what="Checks for a launch file, a parameter file, or a file that a node or a robot description opens, that the "
     "`setup.py` or `CMakeLists.txt` of its package does not install in the share folder. Something refers to it there, "
-    "or it is in the folder `launch`.",
+    "or it is in the folder `launch`. In ROS 1, for what a launch file uses of a package that installs other files.",
     why="`ros2 launch` searches the share folder of the installed package. The file is not there.",
     example='<include file="$(find-pkg-share robot)/launch/base.launch.xml"/>\n'
     "<!-- setup.py: data_files=[('share/robot/config', glob('config/*'))] -->",
@@ -178,7 +228,6 @@ RULE = Rule(
         FILE_SYSTEM,
         LARGE_PROJECTS,
     ),
-    generations=(2,),
     check=_check,
     of_package=of_package,
     in_branches=True,

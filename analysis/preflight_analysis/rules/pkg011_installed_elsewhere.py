@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from preflight_analysis.documents.document import Document
 from preflight_analysis.environment.build import Build, Installed
 from preflight_analysis.environment.installed_paths import cmake_build, python_build
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
@@ -125,7 +127,7 @@ def _of_cmake(rule: Rule, disk: Disk, package: Package, build: Build) -> Iterato
         folder, where = _folder(item, package), item.said
         if where is None or not where.sure or item.runs or not (folder == wanted or folder.startswith(f"{wanted}/")):
             continue
-        for path in _scripts_in(disk, item.source):
+        for path in _scripts_in(disk, item.source, package):
             name = os.path.basename(path)
             if name in run or path in said:
                 continue
@@ -163,13 +165,29 @@ def _folder(item: Installed, package: Package) -> str:
     return os.path.normpath(item.destination.replace("${PROJECT_NAME}", package.name)).lstrip("/")
 
 
-def _scripts_in(disk: Disk, path: str) -> Iterator[str]:
-    """The scripts that are meant to be started: what a program imports has no first line that names an interpreter."""
+def _scripts_in(disk: Disk, path: str, package: Package) -> Iterator[str]:
+    """The scripts that are meant to be started: what a program imports has no first line that names an interpreter, or
+    no launch file of the package names it."""
     names = disk.names(path) if disk.is_folder(path) else ()
     for each in [os.path.join(path, name) for name in sorted(names)] or [path]:
         text = disk.content(each) if os.path.splitext(each)[1] in _SCRIPTS and disk.is_file(each) else None
-        if text is not None and text.startswith("#!") and (not each.endswith(".py") or _MAIN in text):
+        if text is None or not text.startswith("#!") or (each.endswith(".py") and _MAIN not in text):
+            continue
+        if not _is_imported(disk, each) or _is_launched(disk, package, os.path.basename(each)):
             yield each
+
+
+def _is_imported(disk: Disk, path: str) -> bool:
+    """Whether a script beside it imports it."""
+    folder, name = os.path.split(path)
+    imports = re.compile(rf"^[ \t]*(?:from|import)[ \t]+\.?{re.escape(name.removesuffix('.py'))}\b", re.MULTILINE)
+    beside = (os.path.join(folder, other) for other in disk.names(folder) if other.endswith(".py") and other != name)
+    return path.endswith(".py") and any(imports.search(disk.content(other) or "") for other in beside)
+
+
+def _is_launched(disk: Disk, package: Package, name: str) -> bool:
+    files = (file for file in files_in(disk, package.share, deep=True) if file.endswith(_OF_ROS2_LAUNCH))
+    return any(name in (disk.content(file) or "") for file in files)
 
 
 RULE = Rule(

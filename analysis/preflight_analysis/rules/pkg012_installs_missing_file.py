@@ -1,4 +1,4 @@
-"""PKG012: a build file installs what is not there (ROS 2)."""
+"""PKG012: a build file installs what is not there."""
 
 from __future__ import annotations
 
@@ -27,13 +27,15 @@ _MAKES = re.compile(
     r"|file\s*\(\s*(?:DOWNLOAD|MAKE_DIRECTORY|WRITE|GENERATE|COPY|CREATE_LINK))\b"
 )
 """Commands by which a build makes files."""
+_AT_ONCE = "catkin_install_python"
+"""What of catkin looks for the files when it configures."""
 _UNRESOLVED = re.compile(r"[$<>*?]")
 
 
 def of_package(rule: Rule, disk: Disk, environment: Environment, package: Package) -> Iterator[Finding]:
     """What a package installs that is not there."""
     said = set[str]()
-    for path, written, place, made in _installed(disk, package):
+    for path, written, place, made, at_once in _installed(disk, package):
         if path in said or _UNRESOLVED.search(path) or not path.startswith(f"{package.share}{os.sep}"):
             continue
         said.add(path)
@@ -50,27 +52,29 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
         if near is None and not ignored and os.path.dirname(below) == "resource":
             near = next((each for each in disk.names(os.path.dirname(path)) if not each.startswith(".")), None)
         meant = os.path.join(os.path.dirname(below), near) if near is not None else None
+        fails = "the package does not build" if at_once else "`catkin_make install` fails"
         yield rule.claim(
-            f"{build_file} installs '{written}', which does not exist: the package does not build{did_you_mean(meant)}",
+            f"{build_file} installs '{written}', which does not exist: {fails}{did_you_mean(meant)}",
             place,
             subject=Subject("file", path),
+            effect=None if at_once else "misbehaves",
             kind="absent" if meant is None else "near",
             doubts=doubts(MADE_ELSEWHERE=ignored, MADE_BY_BUILD=made),
             candidates=(meant,),
         )
 
 
-def _installed(disk: Disk, package: Package) -> Iterator[tuple[str, str, Location, bool]]:
-    """The path of each file or folder that cannot be installed as it is, how it is written and where, and whether the
-    build may make it."""
+def _installed(disk: Disk, package: Package) -> Iterator[tuple[str, str, Location, bool, bool]]:
+    """The path of each file or folder that cannot be installed as it is, how it is written and where, whether the build
+    may make it, and whether the build fails already, not the installation alone, which ROS 1 seldom needs."""
     if package.build_type == "ament_python":
         build = python_build(disk, package)
         document = disk.text(build.file) if build.file is not None else None
         for each in build.called.copied if build.called is not None and isinstance(document, Document) else ():
             path = os.path.normpath(os.path.join(package.share, each.source))
             if not disk.is_file(path) and isinstance(document, Document):
-                yield path, each.source, line_of(document, each.line), False
-    elif package.build_type == "ament_cmake":
+                yield path, each.source, line_of(document, each.line), False, True
+    elif package.build_type in ("ament_cmake", "catkin"):
         for item in cmake_build(disk, package).installed:
             said = item.said
             if said is None or not said.sure or item.optional or disk.exists(item.source) or f"/{MADE}" in item.source:
@@ -78,8 +82,9 @@ def _installed(disk: Disk, package: Package) -> Iterator[tuple[str, str, Locatio
             written = os.path.relpath(item.source, os.path.dirname(said.file))
             place = said_at(disk, said, written)
             if place is not None:
-                makes = _MAKES.search(disk.content(said.file) or "") is not None
-                yield item.source, written, place, makes
+                text = disk.content(said.file) or ""
+                at_once = package.is_ament or text[said.at :].lower().startswith(_AT_ONCE)
+                yield item.source, written, place, _MAKES.search(text) is not None, at_once
 
 
 RULE = Rule(
@@ -87,15 +92,15 @@ RULE = Rule(
     name="installs-missing-file",
     effect="stops-node",
     kind="absent",
-    sometimes=(Reason.MADE_ELSEWHERE, Reason.MADE_BY_BUILD),
+    sometimes=("misbehaves", Reason.MADE_ELSEWHERE, Reason.MADE_BY_BUILD),
     what="Checks for a file or folder that `setup.py` or `CMakeLists.txt` installs and that does not exist. The marker "
     "`resource/<package>` is one of them.",
-    why="The build of the package fails, so none of its nodes and launch files is found. Git does not keep empty "
-    "folders, so one that is empty here is missing in every clone.",
+    why="The build of the package fails, so none of its nodes and launch files is found. With catkin `install(...)` "
+    "fails only when the package is installed. Git does not keep empty folders, so one that is empty here is missing "
+    "in every clone.",
     example="install(DIRECTORY lanch DESTINATION share/${PROJECT_NAME})",
     instead="install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})",
     references=(PYTHON_PACKAGES, FILE_SYSTEM),
-    generations=(2,),
     check=check_packages(of_package),
     of_package=of_package,
 )

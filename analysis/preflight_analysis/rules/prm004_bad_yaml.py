@@ -26,7 +26,7 @@ RULE = Rule(
     name="bad-yaml",
     effect="stops-launch",
     kind="invalid",
-    sometimes=(Reason.NOT_SET,),
+    sometimes=(Reason.NOT_SET, Reason.NOT_GIVEN),
     what="Checks for parameters, in a `<rosparam>` or in the file that it loads, that are not valid YAML or have an "
     "invalid structure.",
     why="`roslaunch` stops and starts nothing.",

@@ -25,6 +25,7 @@ from preflight_analysis.rules.rule import Rule
 
 _OVERRIDDEN = "overridden: parameter '{name}' of {node} {why} to {value}, not {old}"
 _TWICE = "duplicate key '{name}' in this section: the later one overrides it with {value}"
+KEY_TWICE = "duplicate key '{}' in this dictionary: the later one overrides this one"
 _DEAD_ARGUMENT = (
     "overridden: parameter '{name}' of {node} is set again by a later parameter file; argument '{argument}' does not "
     "change it"
@@ -256,7 +257,7 @@ def _keys_twice(rule: Rule, context: Context) -> Iterator[Finding]:
         yield problem_claim(
             rule,
             problem,
-            f"duplicate key '{problem.kind.name}' in this dictionary: the later one overrides this one",
+            KEY_TWICE.format(problem.kind.name),
             subject=Subject("parameter", problem.kind.name),
             related=(Related("the value that applies", problem.kind.second),),
         )

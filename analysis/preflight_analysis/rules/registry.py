@@ -7,7 +7,7 @@ import logging
 import pkgutil
 import re
 from collections import deque
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -31,11 +31,12 @@ from preflight_analysis.findings.instances import together, with_others
 from preflight_analysis.findings.policy import doubted
 from preflight_analysis.findings.suppression import Filtered, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
+from preflight_analysis.launch.recognize import FileKind
 from preflight_analysis.model.catalogued import robots_by_catalogue
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import build_files_of
 from preflight_analysis.model.problems import include_chain, numbered_problems
-from preflight_analysis.rules.loose_param_files import findings_of_loose_files
+from preflight_analysis.rules.loose_param_files import findings_of_loose_files, findings_of_param_file
 from preflight_analysis.rules.packages import said_of_package
 from preflight_analysis.rules.rule import Rule, in_root
 from preflight_analysis.tracing.once_per_process import once_per_process
@@ -44,6 +45,10 @@ _log = logging.getLogger(__name__)
 _GRAVE = ("error", "warning")
 _MOST_CONTEXTS = 5
 """Further includes that a finding tells of: a file may be included a thousand times."""
+_OF_FILES: Mapping[FileKind, tuple[Callable[[Context], Iterable[Finding]], ...]] = {
+    "parameter file": (findings_of_param_file,),
+}
+"""What is said of a file for itself, beside what rules say of its package. The root of the context is the file."""
 _RULE_MODULE = re.compile(r"[a-z]{3}\d{3}_")
 
 
@@ -119,7 +124,7 @@ def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[P
     for each in packages:
         by_file: dict[str, list[Finding]] = {path: [] for path in build_files_of(disk, each)}
         for rule in rules:
-            if rule.of_package is not None:
+            if rule.of_package is not None and each.generation in rule.generations:
                 for finding in said_of_package(disk.db, rule.of_package, rule, environment, each):
                     by_file.setdefault(finding.location.file, []).append(finding)
         texts = _texts(disk, by_file)
@@ -132,6 +137,35 @@ def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[P
 
 def _texts(disk: Disk, paths: Iterable[str]) -> dict[str, Document]:
     return {path: text for path in sorted(paths) if isinstance(text := disk.text(path), Document)}
+
+
+def found_in_file(context: Context, kind: FileKind, package: Package | None) -> tuple[Finding, ...]:
+    """What is wrong with the file that `context` is of, which is no launch file, for itself and as a part of its
+    package: also what is said elsewhere and mended in it. Without what comments silence."""
+    path, disk, environment = context.root, context.disk, context.environment
+    checks = _OF_FILES.get(kind, ())
+    found = [*without_suppressed(disk, (each for check in checks for each in check(context)))]
+    if package is not None:
+        found += found_in_packages(disk, environment, (package,))
+    return tuple(sorted((each for each in dict.fromkeys(found) if _is_of(each, path)), key=_place))
+
+
+def without_suppressed(disk: Disk, findings: Iterable[Finding]) -> Iterator[Finding]:
+    """The findings that no comment in their file silences."""
+    by_file: dict[str, list[Finding]] = {}
+    for each in findings:
+        by_file.setdefault(each.location.file, []).append(each)
+    texts = _texts(disk, by_file)
+    for path, here in by_file.items():
+        document = texts.get(path)
+        silenced = read_suppressions(document)[0] if document is not None else ()
+        yield from apply_suppressions(here, silenced, document).left
+
+
+def _is_of(finding: Finding, path: str) -> bool:
+    """Whether a finding is in a file, or mended in it."""
+    places = (finding.location, *(edit.location for fix in finding.fixes for edit in fix.edits))
+    return any(place.file == path for place in places)
 
 
 def _of_branches(needs_graph: bool, pause: Callable[[], object]) -> Iterator[Rule]:

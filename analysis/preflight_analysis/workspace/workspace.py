@@ -17,6 +17,7 @@ from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.executables import ExecutableIndex
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
+from preflight_analysis.environment.packages import package_of
 from preflight_analysis.environment.variables import with_queried_variables
 from preflight_analysis.environment.view import meaning, meant_by, of_generation
 from preflight_analysis.evaluation.commands import EDITION, CommandResult, Commands, NoResults, QueriedCommands
@@ -29,7 +30,7 @@ from preflight_analysis.evaluation.ros2.python_runs import parse_request
 from preflight_analysis.evaluation.ros2.spawners import with_spawned
 from preflight_analysis.evaluation.surroundings import Surroundings
 from preflight_analysis.evaluation.taken_over import taken_over
-from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, NotTaken
+from preflight_analysis.evaluation.tree import LaunchNode, LaunchTree, NotTaken, nothing_launched
 from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.findings.offered import with_offered_fixes
@@ -44,11 +45,19 @@ from preflight_analysis.interfaces.merge import merged
 from preflight_analysis.interfaces.part import Launch
 from preflight_analysis.interfaces.plugins import PluginIndex
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.launch.recognize import FileKind
 from preflight_analysis.model.behavior_trees import trees_of
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import build_files_of, packages_in
 from preflight_analysis.robot.sources import documents_of
-from preflight_analysis.rules.registry import found_in_branch, found_in_loose_files, found_in_packages, run_rules
+from preflight_analysis.rules.registry import (
+    found_in_branch,
+    found_in_file,
+    found_in_loose_files,
+    found_in_packages,
+    run_rules,
+    without_suppressed,
+)
 from preflight_analysis.source.analyse import SourceAnalysis
 from preflight_analysis.tracing import preload
 from preflight_analysis.tracing.interface import Interface
@@ -384,9 +393,36 @@ class Workspace:
         found = found.with_others(found_in_loose_files(analysis.context), self.sources)
         return replace(found, failures=tuple(failures))
 
-    def findings_of_packages(self, packages: Iterable[Package]) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
-        """What is wrong with how packages are built that no launch has to do with, and the texts of the files."""
-        found = adjusted(found_in_packages(self.sources, self.environment, packages), self.settings.severities)
+    def findings_of_packages(
+        self, packages: Iterable[Package], *, param_files: bool = False
+    ) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
+        """What is wrong with how packages are built that no launch has to do with, and the texts of the files; with
+        their parameter files too, which takes longer, if these are asked for."""
+        found: list[Finding] = []
+        for each in packages:
+            found += found_in_packages(self.sources, self.environment, (each,))
+            loose = found_in_loose_files(self._context_of(each.manifest, each)) if param_files else ()
+            found += without_suppressed(self.sources, loose)
+        return self._with_texts(tuple(found))
+
+    def findings_of_file(self, path: str, kind: FileKind) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
+        """What is wrong with a file that is no launch file, and the texts of the files."""
+        package = self.package_of(path)
+        return self._with_texts(found_in_file(self._context_of(path, package), kind, package))
+
+    def package_of(self, path: str) -> Package | None:
+        """The package that a file is in, also one that is ignored where packages are looked for."""
+        return package_around(self.environment, path) or package_of(path)
+
+    def _context_of(self, path: str, package: Package | None) -> Context:
+        """What there is to ask of a file that is no launch file."""
+        generation = package.generation if package is not None else self.environment.generation
+        environment = _of_generation(self.sources.db, self.environment, generation)
+        tree = nothing_launched(path, generation)
+        return _of_tree(self.sources.db, self, Root(path), tree, environment).context
+
+    def _with_texts(self, found: tuple[Finding, ...]) -> tuple[tuple[Finding, ...], Mapping[str, Document]]:
+        found = adjusted(found, self.settings.severities)
         texts = {path: self.sources.text(path) for path in {each.location.file for each in found}}
         documents = {path: text for path, text in texts.items() if isinstance(text, Document)}
         return with_offered_fixes(found, self.sources.content), documents

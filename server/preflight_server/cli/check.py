@@ -1,4 +1,4 @@
-"""`ros-preflight check`: the findings of launch files, or of a whole workspace."""
+"""`ros-preflight check`: the findings of launch files and of other files, or of a whole workspace."""
 
 from __future__ import annotations
 
@@ -48,7 +48,8 @@ meanwhile."""
 FORMATS = ("text", "json", "sarif", "junit", "github", "gitlab")
 
 DESCRIPTION = """Find problems in launch files and in everything that they include. Without FILE, check the root
-launch files of the current folder: those that no other file includes, and those that .ros-preflight.yaml names. The
+launch files of the current folder: those that no other file includes, and those that .ros-preflight.yaml names. Another
+FILE, such as a parameter file, a build file or a robot description, is checked for what is wrong with itself. The
 command runs nodes and parameter commands in a sandbox, without network and without write access to your files.
 Calling it is your consent. The runs show what nodes publish, subscribe to and read. With --no-run nothing is
 executed, and findings that need a run are missing."""
@@ -103,7 +104,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "launch_args",
         metavar="FILE",
         nargs="*",
-        help="launch files with their arguments (name:=value), or folders (default: the current folder)",
+        help="launch files with their arguments (name:=value), other files, or folders (default: the current folder)",
     )
     parser.add_argument(
         "--severity",
@@ -192,11 +193,20 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
                         found.append(_Launched.of(root, project.with_results(), untried))
     finally:
         progress.end()
-    for launch in chosen if not changed else ():
-        rest = [package for package in launch.packages if package.share not in reached]
-        more, texts = launch.workspace.workspace.findings_of_packages(rest)
+    checked: list[str] = []
+    unreached = 0
+    for launch in chosen:
+        rest = [package for package in launch.packages if package.share not in reached] if not changed else []
+        unreached += len(rest)
+        more, texts = launch.workspace.workspace.findings_of_packages(rest, param_files=True)
         of_packages += more
         documents |= texts
+        for path, kind in launch.files.items():
+            if not changed or os.path.realpath(path) in changed[launch.home]:
+                checked.append(path)
+                more, texts = launch.workspace.workspace.findings_of_file(path, kind)
+                of_packages += more
+                documents |= texts
     kept = _not_included(found, frozenset[Root]().union(*(each.asked for each in chosen)))
     files = tuple(dict.fromkeys(file for each in kept for file in each.files))
     documents |= {path: document for each in kept for path, document in each.documents.items()}
@@ -209,10 +219,13 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
         sum(each.untried for each in kept),
         not_evaluated=tuple(sorted(left_out.intersection(files))),
         unknown_nodes=tuple(sorted({name for name, source in nodes if source == "none"})),
+        other_files=len(checked),
+        packages=unreached,
     )
     problems = dict.fromkeys(problem for each in kept for problem in each.problems)
     failed += [failure for each in kept for failure in each.failures]
-    return Report.of((*_merged(kept), *of_packages), documents, coverage, problems, failed), files
+    others = tuple(dict.fromkeys(of_packages))
+    return Report.of((*_merged(kept), *others), documents, coverage, problems, failed), (*files, *checked)
 
 
 @contextmanager

@@ -6,8 +6,10 @@ import os
 import re
 import shlex
 from collections.abc import Callable, Iterable, Iterator
+from itertools import pairwise
 
 from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose_fast
 from preflight_analysis.environment.model import Executable
 from preflight_analysis.evaluation.files import without_dots
 from preflight_analysis.evaluation.problems import InvalidName
@@ -24,13 +26,16 @@ from preflight_analysis.evaluation.ros2.params import (
 )
 from preflight_analysis.evaluation.ros2.processes import OUTPUTS
 from preflight_analysis.evaluation.ros2.python_params import dict_params, named_params
+from preflight_analysis.evaluation.ros2.rcl_yaml import value as rcl_value
 from preflight_analysis.evaluation.ros2.remaps import is_rule_part
 from preflight_analysis.evaluation.ros2.substitute import Performer
+from preflight_analysis.evaluation.ros2.unknown_text import is_unknown
 from preflight_analysis.evaluation.tree import LaunchNode, Param, ParamSource, Remap, Unknown, Use
 from preflight_analysis.launch.model import Action, Literal, Substitution, Value
 from preflight_analysis.launch.problems import BadValue
 
 _WORD = re.compile(r"\w+")
+_PARAM_OPTIONS = ("-p", "--param")
 _NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NAMESPACE = re.compile(r"/|(?:/[A-Za-z_][A-Za-z0-9_]*)+")
 
@@ -114,7 +119,9 @@ def evaluate_node(performer: Performer, action: Action, *, kind: str = "node", d
     to = Sources(full if name is not None else _full(namespace, "?"), full if own else EVERY)
     _collect(performer, action, to, must_exist=False)
     remaps = _remaps(performer, action, full)
-    arguments = _words(performer, action, "args")
+    given = _given_words(performer, action, "args")
+    arguments = [word for word, _ in given]
+    to.found[:0] = _of_command_line(performer, action, given, to.owner)
     if package:
         resolved = state.executables.find(package, exec_name)
     else:
@@ -342,24 +349,53 @@ def _environment(performer: Performer, action: Action) -> list[tuple[str, str]]:
 
 
 def _words(performer: Performer, action: Action, name: str) -> list[str]:
+    return [word for word, _ in _given_words(performer, action, name)]
+
+
+def _given_words(performer: Performer, action: Action, name: str) -> list[tuple[str, Span]]:
     """A command line, split where it is written: what a substitution comes to stays one word
     (`ExecuteProcess._parse_cmdline`)."""
-    given = [value for child in action.children if child.kind == "argument" and (value := child.value("value"))]
+    given = _values_of(action, "argument")
     if given:
         texts = [performer.value(value).text for value in given]
         if name == "args":
             texts = [text or "''" for text in texts]  # a program gets one that is empty
-        return [performer.state.located(text) if text.startswith("/") else text for text in texts]
+        texts = [performer.state.located(text) if text.startswith("/") else text for text in texts]
+        return list(zip(texts, [value.span for value in given], strict=True))
     value = action.value(name)
     if value is None:
         return []
     if value.problem is not None:
         performer.value(value)
         return []
-    words: list[str] = []
-    for parts in _split(value):
-        words.append(performer.parts(parts).text)
-    return words
+    return [(performer.parts(parts).text, value.span) for parts in _split(value)]
+
+
+def _values_of(action: Action, kind: str) -> list[Value]:
+    return [value for child in action.children if child.kind == kind and (value := child.value("value")) is not None]
+
+
+def _of_command_line(
+    performer: Performer, action: Action, given: Iterable[tuple[str, Span]], node: str
+) -> Iterator[ParamSource]:
+    """The parameters among the arguments of ROS (`-p name:=value`), which launch passes before its own."""
+    words = [("--", action.kind_span), *given, ("--ros-args", action.kind_span)]
+    words += [(performer.value(value).text, value.span) for value in _values_of(action, "ros_argument")]
+    words += _given_words(performer, action, "ros_args") if action.value("ros_args") is not None else []
+    inside = False
+    for (option, _), (word, span) in pairwise(words):
+        inside = option == "--ros-args" or (inside and option != "--")
+        name, assigned, text = word.partition(":=")
+        # A node's name before it would make it one of that node alone.
+        if not inside or option not in _PARAM_OPTIONS or not assigned or ":" in name or is_unknown(word):
+            continue
+        try:
+            written = compose_fast(text)
+        except CONSTRUCTION_ERRORS:
+            continue
+        value = rcl_value(written) if written is not None else None
+        origin = performer.place.origin(span)
+        yield ParamSource(None, (Param(name, value, origin, node, origin[-1]),), origin, keys=(EVERY,))
 
 
 def _split(value: Value) -> list[tuple[Literal | Substitution, ...]]:
