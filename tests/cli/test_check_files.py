@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.descriptions import xacro
 from support.packaging import CMAKE, LISTS, PYTHON, SETUP, lay_out
 
 pytestmark = pytest.mark.ros
@@ -40,6 +41,8 @@ def found(done: Any) -> list[tuple[str, str, str]]:
         ("CMakeLists.txt", BROKEN, [("PKG012", "error", "CMakeLists.txt")]),
         ("CMakeLists.txt", LISTS, []),
         ("package.xml", CMAKE["package.xml"], []),
+        ("urdf/r.xacro", xacro("<xacro:wheel/>"), [("URD011", "warning", "r.xacro")]),
+        ("urdf/r.xacro", xacro("<link>"), [("URD001", "warning", "r.xacro")]),
         ("urdf/r.urdf", ROBOT, [("PKG005", "warning", "r.urdf")]),
         (
             "CMakeLists.txt",

@@ -15,6 +15,7 @@ from preflight_analysis.model.installed import lack_of_package
 from preflight_analysis.workspace.sources import Sources
 from preflight_analysis.workspace.workspace import Workspace
 from support.check import analyse, apply, check, findings_of, read_fixture
+from support.descriptions import said, xacro
 from support.unbuilt_packages import manifest
 
 
@@ -398,3 +399,17 @@ def test_the_placeholder_of_an_example(tmp_path: Path, name: str, severity: str)
     workspace = Workspace(detect_environment(str(tmp_path), {}), Sources(), str(tmp_path))
     (finding,) = (f for f in workspace.static(str(launch), {}).findings if f.rule == "PKG001")
     assert (finding.severity, "placeholder" in finding.message) == (severity, severity != "info")
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("armm", ["r.xacro:2 warning package 'armm' not found among 1 packages; did you mean 'arm'?"]),
+        ("arm", []),
+        ("realsense2_description", []),
+        ("somebody_elses_description", []),
+    ],
+)
+def test_of_a_description_for_itself(name: str, expected: list[str]) -> None:
+    text = f'<xacro:include filename="$(find {name})/a.xacro"/>'
+    assert said({"r.xacro": xacro(text), "a.xacro": xacro("", name="")}, "PKG001") == expected

@@ -4,6 +4,7 @@ import json
 
 import pytest
 from support.check import apply, check, findings_of
+from support.descriptions import said, xacro
 
 _LAUNCH = """
     <launch>
@@ -109,3 +110,38 @@ def test_hyphens_in_a_comment() -> None:
     """https://github.com/jsk-ros-pkg/jsk_common: a calibrated PR2, whose comments the parser of urdfdom takes."""
     text = '<robot name="a"><!-- left -- right --><link name="base"/></robot>'
     assert findings_of(_LAUNCH.format("", json.dumps({"xacro arm": {"output": text}}))) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "expected"),
+    [
+        ("r.xacro", xacro('<link name="a">'), [":2 warning file is not well-formed XML: <link> is not closed"]),
+        (
+            "r.srdf",
+            '<robot name="r"><group></robot>',
+            [":1 warning file is not well-formed XML: <group> is not closed"],
+        ),
+        ("w.sdf", "<sdf><world></sdf>", [":1 warning file is not well-formed XML: <world> is not closed"]),
+        (
+            "r.xacro",
+            xacro('<<<<<<< HEAD\n<link name="a"/>\n=======\n>>>>>>> other'),
+            [":2 warning file has conflict markers of git, and is not XML"],
+        ),
+        (
+            "r.xacro",
+            xacro("<!-- a -- b -->"),
+            [":2 warning file is not well-formed XML: '--' is not allowed in a comment"],
+        ),
+        ("r.urdf", '<robot name="r"><!-- a -- b --><link name="a"/></robot>', []),
+        ("w.world", "<sdf><world/></sdf>", []),
+        ("stage.world", "define block model\n(\n  size [1 1 1]\n)\n", []),
+        (
+            "r.urdf",
+            '<!-- a -->\n<?xml version="1.0"?>\n<robot name="r" xmlns:xacro="x"><!-- <xacro:a/> --></robot>',
+            [":2 info file is not well-formed XML: the XML declaration must be the very first thing in the file"],
+        ),
+        ("empty.xacro", "", []),
+    ],
+)
+def test_a_file_for_itself(name: str, text: str, expected: list[str]) -> None:
+    assert said({name: text}) == [f"{name}{each}" for each in expected]

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from support.check import apply, check, findings_of
+from support.descriptions import said, xacro
 from support.robot_launch import of_urdf, robot
 
 _URDF = '<link name="a"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
@@ -79,3 +80,60 @@ def test_one_in_a_submodule_that_is_not_checked_out(package: str, tmp_path: Path
     assert (found.rule, found.severity) == ("URD006", "hint")
     assert found.lack is not None
     assert found.lack.remedy == "git submodule update --init arms/cad"
+
+
+MESH = '<link name="a"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
+MODEL = '<sdf version="1.6"><model name="box"><link name="a"><uri>{}</uri></link></model></sdf>'
+FILES = {"meshes/elbow_link.stl": "", "models/box/meshes/box.stl": "", "models/box/model.config": "<model/>"}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "expected"),
+    [
+        (
+            "r.xacro",
+            xacro(MESH.format("package://arm/meshes/elbow-link.stl")),
+            "2 warning mesh 'arm/meshes/elbow-link.stl' does not exist; did you mean 'arm/meshes/elbow_link.stl'?",
+        ),
+        (
+            "r.urdf",
+            f'<robot name="r">{MESH.format("file://$(find arm)/meshes/hand.dae")}</robot>',
+            "1 warning mesh 'arm/meshes/hand.dae' does not exist",
+        ),
+        (
+            "r.xacro",
+            xacro(MESH.format("package://arm/mesh/a.dae") + MESH.format("package://arm/mesh/b.dae")),
+            "2 warning folder 'arm/mesh' of a mesh does not exist",
+        ),
+        (
+            "models/box/model.sdf",
+            MODEL.format("model://box_2/meshes/box.stl"),
+            "1 warning model 'box_2' does not exist in the workspace; did you mean 'box', which has 'meshes/box.stl'?",
+        ),
+        (
+            "models/box/model.sdf",
+            MODEL.format("model://box/meshes/bx.stl"),
+            "1 warning file of a model 'arm/models/box/meshes/bx.stl' does not exist; "
+            "did you mean 'arm/models/box/meshes/box.stl'?",
+        ),
+    ],
+)
+def test_a_file_for_itself(name: str, text: str, expected: str) -> None:
+    assert said({**FILES, name: text}, "URD006") == [f"{name}:{expected}"]
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "package://arm/meshes/elbow_link.stl",
+        "package://other/meshes/a.stl",
+        "package://arm/meshes/${name}.stl",
+        "file:///home/me/a.stl",
+        "file://media/materials/scripts/gazebo.material",
+        "model://box/meshes/box.stl",
+        "model://sun/meshes/sun.dae",
+        "model://arm/meshes/elbow_link.stl",
+    ],
+)
+def test_what_is_there_or_elsewhere(path: str) -> None:
+    assert said({**FILES, "r.xacro": xacro(MESH.format(path)), "m.sdf": MODEL.format(path)}, "URD006") == []

@@ -2,6 +2,7 @@
 
 import pytest
 from support.check import apply, check, findings_of
+from support.descriptions import said, xacro
 from support.robot_launch import of_urdf, robot
 
 _URDF = """<link name="base"/><link name="laser_link"/>
@@ -41,3 +42,43 @@ def test_a_joint_of_a_plugin(tag: str) -> None:
 def test_what_the_robot_has() -> None:
     plugin = '<plugin name="d" filename="libdrive.so"><joint>wheel_joint</joint><num_joints>2</num_joints></plugin>'
     check(of_urdf(f'{_URDF}<gazebo reference="wheel_joint"><mu1>1</mu1></gazebo><gazebo>{plugin}</gazebo>'))
+
+
+LINKS = '<xacro:arg name="robot" default="r"/><link name="$(arg robot)/base"/><link name="lidar_link"/>'
+LINKS += '<joint name="lidar_joint"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (
+            '<gazebo reference="lidar_lnk"/>',
+            "warning link or joint 'lidar_lnk' does not exist: <gazebo> refers to it; did you mean 'lidar_link'?",
+        ),
+        ('<gazebo reference="camera"/>', "info link or joint 'camera' does not exist: <gazebo> refers to it"),
+        (
+            '<gazebo reference="lidar_link"><preserveFixedJoint>true</preserveFixedJoint></gazebo>',
+            "warning joint 'lidar_link' does not exist: <preserveFixedJoint> is about a joint",
+        ),
+        (
+            '<gazebo><plugin name="p" filename="p3d"><body_name>base</body_name></plugin></gazebo>',
+            "warning link 'base' does not exist: <body_name> of a plugin names it; did you mean '$(arg robot)/base'?",
+        ),
+    ],
+)
+def test_names_of_one_file(text: str, expected: str) -> None:
+    assert said({"r.xacro": xacro(LINKS + text)}, "URD010") == [f"r.xacro:2 {expected}"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<gazebo reference="lidar_link"/><gazebo reference="$(arg robot)/base"/><gazebo reference="r/base"/>',
+        '<gazebo reference="lidar_joint"><preserveFixedJoint>true</preserveFixedJoint></gazebo>',
+        '<gazebo><plugin name="p" filename="f"><frame_name>world</frame_name></plugin></gazebo>',
+        '<xacro:macro name="m" params="link"><link name="${link}"/></xacro:macro><gazebo reference="camera"/>',
+        '<xacro:include filename="$(find other)/a.xacro"/><gazebo reference="camera"/>',
+    ],
+)
+def test_names_that_are_there_or_may_be(text: str) -> None:
+    assert said({"r.xacro": xacro(LINKS + text)}, "URD010") == []

@@ -23,7 +23,8 @@ _MAKERS = ("claim", "problem_claim")
 def fix_availability(rule: Rule) -> Availability:
     """`sometimes`: where the writer of the file's format can make it. `never`: no finding of the rule is made with
     fixes."""
-    entries = (each for each in (rule.check, rule.unused_suppression, rule.left_out) if each is not None)
+    checks = (rule.check, rule.of_description, rule.unused_suppression, rule.left_out)
+    entries = (each for each in checks if each is not None)
     sources = _Sources()
     for entry in entries:
         sources.reach(entry.__module__, entry.__qualname__.partition(".")[0])

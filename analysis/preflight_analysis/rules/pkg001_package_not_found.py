@@ -5,10 +5,11 @@ import re
 from collections.abc import Iterable, Iterator
 
 from preflight_analysis.catalogue.released import distributions_with
+from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.git_history import Change, formerly_named
 from preflight_analysis.environment.installed_paths import package_around
-from preflight_analysis.environment.model import Package
+from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.packages import MANIFEST
 from preflight_analysis.evaluation.problems import PackageNotFound
 from preflight_analysis.evaluation.tree import LaunchNode
@@ -26,10 +27,13 @@ from preflight_analysis.model.installed import (
     near_package,
     words_of_folders,
 )
-from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.nearest import did_you_mean, is_reworded, is_slip_of_words, nearest
 from preflight_analysis.model.places import attribute_location, program_known
 from preflight_analysis.model.problems import enumerated, include_chain, problems_of, rename
 from preflight_analysis.model.retired import was_removed
+from preflight_analysis.robot.xacro import xacro_file
+from preflight_analysis.rules.descriptions import LOOSE, doubts_of
+from preflight_analysis.rules.descriptions import rename as renamed_in
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
 from preflight_analysis.rules.rule import Rule
 
@@ -39,6 +43,7 @@ _GENERIC = frozenset(
 )  # fmt: skip
 """Words that packages of all kinds have in their names, and those of drivers of all makes."""
 
+_NOT_AMONG = "package '{}' not found among {} packages{}"
 _NO_NAME = re.compile(r"[<>{}\s]")
 _PLACEHOLDER = re.compile(
     r"(?i)\A(?:<.*>|\{\{.*\}\}|(?:your|my)[_-](?:\w+[_-])?(?:package|pkg)(?:[_-]name)?|(?:package|pkg)[_-]name|todo\w*|fixme"
@@ -59,6 +64,30 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for node in _nodes_without_package(context):
         location, chain = attribute_location(context, node, "pkg"), include_chain(node.origin)
         yield _finding(rule, context, node.package, location, chain, stops=False)
+
+
+def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str) -> Iterator[Finding]:
+    """Of what a file of a robot description names, a slip alone: others have packages that are not here."""
+    file, packages = xacro_file(disk.db, path), environment.packages
+    for use in file.uses if file is not None else ():
+        name = use.name
+        if use.kind != "package" or name in packages or "$" in name or any(distributions_with(name, n) for n in (1, 2)):
+            continue
+        near = nearest(name, packages)
+        if near is None or not (is_slip_of_words(name, near) or is_reworded(name, near)):
+            continue
+        if file is None:
+            continue
+        named = any(name in package.dependencies for package in packages.values())
+        yield rule.claim(
+            _NOT_AMONG.format(name, len(packages), did_you_mean(near)),
+            file.document.location(use.span),
+            subject=Subject("package", name),
+            kind="near",
+            doubts=(*LOOSE, *doubts_of(use.around, other=named)),
+            candidates=(near,),
+            fixes=renamed_in(file.document, use.span, name, near),
+        )
 
 
 def _nodes_without_package(context: Context) -> Iterator[LaunchNode]:
@@ -99,7 +128,7 @@ def _finding(
     elif change is not None:
         hint = change.told(near)
     return rule.claim(
-        f"package '{name}' not found among {len(context.environment.packages)} packages{hint}",
+        _NOT_AMONG.format(name, len(context.environment.packages), hint),
         location,
         subject=Subject("package", name),
         kind="near",
@@ -228,7 +257,7 @@ RULE = Rule(
     name="package-not-found",
     effect="stops-node",
     kind="absent",
-    sometimes=("stops-launch", Reason.NOT_HERE, Reason.UNSEEN, Reason.ON_ROBOT),
+    sometimes=("stops-launch", Reason.NOT_HERE, Reason.UNSEEN, Reason.ON_ROBOT, Reason.NOT_GIVEN),
     what="Checks for a package, in `$(find ...)` or as the `pkg` of a node, that is neither on the package path nor "
     "in the workspace. The finding names the nearest package, or the Debian package to install.",
     why="`roslaunch` stops at `$(find ...)` of a missing package, and does not start a node of one. `ros-preflight "
@@ -241,6 +270,7 @@ RULE = Rule(
         ROSDEP,
     ),
     check=_check,
+    of_description=_of_description,
     problems=(PackageNotFound,),
     in_branches=True,
 )

@@ -22,6 +22,7 @@ from preflight_analysis.documents.span import Location
 from preflight_analysis.environment.installed_paths import package_around
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.set_aside import is_set_aside
+from preflight_analysis.evaluation.problems import CommandFailed
 from preflight_analysis.evaluation.tree import Include
 from preflight_analysis.findings.clipping import most_severe
 from preflight_analysis.findings.doubt import Doubt, Reason
@@ -34,8 +35,11 @@ from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.recognize import FileKind
 from preflight_analysis.model.catalogued import robots_by_catalogue
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.descriptions import files_of_package, packages_around
 from preflight_analysis.model.installation import build_files_of
-from preflight_analysis.model.problems import include_chain, numbered_problems
+from preflight_analysis.model.problems import include_chain, numbered_problems, problems_of
+from preflight_analysis.robot.sources import documents_of
+from preflight_analysis.rules.descriptions import check_nothing, said_of_description
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files, findings_of_param_file
 from preflight_analysis.rules.packages import said_of_package
 from preflight_analysis.rules.rule import Rule, in_root
@@ -111,9 +115,36 @@ def found_in_branch(
 
 
 def found_in_loose_files(context: Context) -> Iterator[Finding]:
-    """What is wrong with parameter files of the package that no node of the launch gets. To read them takes time: it is
-    no part of what is found at a keystroke."""
+    """What is wrong with parameter files of the package that no node of the launch gets, and with descriptions. To read
+    them takes time: it is no part of what is found at a keystroke."""
     yield from findings_of_loose_files(context)
+    yield from without_suppressed(context.disk, _found_in_descriptions(context))
+
+
+def _found_in_descriptions(context: Context) -> Iterator[Finding]:
+    """What rules say of descriptions as launched they say once, and what xacro has said of one is known."""
+    evaluated = documents_of(context.tree, context.disk, context.environment)
+    failed = [line for problem in problems_of(context, CommandFailed) for line in problem.kind.stderr]
+    words = frozenset(word for line in failed for word in re.findall(r"[\w.-]+", line))
+    for each in packages_around(context):
+        for path in files_of_package(context.disk.db, context.environment, each):
+            for finding in found_in_description(context.disk, context.environment, path):
+                if path not in evaluated or not _is_of_launches(finding.rule):
+                    known = finding.subject is not None and finding.subject.name in words
+                    yield doubted(finding, Doubt(Reason.EXPLAINED)) if known else finding
+
+
+def _is_of_launches(rule_id: str) -> bool:
+    """Whether the rule speaks of the descriptions of launches, too."""
+    rule = rule_by_id(rule_id)
+    return rule is not None and rule.check is not check_nothing
+
+
+def found_in_description(disk: Disk, environment: Environment, path: str) -> Iterator[Finding]:
+    """What is wrong with one file of robot descriptions or worlds, whatever launch reads it."""
+    for rule in all_rules():
+        if rule.of_description is not None:
+            yield from said_of_description(disk.db, rule.of_description, rule, environment, path)
 
 
 def found_in_packages(disk: Disk, environment: Environment, packages: Iterable[Package]) -> Iterator[Finding]:
@@ -143,8 +174,10 @@ def found_in_file(context: Context, kind: FileKind, package: Package | None) -> 
     """What is wrong with the file that `context` is of, which is no launch file, for itself and as a part of its
     package: also what is said elsewhere and mended in it. Without what comments silence."""
     path, disk, environment = context.root, context.disk, context.environment
-    checks = _OF_FILES.get(kind, ())
-    found = [*without_suppressed(disk, (each for check in checks for each in check(context)))]
+    said = [each for check in _OF_FILES.get(kind, ()) for each in check(context)]
+    if kind == "robot description":
+        said += found_in_description(disk, environment, path)
+    found = [*without_suppressed(disk, said)]
     if package is not None:
         found += found_in_packages(disk, environment, (package,))
     return tuple(sorted((each for each in dict.fromkeys(found) if _is_of(each, path)), key=_place))

@@ -26,6 +26,7 @@ T = TypeVar("T")
 
 Check = Callable[["Rule", Context], Iterable[Finding]]
 OfPackage = Callable[["Rule", Disk, Environment, Package], Iterable[Finding]]
+OfDescription = Callable[["Rule", Disk, Environment, str], Iterable[Finding]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +41,7 @@ class Rule(RuleDescription):
     `generations`: those of ROS in whose launches it has something to say.
     `every_root`: in a file that others include, it holds only if it holds in every root that reaches the file.
     `of_package`: what it says of one package of the workspace, whatever launch starts its nodes.
+    `of_description`: what it says of one file of robot descriptions or worlds, by its path, whatever launch reads it.
     `unused_suppression` is for the one rule that reports comments which silenced nothing: it comes after the others.
     `of_robot`: it speaks of what a robot description has and lacks as a whole: where that has parts from the catalogue
     it is not certain.
@@ -50,6 +52,7 @@ class Rule(RuleDescription):
 
     check: Check = field(repr=False)
     of_package: OfPackage | None = field(default=None, repr=False)
+    of_description: OfDescription | None = field(default=None, repr=False)
     problems: tuple[type[ProblemKind], ...] = ()
     needs_graph: bool = False
     every_root: bool = False

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from preflight_analysis.documents.span import Location
+from preflight_analysis.documents.disk import Disk
+from preflight_analysis.documents.span import Location, Span
 from preflight_analysis.edits.xml import XmlWriter
-from preflight_analysis.findings.claim import Subject
+from preflight_analysis.environment.model import Environment
+from preflight_analysis.findings.claim import Subject, say
+from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.problems import fix, include_chain, shown
 from preflight_analysis.model.syntax import Tags
 from preflight_analysis.robot.model import Malformed
 from preflight_analysis.robot.of_launch import Described, Robot, robots_of, semantics_of
+from preflight_analysis.robot.parse import parse_description
 from preflight_analysis.robot.sources import files_of
+from preflight_analysis.robot.xacro import xacro_file
+from preflight_analysis.rules.descriptions import LOOSE
 from preflight_analysis.rules.further_reading import URDF, XACRO
 from preflight_analysis.rules.rule import Rule
 
+_MARK = re.compile(r"^<{7} .*$", re.MULTILINE)
+"""What git writes where it could not merge."""
 _KINDS = ("robot", "sdf", "{http://www.collada.org/2008/03/COLLADASchema}COLLADA", "COLLADA")
 """Tags of roots that robot_state_publisher takes; SDF and COLLADA by plugins (sdformat_urdf, collada_parser)."""
 
@@ -40,6 +49,28 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for semantic in semantics_of(context.tree):
         if semantic.semantic.malformed is not None:
             yield _malformed(rule, context, semantic, semantic.semantic.malformed)
+
+
+def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str) -> Iterator[Finding]:
+    """A file for itself. That of xacro is read by expat, any other by parsers that mind less."""
+    file = xacro_file(disk.db, path)
+    if file is None or not file.document.problems:
+        return
+    document = file.document
+    malformed = parse_description(document.text).malformed
+    if not file.is_xacro and (malformed is None or not document.text.lstrip().startswith("<")):
+        return  # Stage has worlds that are no XML
+    marks = _MARK.search(document.text)
+    if marks is not None:
+        place, said = document.location(Span(*marks.span())), say("file has conflict markers of git, and is not XML")
+    else:
+        problem = document.problems[0]
+        place = document.location(problem.span)
+        said = say("file is not well-formed XML: {quoted}", quoted=problem.message)
+    # TinyXML, of Humble's urdfdom and Gazebo Classic, takes a declaration anywhere.
+    late = not file.is_xacro and malformed is not None and "declaration allowed only at the start" in malformed.message
+    about = Subject("file", path)
+    yield rule.claim(said, place, subject=about, doubts=(*LOOSE, *doubts(OTHER_VERSION=late)))
 
 
 def _malformed(rule: Rule, context: Context, robot: Described, malformed: Malformed) -> Finding:
@@ -86,14 +117,16 @@ RULE = Rule(
     name="malformed-description",
     effect="stops-node",
     kind="invalid",
-    sometimes=("misbehaves",),
+    sometimes=("misbehaves", Reason.NOT_GIVEN),
     what="Checks for a parameter `robot_description` that is not well-formed XML, has another root element than "
-    "`<robot>`, `<sdf>` or `<COLLADA>`, or is raw xacro. The semantic description (SRDF) must be well-formed, too.",
+    "`<robot>`, `<sdf>` or `<COLLADA>`, or is raw xacro. The semantic description (SRDF) must be well-formed, too, "
+    "and so must each xacro, URDF, SRDF, SDF and world file of the workspace.",
     why="`robot_state_publisher` ends with an error and publishes no frame. Controller managers and planners wait for "
     "a description or end too.",
     example='<param name="robot_description" textfile="$(find arm)/urdf/arm.yaml"/>',
     instead='<param name="robot_description" textfile="$(find arm)/urdf/arm.urdf"/>',
     references=(URDF, XACRO),
     check=_check,
+    of_description=_of_description,
     in_branches=True,
 )

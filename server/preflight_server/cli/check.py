@@ -224,8 +224,10 @@ def look_at(chosen: Sequence[Launches], args: argparse.Namespace) -> tuple[Repor
     )
     problems = dict.fromkeys(problem for each in kept for problem in each.problems)
     failed += [failure for each in kept for failure in each.failures]
-    others = tuple(dict.fromkeys(of_packages))
-    return Report.of((*_merged(kept), *others), documents, coverage, problems, failed), (*files, *checked)
+    of_launches = _merged(kept)
+    said = {(each.rule, each.location) for each in of_launches}
+    others = [each for each in dict.fromkeys(of_packages) if (each.rule, each.location) not in said]
+    return Report.of((*of_launches, *others), documents, coverage, problems, failed), (*files, *checked)
 
 
 @contextmanager
