@@ -85,8 +85,9 @@ def test_nothing_is_run_with_no_run_or_in_a_batch(harness: Harness, robot: Path,
 def test_a_failing_command_is_an_error(harness: Harness, robot: Path, preflight: Run) -> None:
     (robot.parents[1] / "urdf/macros.xacro").write_text("<robot><link></robot>")
     done = preflight("check", robot, "--format", "json")
-    (finding,) = done.json["findings"]
+    finding, itself = (each for each in done.json["findings"] if each["severity"] != "info")
     assert (done.code, finding["rule"], finding["range"]["start"]["line"]) == (1, "PRM008", 3)
+    assert (itself["rule"], Path(itself["file"]).name) == ("URD001", "macros.xacro")
     assert "the command failed: it ended with exit code 2; " in finding["message"]
     assert "macros.xacro" in finding["message"]
     data = preflight("tree", robot, "--format", "json").json

@@ -112,3 +112,11 @@ def test_the_slip_is_mended() -> None:
 @pytest.mark.silent
 def test_a_launch_for_itself() -> None:
     assert check("<launch/>") == []
+
+
+def test_of_a_file_that_is_not_well_formed_nobody_knows_what_it_defines() -> None:
+    files = {
+        "r.xacro": xacro('<xacro:include filename="macros.xacro"/><xacro:finger/><link name="${side}"/>'),
+        "macros.xacro": "<robot><link></robot>",
+    }
+    assert not [each for each in said(files, "URD011") if "warning" in each]

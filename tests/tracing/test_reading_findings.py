@@ -123,3 +123,9 @@ def test_what_only_a_loader_of_objects_reads_is_no_mistake(workspace: Path, load
     load = f'yaml.load("!!python/tuple [1, 2]", Loader=yaml.{loader}) and Node(package="bot", executable="talker")'
     found = _found(workspace, "a.launch.py", "import yaml\n" + HEAD.replace("ITEM", load))
     assert ("LCH032" in [rule for rule, _ in found]) == fails
+
+
+def test_a_name_that_nothing_defines_is_told_once_at_its_place(workspace: Path) -> None:
+    text = HEAD.replace("ITEM", 'nde("a")')
+    found = _found(workspace, "a.launch.py", text)
+    assert [(rule, message.partition(";")[0]) for rule, message in found] == [("LCH043", "undefined name 'nde'")]

@@ -166,7 +166,8 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class XacroFile:
-    """What is written in one file. `open`: it defines properties whose names are computed."""
+    """What is written in one file. `open`: it defines properties whose names are computed, or is
+    not well-formed, so that nobody knows what it defines."""
 
     document: Document
     is_xacro: bool = False
@@ -210,7 +211,7 @@ class _Reader:
         self.parts: list[Part] = []
         self.named: list[Part] = []
         self.texts: list[tuple[SpannedText, Around]] = []
-        self.open = False
+        self.open = bool(document.problems)
         root = document.root
         self.is_xacro = document.path.endswith(".xacro") or (root is not None and _is_xacro(root, document.path))
 

@@ -632,7 +632,11 @@ class Interpreter:
         return node.value
 
     def _expr_Name(self, node: ast.Name, scope: Scope) -> Any:
-        return self._name(node.id, scope)
+        try:
+            return self._name(node.id, scope)
+        except Raised:
+            self.frame.node = node
+            raise
 
     def _name(self, name: str, scope: Scope) -> Any:
         try:
