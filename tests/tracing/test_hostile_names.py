@@ -64,7 +64,7 @@ def test_names_of_a_node_that_lies_drive_nothing(tmp_path: Path) -> None:
     assert not any("\x1b" in name or "\ud800" in name or len(name) > 300 for name in shown)
     assert any("left out" in note for note in interface.notes), "and what is not shown is said"
 
-    check_report(Report(analysis.findings, analysis.context), str(tmp_path))
+    check_report(Report(analysis.findings, analysis.documents), str(tmp_path))
     check_json(graph_json(analysis.graph))
     text = analysis.documents[path].text
     found = hover([analysis], path, text.index("exec"), 0)

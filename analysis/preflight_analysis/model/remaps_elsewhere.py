@@ -40,19 +40,20 @@ def in_use_around(context: Context, connections: Sequence[Connection]) -> list[b
     slip, whoever is to be at its other end."""
     if not connections:
         return []
-    known, targets = around(context, "value"), _Targets(around(context, "remap"))
+    known = around(context, "value")
     made = (*around(context, "bridged"), *around(context, "simulated", "robots"))
     simulated = {each.text.strip("/") for each in made}
     return [
-        known.get(Entry("value", connection.name), 0) >= _ENOUGH
-        or targets.has(connection.name, connection.node.name)
-        or connection.name.strip("/") in simulated
+        known.get(Entry("value", connection.name), 0) >= _ENOUGH or connection.name.strip("/") in simulated
         for connection in connections
     ]
 
 
 def named_in_files(context: Context, connection: Connection) -> bool:
-    """Whether a parameter file around names a topic so: a multiplexer's, which another launch starts."""
+    """Whether a parameter file around names a topic so, or several launch files remap to it: it is that of a multiplexer
+    or of another node, which another launch starts."""
+    if _Targets(around(context, "remap")).has(connection.name, connection.node.name):
+        return True
     leaf = names.leaf(connection.name)
     return any(names.leaf(each.text) == leaf for each in around(context, "value", "yaml"))
 
