@@ -50,8 +50,8 @@ def in_use_around(context: Context, connections: Sequence[Connection]) -> list[b
 
 
 def named_in_files(context: Context, connection: Connection) -> bool:
-    """Whether a parameter file around names a topic so, or several launch files remap to it: it is that of a multiplexer
-    or of another node, which another launch starts."""
+    """Whether a parameter file around names a topic so, or several launch files remap to it: it is that of a node that
+    another launch starts, such as a multiplexer."""
     if _Targets(around(context, "remap")).has(connection.name, connection.node.name):
         return True
     leaf = names.leaf(connection.name)

@@ -10,6 +10,7 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
+from preflight_analysis.generation import ros
 from preflight_analysis.model.descriptions import defined_for
 from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.model.problems import quoted
@@ -38,7 +39,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
     package = package_around(environment, path)
     generation = package.generation if package is not None else environment.generation
     old = environment.distro in _BEFORE_NOETIC
-    of_version = doubts(OTHER_VERSION=old or (generation == 1 and environment.distro != "noetic"))
+    of_version = doubts(OTHER_VERSION=old or (ros(generation).has_master and environment.distro != "noetic"))
     for call in file.calls:
         definitions = macros.get(call.name, ())
         if not call.prefixed and not definitions and _is_call_of_unknown(call):
