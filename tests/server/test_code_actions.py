@@ -41,10 +41,10 @@ FORMATS = {
         "      # preflight: ignore[ARG001]\n      value",
     ),
     "robot.launch.py": (
-        "LCH043",
+        "LCH032",
         "from launch import LaunchDescription\n\n\ndef generate_launch_description():\n"
         "    return LaunchDescription([\n        Node(),\n    ])\n",
-        "        # preflight: ignore[LCH043]\n        Node()",
+        "        # preflight: ignore[LCH032]\n        Node()",
     ),
 }
 

@@ -125,17 +125,14 @@ def test_what_only_a_loader_of_objects_reads_is_no_mistake(workspace: Path, load
     assert ("LCH032" in [rule for rule, _ in found]) == fails
 
 
-def test_a_name_that_nothing_defines_is_told_once_at_its_place(workspace: Path) -> None:
-    text = """from launch import LaunchDescription
-from launch_ros.actions import Node
-
-
-def generate_launch_description():
-    talker = Node(package="bot", executable="talker")
-    return LaunchDescription([
-        talkr,
-    ])
-"""
-    found = _found(workspace, "a.launch.py", text)
-    assert ("LCH043", "undefined name 'talkr'; this line raises a NameError") in found
-    assert "LCH032" not in [rule for rule, _ in found]
+def test_an_exception_is_at_the_line_of_the_name(workspace: Path) -> None:
+    path = workspace / "src" / "bot" / "launch" / "a.launch.py"
+    text = (
+        "from launch import LaunchDescription\n\n\ndef generate_launch_description():\n    return LaunchDescription([\n"
+    )
+    path.write_text(f"{text}        talkr,\n    ])\n")
+    environment = detect_environment(str(workspace), {}, (str(workspace),), (), root=str(workspace / "none"))
+    analysis = Workspace(environment, Sources(), str(workspace)).static(str(path))
+    (found,) = [each for each in analysis.findings if each.rule == "LCH032"]
+    document = analysis.documents[str(path)]
+    assert document.lines.position(found.location.span.start)[0] + 1 == 6

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import ast
 import builtins
-import re
 import symtable
 from collections.abc import Iterator
 
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
-from preflight_analysis.evaluation.problems import PythonException
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.launch.python_source import PythonSource, python_source
 from preflight_analysis.model.nearest import nearest
@@ -23,15 +21,6 @@ _SCOPES = (
     ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp,
     ast.GeneratorExp,
 )  # fmt: skip
-
-
-_RAISED = re.compile(r"name '(\w+)' is not defined")
-
-
-def says_undefined(document: Document, raised: PythonException) -> bool:
-    """Whether an exception of a launch file is about a name that nothing in its text defines."""
-    named = _RAISED.match(raised.message) if raised.error == "NameError" else None
-    return named is not None and any(name == named[1] for name, *_ in undefined_names(document))
 
 
 @derived

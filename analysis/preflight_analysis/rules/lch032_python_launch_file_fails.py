@@ -32,7 +32,6 @@ from preflight_analysis.model.problems import fix, problems_of, shown
 from preflight_analysis.model.python_imports import absent_module, slip_of
 from preflight_analysis.model.python_keywords import UnknownKeyword, unknown_keywords
 from preflight_analysis.model.said import missing_file, missing_name, words_of
-from preflight_analysis.model.undefined_names import says_undefined
 from preflight_analysis.rules.further_reading import FORMATS, SECURITY
 from preflight_analysis.rules.problems import problem_claim
 from preflight_analysis.rules.rule import Rule
@@ -91,8 +90,6 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
                 for each in wrong_calls.get(problem.location.file, ())
             ):
                 continue  # said of the keyword itself
-            case PythonException("NameError") as raised if _is_undefined(context, problem.location.file, raised):
-                continue  # LCH043 says which name was meant
             case PythonException(error, said, frames, absent):
                 message = ": ".join(filter(None, (error, said))) if error else f"launch file cannot be run: {said}"
                 near, missing = _near_file(context, error, said), _missing_file(error, said)
@@ -194,11 +191,6 @@ def _refuses_the_machine(context: Context, frames: tuple[Location, ...]) -> bool
         return False
     lines = document.text[: frames[-1].span.start].splitlines()
     return any(_OF_MACHINE.search(line) for line in lines[-_BEFORE:])
-
-
-def _is_undefined(context: Context, file: str, raised: PythonException) -> bool:
-    launch_file = context.launch_files.get(file)
-    return launch_file is not None and says_undefined(launch_file.document, raised)
 
 
 def _takes_installed_path_apart(context: Context, error: str | None, frames: tuple[Location, ...]) -> bool:

@@ -14,19 +14,14 @@ from preflight_analysis.launch.model import LaunchFile
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.nearest import did_you_mean
 from preflight_analysis.model.problems import fix, problems_of
-from preflight_analysis.model.undefined_names import says_undefined, undefined_names
+from preflight_analysis.model.undefined_names import undefined_names
 from preflight_analysis.rules.further_reading import FORMATS
 from preflight_analysis.rules.rule import Rule
 
 
 def _check(rule: Rule, context: Context) -> Iterator[Finding]:
-    # Where the run came to another mistake first, its exception says it.
-    raised = {
-        path
-        for problem in problems_of(context, PythonException)
-        if (path := problem.location.file) not in context.launch_files
-        or not says_undefined(context.launch_files[path].document, problem.kind)
-    }
+    # Where the run came to it, its exception says it.
+    raised = {problem.location.file for problem in problems_of(context, PythonException)}
     for path, launch_file in context.launch_files.items():
         for name, near, span, called in _names(launch_file) if path not in raised else ():
             edits = PythonWriter(launch_file.document).rename_names(name, near) if near is not None else ()
