@@ -63,7 +63,8 @@ class Analyses:
     def ask_again(self, edited: str | None = None) -> None:
         """Something changed, by an edit of this file where one is named."""
         self._edited = edited
-        self._settled.clear()
+        if edited is not None or self._last is None or not self._last.preliminary:
+            self._settled.clear()  # what there is before a graph stays until that is there, unless the text is another
         self.calm.clear()
         self._news.set()
         if self._refreshing is None or self._refreshing.done():
