@@ -9,7 +9,8 @@ from __future__ import annotations
 import os
 import re
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.documents.disk import Disk
@@ -46,10 +47,17 @@ class Change:
         return f"; {what} in {self.commit} ({ago})"
 
 
+class _Changes(NamedTuple):
+    """Those of a repository by the full path that a file had, the last one first; and the paths by their last part."""
+
+    by_path: Mapping[str, Change]
+    by_name: Mapping[str, Sequence[str]]
+
+
 def formerly(disk: Disk, path: str) -> Change | None:
     """What became of the file that was at `path`, as far as its repository tells."""
     top = _top_of(disk, os.path.dirname(path))
-    changes = _changes_of(disk, top) if top is not None else {}
+    changes = _changes_of(disk, top).by_path if top is not None else {}
     change = changes.get(path)
     for _ in range(_MOST_RENAMES):
         if change is None or change.path is None or disk.exists(change.path):
@@ -62,8 +70,8 @@ def formerly(disk: Disk, path: str) -> Change | None:
 def formerly_named(disk: Disk, folder: str, name: str) -> Iterator[tuple[str, Change]]:
     """The paths of all files of that name that were in the repository around a folder, with what became of each."""
     top = _top_of(disk, folder)
-    for path in _changes_of(disk, top) if top is not None else ():
-        change = formerly(disk, path) if os.path.basename(path) == name and not disk.exists(path) else None
+    for path in _changes_of(disk, top).by_name.get(name, ()) if top is not None else ():
+        change = formerly(disk, path) if not disk.exists(path) else None
         if change is not None:
             yield path, change
 
@@ -77,9 +85,9 @@ def _top_of(disk: Disk, folder: str) -> str | None:
     return folder
 
 
-def _changes_of(disk: Disk, top: str) -> Mapping[str, Change]:
+def _changes_of(disk: Disk, top: str) -> _Changes:
     commit = _checked_out(disk, top)
-    return _changes(disk.db, top, commit) if commit is not None else {}
+    return _changes(disk.db, top, commit) if commit is not None else _Changes({}, {})
 
 
 def _checked_out(disk: Disk, top: str) -> str | None:
@@ -104,8 +112,8 @@ def _line(disk: Disk, path: str) -> str:
     return document.text.strip() if isinstance(document, Document) else ""
 
 
-def _read_changes(top: str, commit: str) -> Mapping[str, Change]:
-    """By the full path that a file had. Of several changes the last one counts."""
+def _read_changes(top: str, commit: str) -> _Changes:
+    """Of several changes of one path the last one counts."""
     arguments = ("--no-show-signature", "--no-color", "--no-ext-diff", "--no-textconv", "--diff-filter=RD")
     limits = ("--find-renames", f"-l{_MOST_COMPARED}", "-n", str(_MOST_COMMITS))
     try:
@@ -122,7 +130,7 @@ def _read_changes(top: str, commit: str) -> Mapping[str, Change]:
                 seconds=_SECONDS,
             )
     except GitError:
-        return {}
+        return _Changes({}, {})
     found: dict[str, Change] = {}
     words = iter(os.fsdecode(said).replace("\0\n", "\0").split("\0"))
     short, when = "", 0
@@ -135,7 +143,10 @@ def _read_changes(top: str, commit: str) -> Mapping[str, Change]:
             found.setdefault(os.path.join(top, old), Change(os.path.join(top, new), short, when))
         elif word == "D":
             found.setdefault(os.path.join(top, next(words, "")), Change(None, short, when))
-    return found
+    by_name: dict[str, list[str]] = {}
+    for path in found:
+        by_name.setdefault(os.path.basename(path), []).append(path)
+    return _Changes(found, by_name)
 
 
 _changes = Input(_read_changes)
