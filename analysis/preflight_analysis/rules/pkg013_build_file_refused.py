@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Iterator
 
+from preflight_analysis.documents.conflict_marks import conflict_mark
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
 from preflight_analysis.documents.span import Span
@@ -28,7 +29,6 @@ from preflight_analysis.rules.rule import Rule
 
 _SETUP = "setup.py"
 _CFG = "setup.cfg"
-_CONFLICT = re.compile(r"^<{7} [^\n]*$(?=.*?^={7}\r?$.*?^>{7} )", re.MULTILINE | re.DOTALL)
 _OPTION = re.compile(r"^(?P<name>(?:script-dir|install-scripts))[ \t]*=", re.MULTILINE)
 """Options of `ros2 pkg create`'s `setup.cfg` as they were written before setuptools 54.1."""
 _WHOLE = frozenset(("ament_package", "ament_auto_package", "catkin_package"))
@@ -44,11 +44,11 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
         document = disk.text(path) if os.path.basename(path) == name else None
         if not isinstance(document, Document):
             continue
-        conflict = _CONFLICT.search(document.text)
+        conflict = conflict_mark(document.text)
         if conflict is not None:
             yield rule.claim(
                 f"{name} has the marks of a merge conflict; the package does not build",
-                document.location(Span(*conflict.span())),
+                document.location(conflict),
                 subject=Subject("file", path),
             )
         elif name == MANIFEST:

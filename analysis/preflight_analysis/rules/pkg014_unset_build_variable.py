@@ -6,7 +6,6 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterator
-from itertools import takewhile
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
@@ -20,6 +19,7 @@ from preflight_analysis.model.nearest import did_you_mean, nearest
 from preflight_analysis.rules.further_reading import CMAKE_VARIABLES
 from preflight_analysis.rules.packages import check_packages
 from preflight_analysis.rules.rule import Rule
+from preflight_analysis.slips import edits
 
 _COMMENT = re.compile(r"#[^\n]*")
 _USED = re.compile(r"\$\{(\w+)\}")
@@ -48,7 +48,7 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
     idle = given.difference(_USED.findall(text), _OTHERWISE.findall(elsewhere), _USED.findall(elsewhere))
     for name, found in unset.items():
         near = nearest(name, idle) if not re.search(rf"\b{name}\b", elsewhere) else None
-        if near is not None and _is_slip(name, near):
+        if near is not None and edits(name, near, 1) <= 1:
             yield rule.claim(
                 f"variable '{name}' is set nowhere and is empty, and '{near}' is used nowhere{did_you_mean(near)}",
                 document.location(Span(found.start(1), found.end(1))),
@@ -56,17 +56,6 @@ def of_package(rule: Rule, disk: Disk, environment: Environment, package: Packag
                 kind="near",
                 candidates=(near,),
             )
-
-
-def _is_slip(one: str, other: str) -> bool:
-    """Whether one character more, less or other makes the one of the other."""
-    start = _alike(one, other)
-    end = _alike(one[start:][::-1], other[start:][::-1])
-    return max(len(one), len(other)) - start - end <= 1
-
-
-def _alike(one: str, other: str) -> int:
-    return len([*takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False))])
 
 
 def _blanks(found: re.Match[str]) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
+from preflight_analysis.documents.conflict_marks import conflict_mark
 from preflight_analysis.documents.disk import Disk
-from preflight_analysis.documents.span import Location, Span
+from preflight_analysis.documents.span import Location
 from preflight_analysis.edits.xml import XmlWriter
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.claim import Subject, say
@@ -24,7 +24,6 @@ from preflight_analysis.rules.descriptions import LOOSE
 from preflight_analysis.rules.further_reading import URDF, XACRO
 from preflight_analysis.rules.rule import Rule
 
-_MARK = re.compile(r"^<{7} .*$", re.MULTILINE)
 """What git writes where it could not merge."""
 _KINDS = ("robot", "sdf", "{http://www.collada.org/2008/03/COLLADASchema}COLLADA", "COLLADA")
 """Tags of roots that robot_state_publisher takes; SDF and COLLADA by plugins (sdformat_urdf, collada_parser)."""
@@ -60,9 +59,9 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
     malformed = parse_description(document.text).malformed
     if not file.is_xacro and (malformed is None or not document.text.lstrip().startswith("<")):
         return  # Stage has worlds that are no XML
-    marks = _MARK.search(document.text)
-    if marks is not None:
-        place, said = document.location(Span(*marks.span())), say("file has conflict markers of git, and is not XML")
+    mark = conflict_mark(document.text)
+    if mark is not None:
+        place, said = document.location(mark), say("file has conflict markers of git, and is not XML")
     else:
         problem = document.problems[0]
         place = document.location(problem.span)
