@@ -18,13 +18,13 @@ from preflight_analysis.environment.set_aside import is_set_aside
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
-from preflight_analysis.robot.xacro import Macro, Part, Written, XacroFile, xacro_file
+from preflight_analysis.robot.xacro import COMPUTED, Macro, Part, Written, XacroFile, is_made_of, xacro_file
 
 _SUFFIXES = (".xacro", ".urdf", ".srdf", ".sdf", ".world", ".gazebo")
 _NOT_OURS = frozenset({"test", "tests", "build", "install", "log", "template", "templates"})
 _PROPERTY = re.compile(r"\$\{ *(\w+) *\}")
 _FIND = re.compile(r"\$\(find +([^\s()]+)\)|package://([^/\s]+)")
-_COMPUTED = re.compile(r"\$+\{[^}]*\}|\$\([^()]*\)|\*|\?|\[[^]]*\]")
+_COMPUTED = re.compile(rf"{COMPUTED.pattern}|\*|\?|\[[^]]{{0,1000}}\]")
 _MOST = 1000
 """Files of all packages that are looked through, and of one description."""
 _PASSING = (".launch", ".xml", ".py", ".sh", ".yaml", ".yml", ".md", ".cpp", ".bash", ".txt", ".rst")
@@ -157,9 +157,8 @@ def _named(db: Database, environment: Environment, path: str, written: str) -> N
     if anchored:
         begin = os.path.join(os.path.dirname(path), pieces[0])
         pieces[0] = os.path.normpath(begin) + ("/" if begin.endswith("/") else "")
-    pattern = re.compile(".*".join(map(re.escape, pieces)))
-    matching = pattern.fullmatch if anchored else re.compile(f".*{pattern.pattern}").fullmatch
-    found = tuple(each for each in _all_files(db, environment) if each != path and matching(each) is not None)
+    pieces = pieces if anchored else ["", *pieces]
+    found = tuple(each for each in _all_files(db, environment) if each != path and is_made_of(each, pieces))
     return Named(found, whole=anchored and bool(found))
 
 

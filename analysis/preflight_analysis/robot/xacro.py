@@ -11,7 +11,7 @@ import builtins
 import math
 import re
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from typing import Literal
 
@@ -28,8 +28,10 @@ XACRO = "xacro:"
 _LONGEST = 400_000
 """Characters of a file that is read: worlds may have all that is in them in one."""
 _PARAMETER = re.compile(r"\s*([^\s:=]+)\s*(?:(:?=)\s*(\^\|?)?((?:'[^']*')|(?:\"[^\"]*\")|[^\s]*))?")
-_EXPRESSION = re.compile(r"(\$+)(?:\{([^}]*)\}|\(([^()]*)\))")
-_COMPUTED = re.compile(r"\$+\{[^}]*\}|\$+\([^()]*\)")
+# With bounds: an unclosed bracket may have thousands of others behind it.
+_EXPRESSION = re.compile(r"(?<!\$)(\$+)(?:\{([^}]{0,1000})\}|\(([^()]{0,1000})\))")
+COMPUTED = re.compile(r"(?<!\$)\$+(?:\{[^}]{0,1000}\}|\([^()]{0,1000}\))")
+"""What xacro puts a value in the place of."""
 _GAZEBO = "gazebo"
 _NAMING = re.compile(r"(?i)(?:.*joint(?:_?name)?|body_?name|frame_?name)$")
 """Elements of Gazebo's plugins that name a joint, link or frame."""
@@ -144,7 +146,7 @@ class Part:
     @property
     def literals(self) -> tuple[str, ...]:
         """The pieces of its name between what is computed."""
-        return tuple(_COMPUTED.split(self.name))
+        return tuple(COMPUTED.split(self.name))
 
     def may_be(self, other: Part) -> bool:
         """Whether both names may come to one. The names of variables are those of one thing within a macro, and in two
@@ -160,7 +162,7 @@ class Part:
         (a, b), (c, d) = ends
         if not self.variables or not other.variables:
             whole, pieces = (self.name, other.literals) if not self.variables else (other.name, self.literals)
-            return re.fullmatch(".*".join(map(re.escape, pieces)), whole) is not None
+            return is_made_of(whole, pieces)
         return (a.startswith(b) or b.startswith(a)) and (c.endswith(d) or d.endswith(c))
 
 
@@ -187,6 +189,21 @@ class XacroFile:
     """What elements of Gazebo call so."""
     texts: tuple[tuple[SpannedText, Around], ...] = ()
     """The values and texts that xacro computes."""
+
+
+def is_made_of(text: str, pieces: Sequence[str]) -> bool:
+    """Whether a text is made of these pieces with anything between them. Not by a regular expression: the time of that
+    grows with each piece."""
+    first, *between, last = pieces
+    at, end = len(first), len(text) - len(last)
+    if at > end or not text.startswith(first) or not text.endswith(last):
+        return False
+    for piece in between:
+        found = text.find(piece, at, end)
+        if found < 0:
+            return False
+        at = found + len(piece)
+    return True
 
 
 @query

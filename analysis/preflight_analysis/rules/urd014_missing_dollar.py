@@ -11,12 +11,11 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.descriptions import defined_for
-from preflight_analysis.robot.xacro import xacro_file
+from preflight_analysis.robot.xacro import COMPUTED, xacro_file
 from preflight_analysis.rules.descriptions import check_nothing, doubts_of, rename
 from preflight_analysis.rules.further_reading import XACRO
 from preflight_analysis.rules.rule import Rule
 
-_EXPRESSION = re.compile(r"\$+\{[^}]*\}|\$\([^()]*\)")
 _IN_BRACES = re.compile(r"(?<![${])\{ *([A-Za-z_]\w*) *\}|[({]\$([A-Za-z_]\w*)[)}]|\$\(([A-Za-z_]\w*)\)")
 
 
@@ -27,7 +26,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
     for value, around in file.texts:
         if "{" not in value.text and "$" not in value.text:
             continue
-        text = _EXPRESSION.sub(lambda match: match[0] if match[0].startswith("$(") else " " * len(match[0]), value.text)
+        text = COMPUTED.sub(lambda match: match[0] if match[0].startswith("$(") else " " * len(match[0]), value.text)
         for match in _IN_BRACES.finditer(text):
             name = match[1] or match[2] or match[3]
             if name not in around.names and name not in defined_for(disk.db, environment, path).properties:
