@@ -40,7 +40,9 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
     if file is None or not file.is_xacro or file.document.problems:
         return
     defined = defined_for(disk.db, environment, path)
+    used: dict[str, set[str]] = {}
     for use in file.uses:
+        used.setdefault(use.around.macro, set()).add(use.name)
         if use.kind == "expression" and _is_computed(use, defined):
             text = say("'{name}' is not a Python expression: {quoted}", name=use.name, quoted=use.refused)
             doubted = doubts_of(use.around, other=False)
@@ -54,7 +56,8 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
         meant_to_fail = each.around.conditional and _FAILS.search(each.name) is not None
         doubted = (*doubts_of(each.around, other=other), *doubts(INTENDED=meant_to_fail))
         if not defined.whole:
-            near = nearest_slip(each.name, _unused(file, each))
+            # The parameters of the macro around that its body has no use for.
+            near = nearest_slip(each.name, each.around.names - used.get(each.around.macro, set()))
             doubted = (*doubted, *doubts(PARTLY_READ=True))
         if (near is None and not defined.whole) or (other and each.name in each.anywhere):
             continue
@@ -69,12 +72,6 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
             candidates=(near,),
             fixes=rename(file.document, each.span, each.name, near),
         )
-
-
-def _unused(file: XacroFile, asked: _Asked) -> Iterable[str]:
-    """The parameters of the macro around that its body has no use for."""
-    used = {use.name for use in file.uses if use.around.macro == asked.around.macro}
-    return asked.around.names - used
 
 
 def _asked(disk: Disk, environment: Environment, file: XacroFile) -> Iterator[_Asked]:
