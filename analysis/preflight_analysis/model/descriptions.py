@@ -15,16 +15,19 @@ from preflight_analysis.environment.installed_paths import located, made_by_buil
 from preflight_analysis.environment.model import Environment, Package
 from preflight_analysis.environment.package_files import files_in
 from preflight_analysis.environment.set_aside import is_set_aside
+from preflight_analysis.findings.doubt import Doubt, doubts
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
-from preflight_analysis.robot.xacro import COMPUTED, Macro, Part, Written, XacroFile, is_made_of, xacro_file
+from preflight_analysis.robot.xacro import COMPUTED, Around, Macro, Part, Written, XacroFile, is_made_of, xacro_file
 
 _SUFFIXES = (".xacro", ".urdf", ".srdf", ".sdf", ".world", ".gazebo")
 _NOT_OURS = frozenset({"test", "tests", "build", "install", "log", "template", "templates"})
 _PROPERTY = re.compile(r"\$\{ *(\w+) *\}")
 _FIND = re.compile(r"\$\(find +([^\s()]+)\)|package://([^/\s]+)")
 _COMPUTED = re.compile(rf"{COMPUTED.pattern}|\*|\?|\[[^]]{{0,1000}}\]")
+LOOSE = doubts(NOT_GIVEN=True)
+"""Of a rule that has something to say of launched descriptions, too: that no launch is known to read the file."""
 _MOST = 1000
 """Files of all packages that are looked through, and of one description."""
 _PASSING = (".launch", ".xml", ".py", ".sh", ".yaml", ".yml", ".md", ".cpp", ".bash", ".txt", ".rst")
@@ -261,3 +264,33 @@ def model_folders(db: Database, environment: Environment) -> Mapping[str, tuple[
                 folder = os.path.dirname(path)
                 found.setdefault(os.path.basename(folder), []).append(folder)
     return {name: tuple(each) for name, each in found.items()}
+
+
+def is_part(db: Database, environment: Environment, path: str) -> bool:
+    """Whether a file is made to be included, and nobody of the workspace does so or who does is made for it, too:
+    others may define what it asks for."""
+    files = (xacro_file(db, each) for each in tops_of(db, environment, path))
+    return not any(file is not None and _is_robot(file) for file in files)
+
+
+def _is_robot(file: XacroFile) -> bool:
+    root = file.document.root
+    return root is not None and root.get("name") is not None
+
+
+def may_be_other(db: Database, environment: Environment, path: str, around: Around) -> bool:
+    """Whether what is defined for a place in a file may not be all: it is in a macro that others may call."""
+    return bool(around.macro) or is_part(db, environment, path)
+
+
+def doubts_of(around: Around, *, other: bool) -> tuple[Doubt, ...]:
+    """Those about something that stands there in a file."""
+    return doubts(OTHER_ARGUMENTS=around.conditional and not around.macro, UNSEEN=other)
+
+
+def below_package(environment: Environment, path: str) -> str:
+    """A path as a message shows it: with the folder of its package."""
+    package = package_around(environment, path)
+    if package is None:
+        return path
+    return os.path.join(os.path.basename(package.share.rstrip("/")), os.path.relpath(path, package.share))

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TypeVar, cast
 
 from preflight_analysis.catalogue.launches import catalogued_file
-from preflight_analysis.documents.span import Location, Origin
+from preflight_analysis.documents.document import Document
+from preflight_analysis.documents.span import Location, Origin, Span
 from preflight_analysis.edits.edit import Edit
 from preflight_analysis.edits.writer import replaced
 from preflight_analysis.evaluation.problems import Problem
@@ -53,7 +54,12 @@ def include_chain(origin: Origin) -> tuple[Related, ...]:
 def rename(context: Context, location: Location, old: str, new: str, *, preferred: bool = True) -> tuple[Fix, ...]:
     """A fix that writes `new` for `old` in the value at `location`; none if that does not hold `old` exactly once."""
     document = context.document(location.file)
-    edits = replaced(document, location.span, old, new) if document is not None else ()
+    return rename_in(document, location.span, old, new, preferred=preferred) if document is not None else ()
+
+
+def rename_in(document: Document, span: Span, old: str, new: str | None, *, preferred: bool = True) -> tuple[Fix, ...]:
+    """The same in a document that no launch has; none where nothing is meant."""
+    edits = replaced(document, span, old, new) if new is not None else ()
     return fix(f"Replace '{old}' with '{new}'", edits, preferred=preferred)
 
 

@@ -1,8 +1,9 @@
-"""Claims about how a package is built and installed, whatever launch starts its nodes."""
+"""Claims about files that are checked for themselves, whatever launch reaches them: those by which a package is built
+and installed, and those of robot descriptions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from preflight_analysis.documents.disk import Disk
 from preflight_analysis.documents.document import Document
@@ -14,7 +15,7 @@ from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.model.context import Context
 from preflight_analysis.model.installation import packages_of
-from preflight_analysis.rules.rule import Check, OfPackage, Rule
+from preflight_analysis.rules.rule import Check, OfDescription, OfPackage, Rule
 
 
 def check_packages(of_package: OfPackage) -> Check:
@@ -34,6 +35,19 @@ def said_of_package(
 ) -> tuple[Finding, ...]:
     """What is said of one: it is made again where something that it was read from has changed."""
     return tuple(of_package(rule, Disk(db), environment, package))
+
+
+def check_nothing(rule: Rule, context: Context) -> Iterable[Finding]:
+    """The check of a rule that speaks of files alone."""
+    return ()
+
+
+@query
+def said_of_description(
+    db: Database, of_description: OfDescription, rule: Rule, environment: Environment, path: str
+) -> tuple[Finding, ...]:
+    """What is said of one: it is made again where something that it was read from has changed."""
+    return tuple(of_description(rule, Disk(db), environment, path))
 
 
 def line_of(document: Document, line: int, part: str = "") -> Location:

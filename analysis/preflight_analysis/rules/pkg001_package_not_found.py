@@ -20,6 +20,7 @@ from preflight_analysis.findings.lack import Lack
 from preflight_analysis.incremental.derived import derived
 from preflight_analysis.model.below_packages import has_what_is_asked_of, lacks_what_is_asked_of
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.descriptions import LOOSE, doubts_of
 from preflight_analysis.model.installed import (
     debian_package_of,
     is_of_family,
@@ -29,11 +30,9 @@ from preflight_analysis.model.installed import (
 )
 from preflight_analysis.model.nearest import did_you_mean, is_reworded, is_slip_of_words, nearest
 from preflight_analysis.model.places import attribute_location, program_known
-from preflight_analysis.model.problems import enumerated, include_chain, problems_of, rename
+from preflight_analysis.model.problems import enumerated, include_chain, problems_of, rename, rename_in
 from preflight_analysis.model.retired import was_removed
 from preflight_analysis.robot.xacro import xacro_file
-from preflight_analysis.rules.descriptions import LOOSE, doubts_of
-from preflight_analysis.rules.descriptions import rename as renamed_in
 from preflight_analysis.rules.further_reading import PACKAGE_NAMES, ROSDEP, ROSLAUNCH_NODE
 from preflight_analysis.rules.rule import Rule
 
@@ -86,7 +85,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
             kind="near",
             doubts=(*LOOSE, *doubts_of(use.around, other=named)),
             candidates=(near,),
-            fixes=renamed_in(file.document, use.span, name, near),
+            fixes=rename_in(file.document, use.span, name, near),
         )
 
 

@@ -39,9 +39,8 @@ from preflight_analysis.model.descriptions import files_of_package, packages_aro
 from preflight_analysis.model.installation import build_files_of
 from preflight_analysis.model.problems import include_chain, numbered_problems, problems_of
 from preflight_analysis.robot.sources import documents_of
-from preflight_analysis.rules.descriptions import check_nothing, said_of_description
 from preflight_analysis.rules.loose_param_files import findings_of_loose_files, findings_of_param_file
-from preflight_analysis.rules.packages import said_of_package
+from preflight_analysis.rules.packages import check_nothing, said_of_description, said_of_package
 from preflight_analysis.rules.rule import Rule, in_root
 from preflight_analysis.tracing.once_per_process import once_per_process
 

@@ -13,6 +13,7 @@ from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
+from preflight_analysis.model.descriptions import LOOSE
 from preflight_analysis.model.problems import fix, include_chain, shown
 from preflight_analysis.model.syntax import Tags
 from preflight_analysis.robot.model import Malformed
@@ -20,7 +21,6 @@ from preflight_analysis.robot.of_launch import Described, Robot, robots_of, sema
 from preflight_analysis.robot.parse import parse_description
 from preflight_analysis.robot.sources import files_of
 from preflight_analysis.robot.xacro import xacro_file
-from preflight_analysis.rules.descriptions import LOOSE
 from preflight_analysis.rules.further_reading import URDF, XACRO
 from preflight_analysis.rules.rule import Rule
 

@@ -14,15 +14,13 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding, Fix
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.descriptions import model_folders, named_file
+from preflight_analysis.model.descriptions import LOOSE, below_package, doubts_of, model_folders, named_file
 from preflight_analysis.model.files import address, meant_file, nearest_file, package_folder
 from preflight_analysis.model.installed import lack_of_made, near_package
 from preflight_analysis.model.nearest import did_you_mean
-from preflight_analysis.model.problems import rename, shown
+from preflight_analysis.model.problems import rename, rename_in, shown
 from preflight_analysis.model.robots import robots_in_part, written
 from preflight_analysis.robot.xacro import Written, XacroFile, xacro_file
-from preflight_analysis.rules.descriptions import LOOSE, below_package, doubts_of
-from preflight_analysis.rules.descriptions import rename as renamed_in
 from preflight_analysis.rules.further_reading import URDF_LINK
 from preflight_analysis.rules.rule import Rule
 
@@ -70,7 +68,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
             kind="absent" if found.meant is None else "near",
             doubts=(*LOOSE, *doubts_of(each.around, other=False), *doubts(MADE_ELSEWHERE=found.is_ignored)),
             candidates=(found.meant,),
-            fixes=renamed_in(file.document, each.span, found.old, found.new) if found.new else (),
+            fixes=rename_in(file.document, each.span, found.old, found.new) if found.new else (),
         )
 
 

@@ -14,13 +14,11 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
 from preflight_analysis.model.context import Context
-from preflight_analysis.model.descriptions import parts_for
+from preflight_analysis.model.descriptions import LOOSE, doubts_of, is_part, parts_for
 from preflight_analysis.model.nearest import did_you_mean, is_slip, nearest, nearest_slip
-from preflight_analysis.model.problems import rename
+from preflight_analysis.model.problems import rename, rename_in
 from preflight_analysis.model.robots import robots, written
 from preflight_analysis.robot.xacro import OF_JOINTS, Part, xacro_file
-from preflight_analysis.rules.descriptions import LOOSE, doubts_of, is_part
-from preflight_analysis.rules.descriptions import rename as renamed_in
 from preflight_analysis.rules.further_reading import URDF_GAZEBO
 from preflight_analysis.rules.rule import Rule
 
@@ -110,7 +108,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
             effect=("misbehaves" if is_frame or named.of_joint else "no-effect") if here or own_link else "note",
             doubts=(*LOOSE, *doubts_of(named.around, other=not whole), *doubts(COMPUTED=bool(alike))),
             candidates=(near.name if near is not None else None,),
-            fixes=renamed_in(file.document, named.span, named.name, near.name) if near is not None else (),
+            fixes=rename_in(file.document, named.span, named.name, near.name) if near is not None else (),
         )
 
 

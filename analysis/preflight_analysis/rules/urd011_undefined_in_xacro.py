@@ -12,11 +12,19 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.claim import Subject, SubjectKind, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.model.descriptions import Defined, defined_anywhere, defined_for, is_passed
+from preflight_analysis.model.descriptions import (
+    Defined,
+    defined_anywhere,
+    defined_for,
+    doubts_of,
+    is_passed,
+    may_be_other,
+)
 from preflight_analysis.model.nearest import did_you_mean, nearest, nearest_slip
+from preflight_analysis.model.problems import rename_in
 from preflight_analysis.robot.xacro import Around, Use, XacroFile, xacro_file
-from preflight_analysis.rules.descriptions import check_nothing, doubts_of, may_be_other, rename
 from preflight_analysis.rules.further_reading import XACRO
+from preflight_analysis.rules.packages import check_nothing
 from preflight_analysis.rules.rule import Rule
 
 _FAILS = re.compile(r"(?i)error|undefined|invalid|unknown|missing|unsupported|fatal|abort")
@@ -70,7 +78,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
             kind="absent" if near is None else "near",
             doubts=doubted,
             candidates=(near,),
-            fixes=rename(file.document, each.span, each.name, near),
+            fixes=rename_in(file.document, each.span, each.name, near),
         )
 
 

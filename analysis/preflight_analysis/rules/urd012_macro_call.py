@@ -11,12 +11,12 @@ from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Doubt, Reason, doubts
 from preflight_analysis.findings.finding import Finding, Related
 from preflight_analysis.generation import ros
-from preflight_analysis.model.descriptions import defined_for
+from preflight_analysis.model.descriptions import defined_for, doubts_of
 from preflight_analysis.model.nearest import did_you_mean, nearest
-from preflight_analysis.model.problems import quoted
+from preflight_analysis.model.problems import quoted, rename_in
 from preflight_analysis.robot.xacro import XACRO, Call, Macro, XacroFile, xacro_file
-from preflight_analysis.rules.descriptions import check_nothing, doubts_of, rename
 from preflight_analysis.rules.further_reading import XACRO as XACRO_PAGE
+from preflight_analysis.rules.packages import check_nothing
 from preflight_analysis.rules.rule import Rule
 
 _BEFORE_NOETIC = frozenset(("groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic"))
@@ -75,7 +75,7 @@ def _unprefixed(
         doubts=(*doubts_of(call.around, other=False), *of_version),
         candidates=(meant,),
         related=related,
-        fixes=rename(file.document, call.span, call.name, meant) if not call.blocks else (),
+        fixes=rename_in(file.document, call.span, call.name, meant) if not call.blocks else (),
     )
 
 
@@ -96,7 +96,7 @@ def _unfit(rule: Rule, file: XacroFile, call: Call, macro: Macro, related: tuple
             doubts=doubted,
             candidates=(near,),
             related=related,
-            fixes=rename(file.document, span, name, near),
+            fixes=rename_in(file.document, span, name, near),
         )
     if missing and not unknown:
         what, have = ("parameter", "has") if len(missing) == 1 else ("parameters", "have")

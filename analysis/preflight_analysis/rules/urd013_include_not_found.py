@@ -12,12 +12,13 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.model.descriptions import named_file
+from preflight_analysis.model.descriptions import below_package, doubts_of, named_file
 from preflight_analysis.model.files import nearest_file
 from preflight_analysis.model.nearest import did_you_mean
+from preflight_analysis.model.problems import rename_in
 from preflight_analysis.robot.xacro import xacro_file
-from preflight_analysis.rules.descriptions import below_package, check_nothing, doubts_of, rename
 from preflight_analysis.rules.further_reading import XACRO
+from preflight_analysis.rules.packages import check_nothing
 from preflight_analysis.rules.rule import Rule
 
 
@@ -42,7 +43,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
             kind="absent" if near is None else "near",
             doubts=(*doubts_of(each.around, other=False), *doubts(MADE_ELSEWHERE=is_ignored(disk, missing))),
             candidates=(near,),
-            fixes=rename(file.document, each.span, name, os.path.basename(near)) if near is not None and beside else (),
+            fixes=rename_in(file.document, each.span, name, os.path.basename(near) if near and beside else None),
         )
 
 

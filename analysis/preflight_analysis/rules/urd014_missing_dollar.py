@@ -10,10 +10,11 @@ from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.claim import Subject
 from preflight_analysis.findings.doubt import Reason
 from preflight_analysis.findings.finding import Finding
-from preflight_analysis.model.descriptions import defined_for
+from preflight_analysis.model.descriptions import defined_for, doubts_of
+from preflight_analysis.model.problems import rename_in
 from preflight_analysis.robot.xacro import COMPUTED, xacro_file
-from preflight_analysis.rules.descriptions import check_nothing, doubts_of, rename
 from preflight_analysis.rules.further_reading import XACRO
+from preflight_analysis.rules.packages import check_nothing
 from preflight_analysis.rules.rule import Rule
 
 _IN_BRACES = re.compile(r"(?<![${])\{ *([A-Za-z_]\w*) *\}|[({]\$([A-Za-z_]\w*)[)}]|\$\(([A-Za-z_]\w*)\)")
@@ -39,7 +40,7 @@ def _of_description(rule: Rule, disk: Disk, environment: Environment, path: str)
                 subject=Subject("text", match[0]),
                 doubts=doubts_of(around, other=False),
                 candidates=(meant,),
-                fixes=rename(file.document, span, match[0], meant),
+                fixes=rename_in(file.document, span, match[0], meant),
             )
 
 
