@@ -61,4 +61,8 @@ def test_the_topic_is_in_the_namespace_of_the_node() -> None:
 def test_what_it_gets() -> None:
     assert not _found(_GROUP.format(""), _URDF + _SRDF)
     assert not _found(_STATE + _GROUP.format(_PUBLISHES.format("true")))
+    remap = '<remap from="robot_description" to="/robot_description"/>'
+    assert not _found(_GROUP.format("") + _STATE, _SRDF + remap, "left")
+    elsewhere = '<param from="$(find-pkg-share not_here)/a.yaml"/>'
+    assert not _found(_GROUP.format(""), elsewhere), "the file may have them"
     assert not _found(_GROUP.format(""), has_interface=False), "it has no such interface"

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from preflight_analysis.evaluation import names
 from preflight_analysis.evaluation.moveit import is_move_group, moveit_params
+from preflight_analysis.evaluation.tree import LaunchNode
 from preflight_analysis.findings.claim import Subject, say
 from preflight_analysis.findings.doubt import Reason, doubts
 from preflight_analysis.findings.finding import Finding
@@ -30,11 +31,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     clients = (end for channel in channels_of(context)["services"] for end in channel.consumers)
     for end in clients if graph is not None and context.tree.ros.own_parameters else ():
         node = end.node
-        if end.endpoint.type != _CLIENT_OF or node.unknowns or graph is None:
+        if end.endpoint.type != _CLIENT_OF or node.unknowns or node.lacks_params or graph is None:
             continue
         given = {param.name for param in node.params}
         missing = next(
-            (name for name in _DESCRIPTIONS if name not in given and not _published(graph, node.namespace, name)), None
+            (name for name in _DESCRIPTIONS if name not in given and not _published(graph, node, name)), None
         )
         if missing is not None:
             yield rule.claim(
@@ -54,9 +55,10 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
             )
 
 
-def _published(graph: Graph, namespace: str, name: str) -> bool:
-    """Whether the launch has somebody who publishes a description, or a `move_group` that is told to."""
-    channel = graph.topics.get(names.join(namespace, name))
+def _published(graph: Graph, node: LaunchNode, name: str) -> bool:
+    """Whether the launch has somebody who publishes a description to a node, or a `move_group` that is told to."""
+    remaps = names.resolve_remaps(tuple((each.source, each.target) for each in node.remaps), node.name)
+    channel = graph.topics.get(names.resolve(name, node.name, remaps))
     if channel is not None and channel.providers:
         return True
     groups = (moveit_params(graph.tree, node) for node in graph.tree.nodes if is_move_group(node))
