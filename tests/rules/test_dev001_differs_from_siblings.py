@@ -3,6 +3,8 @@
 import pytest
 from support.check import check, findings_of
 
+_NUMBERED = """          <node pkg="p" type="t" name="n_{0}"><param name="cov_1" value="a{1}"/></node>
+"""
 _WHEEL = """          <node pkg="p" type="t" name="wheel_{0}"><param name="port" value="/dev/ttyUSB{1}"/></node>
 """
 
@@ -18,6 +20,11 @@ def test_a_name_that_was_not_changed_in_a_copy() -> None:
 {_wheels(1, 2, 2)}{" " * 61}^^^^ {said}
 {_wheels(4, first=4)}        </launch>
     """)
+
+
+def test_a_number_in_the_name_of_a_parameter_is_no_number_of_a_node() -> None:
+    nodes = "".join(_NUMBERED.format(number, value) for number, value in enumerate((0, 1, 2, 2)))
+    assert _found(f"<launch>{nodes}</launch>") == ["parameter 'cov_1' of /n_3 is 'a2', where '2' is of another one"]
 
 
 def _cameras(*left_out: str, **changed: str) -> str:

@@ -18,7 +18,7 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
     for each in chain(deviating_nodes(context), deviating_includes(context)):
         yield rule.claim(
             _message(each),
-            each.value.place if each.value is not None else each.sibling.place,
+            each.place,
             subject=Subject(each.what, each.name),
             kind="absent" if each.value is None else "near",
             candidates=(each.expected,),
@@ -27,11 +27,11 @@ def _check(rule: Rule, context: Context) -> Iterator[Finding]:
 
 
 def _message(each: Deviation) -> str:
-    who = f" of {each.sibling.name}" if each.sibling.name else ""
+    who = f" of {each.name_of}" if each.name_of else ""
     after = f"after the {each.siblings - 1} others like it, it would be '{each.expected}'"
     if each.value is None:
         return f"{each.what} '{each.name}'{who} is missing; {after}"
-    return f"{each.what} '{each.name}'{who} is '{each.value.text}', where '{each.other}' is of another one; {after}"
+    return f"{each.what} '{each.name}'{who} is '{each.value}', where '{each.other}' is of another one; {after}"
 
 
 RULE = Rule(
