@@ -98,3 +98,10 @@ class Finding:
     subject: Subject = Subject("text")
     candidates: tuple[str, ...] = ()
     text: Text = field(default=Text(""), compare=False)
+
+    @property
+    def safe_fix(self) -> Fix | None:
+        """The fix that may be made unasked: of a finding that is certain, whatever the launch is given, the only one,
+        for the only thing that can be meant."""
+        sure = self.confidence == "certain" and not self.condition and len(self.candidates) <= 1
+        return self.fixes[0] if sure and len(self.fixes) == 1 and self.fixes[0].preferred else None

@@ -45,15 +45,15 @@ _FEW = 10
 class Report:
     """What a check found. `documents` has the text of each file that a finding points into; one that is missing costs
     its source line and the right line number. `findings` are those of the robot, `missing` is what this machine lacks,
-    with `problems`, sentences about its ROS. `hidden` findings are not among them, as they are not severe enough;
-    `failures` are the parts of ours that raised, whose findings are missing."""
+    with `problems`, sentences about its ROS. `hidden` counts those that are not among them, as they are not severe
+    enough; `failures` are the parts of ours that raised, whose findings are missing."""
 
     findings: Sequence[Finding]
     documents: Mapping[str, Document] = field(repr=False)
     coverage: Coverage = field(default_factory=Coverage)
     missing: tuple[Missing, ...] = ()
     problems: tuple[str, ...] = ()
-    hidden: int = 0
+    hidden: Mapping[Severity, int] = field(default_factory=dict)
     failures: tuple[Failure, ...] = ()
 
     @classmethod
@@ -75,8 +75,8 @@ class Report:
         """The report with the findings of this severity and worse."""
         least = SEVERITIES.index(severity)
         shown = [each for each in self.findings if SEVERITIES.index(each.severity) >= least]
-        hidden = sum(SEVERITIES.index(each.severity) < least for each in self.causes())
-        return replace(self, findings=shown, hidden=self.hidden + hidden)
+        hidden = Counter(each.severity for each in self.causes() if SEVERITIES.index(each.severity) < least)
+        return replace(self, findings=shown, hidden=hidden + Counter(self.hidden))
 
     def causes(self) -> tuple[Finding, ...]:
         """One finding for each cause, whatever the number of its places: these are counted, in each format."""
@@ -149,7 +149,7 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False, ho
     at the end what is missing here, how many findings there are and what was looked at. Ends with a newline. Files
     below the folder `base` are shown relative to it. What is found of one cause in several places is shown once.
     Places are links to the files of this `host`, if it is given."""
-    blocks = []
+    blocks = [*_incomplete(report.coverage)]
     for first, *others in _causes(report.findings):
         lines = [*finding_lines(first, report.documents, base, colour=colour, host=host)]
         shown = {related.location for related in first.related}
@@ -166,7 +166,8 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False, ho
 
 def closing(report: Report, base: str | None = None) -> Iterator[str]:
     """What follows the findings, in blocks: their number by rule, where there are many, what is missing on this
-    machine, what was not looked at, and the summary. Files below the folder `base` are shown relative to it."""
+    machine, what was not looked at, the summary, and what a person does first. Files below the folder `base` are shown
+    relative to it."""
     causes = report.causes()
     if len(causes) > _FEW:
         yield "\n".join(_rule_lines(causes))
@@ -175,8 +176,46 @@ def closing(report: Report, base: str | None = None) -> Iterator[str]:
     if lines := [*_not_looked_at(report.coverage, base)]:
         yield "\n".join(("not looked at:", *lines))
     found = _counted(Counter(finding.severity for finding in causes)) or "no findings"
-    hidden = f" ({report.hidden} less severe not shown)" if report.hidden else ""
-    yield f"{found}{hidden}; {report.coverage}"
+    yield "\n".join((f"{found}{_hidden(report)}; {report.coverage}", *_first_steps(report, causes, base)))
+
+
+def statistics(report: Report, base: str | None = None) -> str:
+    """How many findings each rule has, and of how many a fix is certain, instead of the findings."""
+    causes = report.causes()
+    fixable = Counter(each.rule for each in causes if each.safe_fix is not None)
+    lines = [f"{line}, {n} fixed by --fix" if (n := fixable[line[:6]]) else line for line in _rule_lines(causes)]
+    summary = replace(report, findings=()) if not causes else report
+    return "\n".join([*_incomplete(report.coverage), *lines, [*closing(summary, base)][-1]]) + "\n"
+
+
+def _hidden(report: Report) -> str:
+    if not report.hidden:
+        return ""
+    least = next(each for each in SEVERITIES if report.hidden.get(each))
+    return f" ({_counted(report.hidden)} not shown: --severity {least})"
+
+
+def _incomplete(coverage: Coverage) -> Iterator[str]:
+    """That half or more was not looked at, which a clean result does not show."""
+    if coverage.files and 2 * coverage.evaluated <= coverage.files:
+        files = f"only {coverage.evaluated} of {_plural(coverage.files, 'launch file')}"
+        yield f"{files} evaluated as a whole: findings of the others are missing"
+    nodes, unknown = coverage.total_nodes, coverage.nodes.get("none", 0)
+    if nodes and 2 * unknown >= nodes:
+        what = f"what {unknown} of {_plural(nodes, 'node')} do is unknown"
+        yield f"{what}: findings of their topics and parameters are missing"
+
+
+def _first_steps(report: Report, causes: Sequence[Finding], base: str | None) -> Iterator[str]:
+    """Where to begin: with what stops the launch, else with the most severe; and what need not be done by hand."""
+    grave = [each for each in causes if each.severity in ("error", "warning")]
+    if len(grave) > 1:
+        stops = [each for each in grave if each.effect == "stops-launch"]
+        begin = min(stops, key=lambda each: each.launch_order, default=grave[0])
+        why = ", which stops the launch" if stops else ""
+        yield f"begin with {place(begin.location, report.documents, base)}: {begin.rule}{why}"
+    if fixable := sum(each.safe_fix is not None for each in causes):
+        yield f"{fixable} of them {'is' if fixable == 1 else 'are'} fixed by --fix"
 
 
 def _not_looked_at(coverage: Coverage, base: str | None) -> Iterator[str]:

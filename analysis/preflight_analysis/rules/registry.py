@@ -30,6 +30,7 @@ from preflight_analysis.findings.failure import Failure
 from preflight_analysis.findings.finding import SEVERITIES, Finding, Related
 from preflight_analysis.findings.instances import together, with_others
 from preflight_analysis.findings.policy import doubted
+from preflight_analysis.findings.severities import ALL, family_of
 from preflight_analysis.findings.suppression import Filtered, apply_suppressions, read_suppressions
 from preflight_analysis.incremental.kept import Before
 from preflight_analysis.launch.recognize import FileKind
@@ -68,6 +69,17 @@ def all_rules() -> tuple[Rule, ...]:
 def rule_by_id(rule_id: str) -> Rule | None:
     """The rule of that id."""
     return next((rule for rule in all_rules() if rule.id == rule_id), None)
+
+
+@once_per_process
+def families() -> tuple[str, ...]:
+    """The first letters of the ids, in order."""
+    return tuple(dict.fromkeys(family_of(rule.id) for rule in all_rules()))
+
+
+def is_selector(name: str) -> bool:
+    """Whether a name stands for rules: for one, for a family, or for all."""
+    return name == ALL or name in families() or rule_by_id(name) is not None
 
 
 def run_rules(

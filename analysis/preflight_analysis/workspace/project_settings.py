@@ -14,18 +14,24 @@ nodes:                          # what nodes do that cannot be run, in the words
 knowledge:                      # files that say what parameters of nodes mean: docs/knowledge.md
   - config/knowledge.yaml
 distribution: humble            # that the workspace is for
-severities:                     # of rules: off, hint, info, warning or error; `all` are those that are not named
+select: [LCH, TOP]              # rules and families that speak; all where this is left out
+ignore: [LCH020]                # that do not
+severities:                     # of rules: off, on, hint, info, warning or error; `all` are those that are not named
   TOP002: off
 paths:                          # the same for files below a folder, or of a pattern; the last that matches counts
   - path: third_party/*
     severities: {all: off}
+  - path: old/*
+    ignore: [PKG]
+profile: strict                 # of the command: default, strict (warnings fail), launch (what stops a launch)
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
+from typing import Literal
 
 import yaml
 
@@ -37,19 +43,25 @@ from preflight_analysis.documents.span import LineIndex, Location, Span
 from preflight_analysis.documents.yaml import CONSTRUCTION_ERRORS, compose
 from preflight_analysis.environment.detect import SETTINGS_FILE
 from preflight_analysis.environment.distribution import known_distributions
-from preflight_analysis.findings.finding import Severity
-from preflight_analysis.findings.severities import ALL, CHOICES, Severities
+from preflight_analysis.findings.severities import CHOICES, Severities, Wanted, chosen
 from preflight_analysis.graph.annotations import GROUPS, AnnotationProblem, read_item
 from preflight_analysis.incremental.database import Database
 from preflight_analysis.incremental.query import query
 from preflight_analysis.interfaces.settings import NodeSettings
 from preflight_analysis.knowledge.model import Problem as KnowledgeProblem
-from preflight_analysis.rules.registry import rule_by_id
+from preflight_analysis.rules.registry import is_selector
 from preflight_analysis.tracing.interface import Endpoint, ParamUse
 from preflight_analysis.workspace.index import Root
 
-KEYS = ("roots", "external", "nodes", "knowledge", "distribution", "severities", "paths")
+KEYS = (
+    *("roots", "external", "nodes", "knowledge", "distribution"),
+    *("select", "ignore", "severities", "paths", "profile"),
+)
 """The names on the top level."""
+SELECTORS = ("select", "ignore")
+"""Lists of rules and families, for all files and by path."""
+Profile = Literal["default", "strict", "launch"]
+PROFILES: tuple[Profile, ...] = ("default", "strict", "launch")
 _DISTRIBUTIONS = (*known_distributions(1), *known_distributions(2))
 """`environment/distribution.py` reads it."""
 
@@ -76,6 +88,7 @@ class ProjectSettings:
     """The paths of files that say what parameters mean, and the lines, counted from 1, that name them."""
     severities: tuple[Severities, ...] = ()
     """The last that speak of a finding count."""
+    profile: Profile = "default"
     text: str = ""
     """What the file held."""
 
@@ -117,6 +130,8 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
     knowledge: list[tuple[str, int]] = []
     everywhere: list[Severities] = []
     by_path: list[Severities] = []
+    selected: dict[str, tuple[str, ...]] = {}
+    profile: Profile = "default"
     for key, value in _entries(document, problems, "the settings"):
         if key.value == "nodes" and isinstance(value, yaml.SequenceNode):
             nodes += (node for item in value.value if (node := _node(item, problems)) is not None)
@@ -134,10 +149,17 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
             if value.value not in _DISTRIBUTIONS:
                 expected = f"expected one of {', '.join(_DISTRIBUTIONS)}"
                 problems.append(_problem(value, f"invalid value of 'distribution': {expected}"))
+        elif key.value in SELECTORS:
+            selected[key.value] = _selectors(key.value, value, problems)
         elif key.value == "severities":
             everywhere.append(Severities(_severities(value, problems)))
+        elif key.value == "profile":
+            if isinstance(value, yaml.ScalarNode) and value.value in PROFILES:
+                profile = PROFILES[PROFILES.index(value.value)]
+            else:
+                problems.append(_problem(value, f"invalid value of 'profile': expected one of {', '.join(PROFILES)}"))
         elif key.value == "paths" and isinstance(value, yaml.SequenceNode):
-            by_path += (each for item in value.value if (each := _of_path(item, folder, problems)) is not None)
+            by_path += (each for item in value.value for each in _of_path(item, folder, problems))
         elif key.value == "paths":
             problems.append(_problem(value, "invalid value of 'paths': expected a list"))
         elif key.value == "external":
@@ -155,7 +177,8 @@ def _settings(folder: str, path: str, found: Text | Unreadable) -> ProjectSettin
         tuple(external),
         tuple(nodes),
         tuple(knowledge),
-        (*everywhere, *by_path),
+        (*_chosen(selected), *everywhere, *by_path),
+        profile,
         found.text,
     )
 
@@ -240,33 +263,58 @@ def _external(node: yaml.Node, problems: list[SettingsProblem]) -> Iterator[str]
                     problems.append(_problem(item, "invalid item of 'topics': expected a name or a pattern"))
 
 
-def _severities(node: yaml.Node, problems: list[SettingsProblem]) -> dict[str, Severity | None]:
-    found: dict[str, Severity | None] = {}
+def _selectors(name: str, node: yaml.Node, problems: list[SettingsProblem]) -> tuple[str, ...]:
+    if not isinstance(node, yaml.SequenceNode):
+        problems.append(_problem(node, f"invalid value of '{name}': expected a list of rules and families"))
+        return ()
+    found = []
+    for item in node.value:
+        if isinstance(item, yaml.ScalarNode) and is_selector(item.value):
+            found.append(item.value)
+        else:
+            rule = item.value if isinstance(item, yaml.ScalarNode) else ""
+            problems.append(_problem(item, f"unknown rule or family '{rule}'"))
+    return tuple(found)
+
+
+def _chosen(selected: Mapping[str, Sequence[str]], pattern: str | None = None) -> Iterator[Severities]:
+    rules = chosen(**selected)
+    if rules:
+        yield Severities(rules, pattern)
+
+
+def _severities(node: yaml.Node, problems: list[SettingsProblem]) -> dict[str, Wanted]:
+    found: dict[str, Wanted] = {}
     for key, value in _entries(node, problems, "severities"):
         wanted = value.value if isinstance(value, yaml.ScalarNode) else ""
-        if key.value != ALL and rule_by_id(key.value) is None:
-            problems.append(_problem(key, f"unknown rule '{key.value}'"))
-        elif wanted not in CHOICES:
+        choice = next((each for each in CHOICES if each == wanted), None)
+        if not is_selector(key.value):
+            problems.append(_problem(key, f"unknown rule or family '{key.value}'"))
+        elif choice is None:
             problems.append(_problem(value, f"invalid severity of '{key.value}'; expected one of {', '.join(CHOICES)}"))
         else:
-            found[key.value] = CHOICES[wanted]
+            found[key.value] = choice
     return found
 
 
-def _of_path(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> Severities | None:
+def _of_path(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> tuple[Severities, ...]:
     pattern: str | None = None
-    severities: dict[str, Severity | None] = {}
+    severities: dict[str, Wanted] = {}
+    selected: dict[str, tuple[str, ...]] = {}
     for key, value in _entries(node, problems, "a path"):
         if key.value == "path" and isinstance(value, yaml.ScalarNode):
             pattern = _path(folder, value)
         elif key.value == "severities":
             severities |= _severities(value, problems)
+        elif key.value in SELECTORS:
+            selected[key.value] = _selectors(key.value, value, problems)
         else:
-            problems.append(_problem(key, f"unknown key '{key.value}' of 'paths'; expected path and severities"))
+            expected = f"expected path, severities, {', '.join(SELECTORS)}"
+            problems.append(_problem(key, f"unknown key '{key.value}' of 'paths'; {expected}"))
     if pattern is None:
         problems.append(_problem(node, "key 'path' is missing in an item of 'paths'"))
-        return None
-    return Severities(severities, pattern)
+        return ()
+    return (*_chosen(selected, pattern), Severities(severities, pattern))
 
 
 def _root(node: yaml.Node, folder: str, problems: list[SettingsProblem]) -> Root | None:

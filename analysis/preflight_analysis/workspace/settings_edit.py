@@ -35,11 +35,8 @@ def turn_off(folder: str, path: str, text: str, rule: str, file: str | None) -> 
 
 def _is_off(severities: tuple[Severities, ...], rule: str, file: str | None) -> bool:
     """Whether the last entry that speaks of the rule turns it off; for all files only those without a pattern count."""
-    wanted: object = rule
-    for each in severities:
-        if rule in each.rules and (each.speak_of(file) if file is not None else each.pattern is None):
-            wanted = each.rules[rule]
-    return wanted is None
+    wanted = [each.of(rule) for each in severities if (each.speak_of(file) if file else each.pattern is None)]
+    return [each for each in wanted if each is not None][-1:] == [OFF]
 
 
 def _candidates(folder: str, writer: YamlWriter, root: yaml.Node | None, rule: str, file: str | None) -> Iterator[Edit]:

@@ -14,11 +14,16 @@ from typing import Any
 from preflight_analysis.environment.distribution import known_distributions
 from preflight_analysis.findings.severities import ALL, CHOICES
 from preflight_analysis.graph.annotations import CLASSES, GROUPS
-from preflight_analysis.rules.registry import all_rules
+from preflight_analysis.rules.registry import all_rules, families
+from preflight_analysis.workspace.project_settings import PROFILES
 
 COMMAND = "python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json"
 
 _SEVERITIES = {"$ref": "#/definitions/severities"}
+_SELECTORS = {
+    "select": {"$ref": "#/definitions/selectors", "description": "The rules and families that speak; all by default."},
+    "ignore": {"$ref": "#/definitions/selectors", "description": "Rules and families that do not."},
+}
 
 
 def schema() -> dict[str, Any]:
@@ -71,6 +76,7 @@ def schema() -> dict[str, Any]:
             "description": "The distribution of ROS that the workspace is for.",
             "enum": [*known_distributions(1), *known_distributions(2)],
         },
+        **_SELECTORS,
         "severities": _SEVERITIES,
         "paths": _list(
             "Severities for some files; the last matching entry applies.",
@@ -78,18 +84,26 @@ def schema() -> dict[str, Any]:
                 "The severities of rules for some files.",
                 {
                     "path": _text("A folder or a pattern, relative to this file; * matches any text."),
+                    **_SELECTORS,
                     "severities": _SEVERITIES,
                 },
                 ["path"],
             ),
         ),
+        "profile": {
+            "description": "Of `check`: with strict, warnings fail; with launch, only what stops a launch is reported.",
+            "enum": list(PROFILES),
+        },
     }
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "The settings of ros-preflight for a workspace, .ros-preflight.yaml",
         **_object("What ros-preflight cannot find out itself.", properties),
         "type": ["object", "null"],
-        "definitions": {"severities": _severities()},
+        "definitions": {
+            "severities": _severities(),
+            "selectors": {"type": "array", "items": {"enum": [ALL, *families(), *(rule.id for rule in all_rules())]}},
+        },
     }
 
 
@@ -111,7 +125,8 @@ def _severities() -> dict[str, Any]:
     choice = {"enum": list(CHOICES)}
     rules = {rule.id: {**choice, "description": rule.name} for rule in all_rules()}
     every = {ALL: {**choice, "description": "All rules that are not named."}}
-    return _object("Severities that replace those of the rules.", {**every, **rules})
+    groups = {name: {**choice, "description": f"All {name} rules that are not named."} for name in families()}
+    return _object("Severities that replace those of the rules.", {**every, **groups, **rules})
 
 
 def _items(group: str) -> dict[str, Any]:

@@ -193,7 +193,8 @@ class Workspace:
 
     `cwd` is what relative paths in launch files are relative to, the folder where roslaunch would be called.
     `commands` knows what commands of parameters gave; none was run where it is left out. `similar` knows what
-    executables did under other configurations. Without `reads` Python launch files are only run.
+    executables did under other configurations. `chosen` are severities that a command wants: they count more than
+    those of the settings for all files. Without `reads` Python launch files are only run.
     """
 
     def __init__(
@@ -204,9 +205,11 @@ class Workspace:
         commands: Commands | None = None,
         similar: SimilarTraces | None = None,
         *,
+        chosen: Sequence[Severities] = (),
         reads: bool = True,
     ) -> None:
         self.environment = environment
+        self._chosen = tuple(chosen)
         self.reads = reads
         self.sources = sources
         sources.undecided = environment.generation
@@ -510,7 +513,12 @@ class Workspace:
     def settings(self) -> ProjectSettings:
         """The settings file of the workspace."""
         folder = self.environment.workspace
-        return project_settings_of(self.sources.db, folder) if folder is not None else ProjectSettings()
+        settings = project_settings_of(self.sources.db, folder) if folder is not None else ProjectSettings()
+        if not self._chosen:
+            return settings
+        everywhere = [each for each in settings.severities if each.pattern is None]
+        by_path = [each for each in settings.severities if each.pattern is not None]
+        return replace(settings, severities=(*everywhere, *self._chosen, *by_path))
 
     @property
     def own_knowledge(self) -> OwnKnowledge:

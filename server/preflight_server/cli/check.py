@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import sys
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 from preflight_analysis.catalogue.launches import catalogued_file
@@ -20,22 +22,26 @@ from preflight_analysis.findings.baseline import read_baseline, to_baseline, wit
 from preflight_analysis.findings.contexts import RootFindings, causes_first
 from preflight_analysis.findings.coverage import Coverage
 from preflight_analysis.findings.failure import Failure
-from preflight_analysis.findings.finding import SEVERITIES, Finding
+from preflight_analysis.findings.finding import SEVERITIES, Finding, Severity
 from preflight_analysis.findings.printable import printable
-from preflight_analysis.findings.report import Report, relative, to_json, to_text
+from preflight_analysis.findings.report import Report, place, relative, statistics, to_json, to_text
+from preflight_analysis.findings.severities import ON, Severities, Wanted
+from preflight_analysis.findings.severities import chosen as chosen_rules
 from preflight_analysis.model.installation import packages_of
 from preflight_analysis.rules.registry import all_rules
 from preflight_analysis.tracing.interface import NOT_RUN
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.merged import CRASH, counting, merged
+from preflight_analysis.workspace.project_settings import PROFILES, Profile
 from preflight_analysis.workspace.workspace import Analysis
 
 from preflight_server.cli import options
 from preflight_server.cli.again import Looked, again_and_again
 from preflight_server.cli.changes import changed_since, touched
 from preflight_server.cli.errors import BROKEN, CLEAN, CannotDoError
+from preflight_server.cli.fixing import planned, suppressed
 from preflight_server.cli.garbage import uncollected
-from preflight_server.cli.launches import Launches, launches
+from preflight_server.cli.launches import STANDARD_INPUT, Launches, launches
 from preflight_server.cli.output import colours, links, print_json, print_text, say, say_failures
 from preflight_server.cli.paths import with_paths
 from preflight_server.cli.progress import Progress
@@ -45,6 +51,10 @@ _log = logging.getLogger(__name__)
 TOGETHER = 32
 """Launches of which all is run side by side, commands, Python launch files and nodes; their analyses are at hand
 meanwhile."""
+_MOST_ROUNDS = 5
+"""A fix may show what else there is to fix."""
+_DOING = ("watch", "fix", "diff", "add_noqa", "write_baseline")
+"""What a check does beside telling."""
 FORMATS = ("text", "json", "sarif", "junit", "github", "gitlab")
 
 DESCRIPTION = """Find problems in launch files and in everything that they include. Without FILE, check the root
@@ -100,17 +110,37 @@ class _Launched:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's own options."""
     options.add_common(parser, FORMATS)
+    parser.set_defaults(fail_on=None)
     parser.add_argument(
         "launch_args",
         metavar="FILE",
         nargs="*",
-        help="launch files with their arguments (name:=value), other files, or folders (default: the current folder)",
+        help="launch files with their arguments (name:=value), other files, folders, or - for standard input (default: "
+        "the current folder)",
     )
+    parser.add_argument("--stdin-filename", metavar="FILE", help="the file whose text is on standard input")
     parser.add_argument(
         "--severity",
         choices=tuple(reversed(SEVERITIES)),
-        default="hint",
-        help="report findings of this severity or worse (default: %(default)s)",
+        help="report findings of this severity or worse (default: info in text, hint in other formats)",
+    )
+    for option, text in (
+        ("--select", "report only these rules and families, as LCH,TOP001"),
+        ("--extend-select", "report these rules, too, where the settings leave them out"),
+        ("--ignore", "leave these rules and families out"),
+    ):
+        parser.add_argument(option, type=options.selectors, action="extend", default=[], metavar="RULES", help=text)
+    parser.add_argument(
+        "--profile",
+        choices=PROFILES,
+        help="strict: warnings fail; launch: only what stops a launch is reported (default: that of the settings)",
+    )
+    parser.add_argument("--statistics", action="store_true", help="print how many findings each rule has instead")
+    parser.add_argument("--fix", action="store_true", help="make the fixes that are certain, and say which")
+    parser.add_argument("--unsafe", action="store_true", help="with --fix or --diff: also the other fixes")
+    parser.add_argument("--diff", action="store_true", help="print what --fix would change, and write nothing")
+    parser.add_argument(
+        "--add-noqa", action="store_true", help="write a comment for each finding that suppresses it, and exit with 0"
     )
     parser.add_argument(
         "--require-complete", action="store_true", help="exit with 1 also if something is missing on this machine"
@@ -130,31 +160,130 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the findings; with `--watch` again and again."""
+    _require_sense(args)
     if not args.watch:
         return _look(args).code
-    if args.write_baseline:
-        raise CannotDoError("--watch and --write-baseline cannot be combined")
     return again_and_again(lambda: _look(args))
+
+
+def _require_sense(args: argparse.Namespace) -> None:
+    """Raises `CannotDoError` for options that cannot be combined."""
+    given = [name for name in _DOING if getattr(args, name)]
+    option = [f"--{name.replace('_', '-')}" for name in given]
+    if len(given) > 1 and set(given) != {"fix", "diff"}:
+        raise CannotDoError(f"{option[0]} and {option[1]} cannot be combined")
+    if args.unsafe and not (args.fix or args.diff):
+        raise CannotDoError("--unsafe is for --fix and --diff")
+    reads = STANDARD_INPUT in args.launch_args
+    if reads != (args.stdin_filename is not None):
+        raise CannotDoError("- is for standard input, with --stdin-filename FILE, the file whose text that is")
+    if reads and given and given != ["diff"]:
+        raise CannotDoError(f"{option[0]} is for files, not for standard input")
 
 
 def _look(args: argparse.Namespace) -> Looked:
     """Print the findings once."""
     known = _known(args.baseline) if args.baseline else frozenset()
-    chosen = launches(args)
+    typed = {os.path.abspath(args.stdin_filename): sys.stdin.read()} if args.stdin_filename else {}
+    chosen, report, checked = _checked(args, known, typed)
     homes = [launch.home for launch in chosen]
-    report, checked = look_at(chosen, args)
     if args.write_baseline:
         say_failures(report.failures)
         return Looked(_write_baseline(report, args.write_baseline), homes, checked)
-    if args.baseline:
+    severity: Severity = args.severity or ("info" if args.format == "text" else "hint")
+    if args.add_noqa:
+        return Looked(_suppress(report.at_least(severity), homes), homes, checked)
+    if args.diff:
+        plan = planned(report.at_least(severity), homes, {}, typed=typed, unsafe=args.unsafe)
+        _say_left(plan.left)
+        print_text("".join(plan.diff(os.getcwd())))
+        return Looked(int(bool(plan.changes)), homes, checked)
+    if args.fix:
+        report, again = _fix(report, homes, severity, args, known)
+        checked = again or checked
+    say_failures(report.failures)
+    failing = options.failing(
+        report.findings, args.fail_on or ("warning" if _profile(args, chosen) == "strict" else "error")
+    )
+    _print(report.at_least(severity), failing, checked, homes, args)
+    found = int(bool(failing) or (args.require_complete and not report.complete))
+    return Looked(BROKEN if report.failures else found, homes, {*checked, *report.documents})
+
+
+def _profile(args: argparse.Namespace, chosen: Sequence[Launches]) -> Profile:
+    of_settings: list[Profile] = [each.workspace.workspace.settings.profile for each in chosen]
+    return args.profile or next((each for each in of_settings if each != PROFILES[0]), PROFILES[0])
+
+
+def _checked(
+    args: argparse.Namespace, known: frozenset[str], typed: Mapping[str, str] | None = None
+) -> tuple[Sequence[Launches], Report, tuple[str, ...]]:
+    """What is launched, the findings that are wanted of it, and the files that were looked at."""
+    rules: dict[str, Wanted] = {**dict.fromkeys(args.extend_select, ON), **chosen_rules(args.select, args.ignore)}
+    launched = launches(args, chosen=[Severities(rules)] if rules else (), typed=typed or {})
+    report, checked = look_at(launched, args)
+    if _profile(args, launched) == "launch":
+        report = replace(report, findings=[each for each in report.findings if each.effect == "stops-launch"])
+    if args.baseline and not args.write_baseline:
         total = len(report.findings)
         report = without_known(report, known, _folder(args.baseline))
         say(f"ros-preflight: {total - len(report.findings)} of {total} findings are in {args.baseline}")
-    say_failures(report.failures)
-    failing = options.failing(report.findings, args.fail_on)
-    _print(report.at_least(args.severity), failing, checked, homes, args)
-    found = int(bool(failing) or (args.require_complete and not report.complete))
-    return Looked(BROKEN if report.failures else found, homes, {*checked, *report.documents})
+    return launched, report, checked
+
+
+def _fix(
+    report: Report, homes: Sequence[str], severity: Severity, args: argparse.Namespace, known: frozenset[str]
+) -> tuple[Report, tuple[str, ...]]:
+    """Make the fixes, look again, and make those that this shows; what is found then. A file that is less evaluated
+    with its fixes is as it was."""
+    left: dict[str, str] = {}
+    done: set[tuple[str, str, str]] = set()
+    checked: tuple[str, ...] = ()
+    for _ in range(_MOST_ROUNDS):
+        plan = planned(report.at_least(severity), homes, left, typed={}, unsafe=args.unsafe)
+        left.update(plan.left)
+        if not plan.changes:
+            break
+        try:
+            plan.write()
+            _, after, checked = _checked(args, known)
+            # A fix may show further mistakes: they are told. That a file is lost for the launch is none of them.
+            lost = {*after.coverage.not_evaluated} - {*report.coverage.not_evaluated}
+            undone = plan.undo(lost & plan.changes.keys())
+        except OSError as error:
+            raise CannotDoError(f"{error.filename} cannot be written: {error.strerror}") from None
+        if undone:
+            left.update(dict.fromkeys(undone, "with its fixes it is not evaluated as a whole"))
+            _, after, checked = _checked(args, known)
+        for finding, fix in plan.fixes:
+            if undone.isdisjoint(edit.location.file for edit in fix.edits):
+                done.add((place(finding.location, report.documents, os.getcwd()), finding.rule, fix.title))
+        report = after
+    for where, rule, title in sorted(done):
+        say(f"fixed {where}: {rule}: {title}")
+    files = {where.rsplit(":", 2)[0] for where, _, _ in done}
+    say(f"ros-preflight: fixed: {len(done)}, in files: {len(files)}")
+    _say_left(left)
+    return report, checked
+
+
+def _suppress(report: Report, homes: Sequence[str]) -> int:
+    """Write comments that suppress the findings."""
+    plan, without = suppressed(report, homes)
+    try:
+        plan.write()
+    except OSError as error:
+        raise CannotDoError(f"{error.filename} cannot be written: {error.strerror}") from None
+    say(f"ros-preflight: suppressed: {len(report.findings) - without}, in files: {len(plan.changes)}")
+    if without:
+        say(f"ros-preflight: for {without} no comment can be written where they are")
+    _say_left(plan.left)
+    return CLEAN
+
+
+def _say_left(left: Mapping[str, str]) -> None:
+    for file, why in sorted(left.items()):
+        say(f"ros-preflight: {relative(file, os.getcwd())} is left alone: {why}")
 
 
 @uncollected()
@@ -311,4 +440,9 @@ def _print(
             print_json(to_gitlab(report, base))
         case _:
             # Empty counts as not set: https://no-color.org
-            print_text(to_text(report, base=base, colour=colours(), host=links()), painted=colours())
+            text = (
+                statistics(report, base)
+                if args.statistics
+                else to_text(report, base=base, colour=colours(), host=links())
+            )
+            print_text(text, painted=colours())

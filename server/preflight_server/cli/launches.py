@@ -6,10 +6,12 @@ import argparse
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import field
+from types import MappingProxyType
 
 from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.detect import workspace_of
 from preflight_analysis.environment.model import Package
+from preflight_analysis.findings.severities import Severities
 from preflight_analysis.launch.recognize import FileKind, file_kind
 from preflight_analysis.workspace.index import Root
 from preflight_analysis.workspace.project_settings import read_project_settings
@@ -20,6 +22,7 @@ from preflight_server.cli.errors import CannotDoError, require
 from preflight_server.cli.output import say
 from preflight_server.cli.project import OpenWorkspace, open_workspace
 
+STANDARD_INPUT = "-"
 _CHECKED = (
     "files that can be checked: launch files, parameter files in YAML, package.xml, CMakeLists.txt, setup.py, "
     "setup.cfg and Python modules of a package, robot descriptions in a package"
@@ -44,8 +47,11 @@ class Launches:
     """Those that are named and are no launch files."""
 
 
-def launches(args: argparse.Namespace) -> list[Launches]:
-    """What `args.launch_args` name, by workspace; the current folder where they name nothing.
+def launches(
+    args: argparse.Namespace, *, chosen: Sequence[Severities] = (), typed: Mapping[str, str] = MappingProxyType({})
+) -> list[Launches]:
+    """What `args.launch_args` name, by workspace; the current folder where they name nothing. `chosen` as for
+    `Workspace`. Of the files in `typed`, absolute paths, that text counts, and `-` stands for them.
 
     A file is launched as it is, with the arguments `name:=value`. Of a folder each file that nothing includes is, and
     what the settings name, once with each of their profiles of arguments. Raises `CannotDoError` for a path that does
@@ -60,12 +66,14 @@ def launches(args: argparse.Namespace) -> list[Launches]:
     packages: dict[str, dict[str, Package]] = {}
     files: dict[str, dict[str, FileKind]] = {}
     opened: dict[str, OpenWorkspace] = {}
-    for given in paths or ["."]:
-        path = require(given)
+    named_paths = [each for given in paths or ["."] for each in (typed if given == STANDARD_INPUT else (given,))]
+    for given in named_paths:
+        path = given if given in typed else require(given)
         folder = os.path.isdir(path)
         home = workspace_of(os.path.join(path, "_") if folder else path)
         if home not in opened:
-            opened[home] = open_workspace(options.environment(args, home), args)
+            opened[home] = open_workspace(options.environment(args, home), args, chosen=chosen)
+            opened[home].workspace.sources.take(typed)
         if folder and values:
             raise CannotDoError(f"{given} is a folder; arguments for its launch files stand in .ros-preflight.yaml")
         kind = None if folder else _kind(given, path, opened[home].workspace)

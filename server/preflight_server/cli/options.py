@@ -13,6 +13,7 @@ from preflight_analysis.evaluation.arguments import arguments_of
 from preflight_analysis.findings.finding import SEVERITIES, Finding
 from preflight_analysis.generation import ROS1
 from preflight_analysis.launch.model import LaunchFile
+from preflight_analysis.rules.registry import families, is_selector
 from preflight_analysis.tracing.cache_folder import VARIABLE
 from preflight_analysis.tracing.schedule import most_at_once
 from preflight_analysis.workspace.sources import Sources
@@ -78,6 +79,17 @@ def add_running(parser: argparse.ArgumentParser, formats: Sequence[str]) -> None
         metavar="DIR",
         help=f"keep the results of runs in this folder (default: {VARIABLE}, else the user's cache folder)",
     )
+
+
+def selectors(text: str) -> list[str]:
+    """`LCH,TOP001`: rules and families. Raises `ArgumentTypeError` for what is neither."""
+    names = [name for part in text.split(",") if (name := part.strip())]
+    for name in names:
+        if not is_selector(name):
+            raise argparse.ArgumentTypeError(
+                f"'{name}' is neither a rule nor one of the families {', '.join(families())}"
+            )
+    return names
 
 
 def _positive(text: str) -> int:

@@ -14,6 +14,7 @@ from preflight_analysis.dataclass import dataclass
 from preflight_analysis.environment.model import Environment
 from preflight_analysis.findings.printable import printable
 from preflight_analysis.findings.report import place, relative
+from preflight_analysis.findings.severities import Severities
 from preflight_analysis.tracing.cache import TraceCache
 from preflight_analysis.tracing.interface import Interface
 from preflight_analysis.tracing.kept_traces import KeptTraces
@@ -133,12 +134,14 @@ class OpenWorkspace:
             raise
 
 
-def open_workspace(environment: Environment, args: argparse.Namespace, *, similar: bool = True) -> OpenWorkspace:
-    """The workspace of an environment; `similar` as for `analyse`."""
+def open_workspace(
+    environment: Environment, args: argparse.Namespace, *, similar: bool = True, chosen: Sequence[Severities] = ()
+) -> OpenWorkspace:
+    """The workspace of an environment; `similar` as for `analyse`, `chosen` as for `Workspace`."""
     results = CommandResults(lambda: NO_RUN if args.no_run else None)
     sources = Sources()
     elsewhere = SimilarTraces(TraceCache(), environment, sources) if similar else None
-    workspace = Workspace(environment, sources, commands=results, similar=elsewhere)
+    workspace = Workspace(environment, sources, commands=results, similar=elsewhere, chosen=chosen)
     return OpenWorkspace(workspace, results, args.no_run)
 
 
