@@ -170,7 +170,7 @@ images: $(READY) ## the pictures of the README and of the extension's page, from
 docs: $(READY) ## the documentation site, in out/site, with the rule reference from the rules, and the schemas of the settings
 	$(BIN)/python packaging/apply.py
 	$(BIN)/python -m preflight_analysis.rules.reference docs/rules
-	$(BIN)/python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json
+	$(BIN)/python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json docs/settings_reference.md
 	$(BIN)/python -m preflight_analysis.knowledge.schema vscode-client/ros-preflight-knowledge.schema.json
 	$(BIN)/python -m preflight_server.lsp.contribution vscode-client/package.json
 	$(BIN)/zensical build --strict --clean --config-file mkdocs.yml

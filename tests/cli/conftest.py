@@ -17,8 +17,10 @@ def harness(tmp_path: Path) -> Harness:
 
 @pytest.fixture
 def preflight(harness: Harness) -> Callable[..., Done]:
-    def run(*arguments: str | Path, cwd: Path | None = None, environment: dict[str, str] | None = None) -> Done:
+    def run(
+        *arguments: str | Path, cwd: Path | None = None, environment: dict[str, str] | None = None, typed: str = ""
+    ) -> Done:
         variables = {**harness.environment, **(environment or {})}
-        return run_command(harness.server, *arguments, environment=variables, cwd=cwd or harness.workspace)
+        return run_command(harness.server, *arguments, environment=variables, cwd=cwd or harness.workspace, typed=typed)
 
     return run

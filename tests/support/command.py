@@ -26,14 +26,19 @@ class Done:
 
 
 def run_command(
-    command: Path, *arguments: str | Path, environment: Mapping[str, str], cwd: Path | None = None, seconds: float = 60
+    command: Path,
+    *arguments: str | Path,
+    environment: Mapping[str, str],
+    cwd: Path | None = None,
+    typed: str = "",
+    seconds: float = 60,
 ) -> Done:
-    """Run it with these arguments. A traceback is a failure."""
+    """Run it with these arguments, `typed` on its standard input. A traceback is a failure."""
     done = subprocess.run(
         [str(command), *map(str, arguments)],
         env=environment,
         cwd=cwd,
-        stdin=subprocess.DEVNULL,
+        input=typed,
         capture_output=True,
         text=True,
         timeout=seconds,

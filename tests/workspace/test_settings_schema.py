@@ -11,7 +11,7 @@ import preflight_analysis.workspace.project_settings as reader
 import pytest
 import yaml
 from preflight_analysis.workspace.project_settings import KEYS, read_project_settings
-from preflight_analysis.workspace.settings_schema import COMMAND, schema, text
+from preflight_analysis.workspace.settings_schema import COMMAND, page, schema, text
 
 ROOT = Path(__file__).resolve().parents[2]
 EVERYTHING = """
@@ -26,8 +26,11 @@ nodes:
     params: [{name: ~rate, default: 10}, {name: ~x}]
   - name: /b
 knowledge: [config/knowledge.yaml]
-severities: {TOP001: off, all: hint}
-paths: [{path: old, severities: {PRM001: error}}]
+select: [LCH, TOP001]
+ignore: [LCH005]
+severities: {TOP001: off, all: hint, PRM: warning}
+paths: [{path: old, severities: {PRM001: error}, select: [PRM], ignore: [PRM002]}]
+profile: strict
 """
 
 
@@ -47,6 +50,7 @@ def test_the_extension_brings_it() -> None:
 def test_the_extension_brings_it_as_it_is() -> None:
     written = (ROOT / "vscode-client/ros-preflight.schema.json").read_text()
     assert written == text(), f"run: {COMMAND}"
+    assert (ROOT / "docs/settings_reference.md").read_text() == page(), f"run: {COMMAND}"
 
 
 def test_it_is_a_schema_of_the_same_names() -> None:

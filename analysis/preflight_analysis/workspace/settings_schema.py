@@ -1,13 +1,13 @@
-"""The JSON schema of the settings file, with which editors complete and check it.
+"""The JSON schema of the settings file, with which editors complete and check it, and its page in the documentation.
 
-`python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json` writes it.
+`COMMAND` writes both.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +17,19 @@ from preflight_analysis.graph.annotations import CLASSES, GROUPS
 from preflight_analysis.rules.registry import all_rules, families
 from preflight_analysis.workspace.project_settings import PROFILES
 
-COMMAND = "python -m preflight_analysis.workspace.settings_schema vscode-client/ros-preflight.schema.json"
+COMMAND = (
+    "python -m preflight_analysis.workspace.settings_schema "
+    "vscode-client/ros-preflight.schema.json docs/settings_reference.md"
+)
 
+_FEW = 20
+_PAGE = f"""<!-- Written by `{COMMAND}`. Do not edit. -->
+# Reference of `.ros-preflight.yaml`
+The keys of the [settings](settings.md) of a workspace, from the JSON schema with which editors complete the file. `[]`
+marks each item of a list.
+
+| key | value | description |
+| --- | --- | --- |"""
 _SEVERITIES = {"$ref": "#/definitions/severities"}
 _SELECTORS = {
     "select": {"$ref": "#/definitions/selectors", "description": "The rules and families that speak; all by default."},
@@ -112,12 +123,54 @@ def text() -> str:
     return json.dumps(schema(), indent=2) + "\n"
 
 
+def page() -> str:
+    """The reference of the settings file: each key, what it takes and what it is for."""
+    return "\n".join((_PAGE, *_rows(schema(), schema()["properties"], ""))) + "\n"
+
+
+def _rows(whole: Mapping[str, Any], properties: Mapping[str, Any], above: str) -> Iterator[str]:
+    for name, given in properties.items():
+        found = (
+            {**whole["definitions"].get(given["$ref"].rpartition("/")[2], {}), **given} if "$ref" in given else given
+        )
+        inner, items = found, found.get("items", {})
+        key = f"{above}{name}"
+        if found.get("type") == "array" and "properties" in (each := next(iter(items.get("oneOf", ())[1:]), items)):
+            inner, key = each, f"{key}[]"
+        yield f"| `{key}` | {_takes(found)} | {found.get('description', '')} |"
+        if "$ref" not in given:
+            yield from _rows(whole, inner.get("properties", {}), f"{key}.")
+
+
+def _takes(found: Mapping[str, Any]) -> str:
+    """What a key takes, in words."""
+    if "enum" in found:
+        return ", ".join(f"`{each}`" for each in found["enum"])
+    match found.get("type"):
+        case "array":
+            each = found["items"].get("oneOf", [found["items"]])[0]
+            few = "enum" not in each or len(each["enum"]) <= _FEW
+            return f"list of {_takes(each)}" if few else "list of rules and families, or `all`"
+        case "object" if found.get("additionalProperties"):
+            return "names with values"
+        case "object" if len(found["properties"]) > _FEW:
+            choices = next(iter(found["properties"].values()))["enum"]
+            return f"rules, families or `all`, each with one of {', '.join(f'`{each}`' for each in choices)}"
+        case "object":
+            return "keys"
+        case list() as several:
+            return " or ".join(several)
+        case other:
+            return {"string": "text"}.get(str(other), str(other))
+
+
 def main(arguments: Sequence[str]) -> int:
-    """The command line: one argument, the file."""
-    if len(arguments) != 1:
+    """The command line: two arguments, the files of the schema and of the page."""
+    if len(arguments) != 2:
         print(f"usage: {COMMAND}", file=sys.stderr)
         return 2
-    Path(arguments[0]).write_text(text(), encoding="utf-8")
+    for file, content in zip(arguments, (text(), page()), strict=True):
+        Path(file).write_text(content, encoding="utf-8")
     return 0
 
 
