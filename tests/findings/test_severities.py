@@ -19,4 +19,4 @@ def test_a_lack_of_the_machine_is_never_made_a_fault() -> None:
 
 
 def test_a_rule_that_is_off_does_not_speak_of_lacks_either() -> None:
-    assert adjusted([LACK], [Severities({"PKG001": None})]) == ()
+    assert adjusted([LACK], [Severities({"PKG001": "off"})]) == ()

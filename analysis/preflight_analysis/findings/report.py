@@ -161,13 +161,12 @@ def to_text(report: Report, *, base: str | None = None, colour: bool = False, ho
         if len(more) > _MOST_ALIKE:
             lines.append(f"  and in {len(more) - _MOST_ALIKE} more places")
         blocks.append("\n".join(lines))
-    return "\n\n".join([*blocks, "\n\n".join(closing(report, base))]) + "\n"
+    return "\n".join(("\n\n".join([*blocks, *closing(report, base)]), *_first_steps(report, base))) + "\n"
 
 
 def closing(report: Report, base: str | None = None) -> Iterator[str]:
     """What follows the findings, in blocks: their number by rule, where there are many, what is missing on this
-    machine, what was not looked at, the summary, and what a person does first. Files below the folder `base` are shown
-    relative to it."""
+    machine, what was not looked at, and the summary. Files below the folder `base` are shown relative to it."""
     causes = report.causes()
     if len(causes) > _FEW:
         yield "\n".join(_rule_lines(causes))
@@ -176,7 +175,7 @@ def closing(report: Report, base: str | None = None) -> Iterator[str]:
     if lines := [*_not_looked_at(report.coverage, base)]:
         yield "\n".join(("not looked at:", *lines))
     found = _counted(Counter(finding.severity for finding in causes)) or "no findings"
-    yield "\n".join((f"{found}{_hidden(report)}; {report.coverage}", *_first_steps(report, causes, base)))
+    yield f"{found}{_hidden(report)}; {report.coverage}"
 
 
 def statistics(report: Report, base: str | None = None) -> str:
@@ -206,10 +205,11 @@ def _incomplete(coverage: Coverage) -> Iterator[str]:
         yield f"{what}: findings of their topics and parameters are missing"
 
 
-def _first_steps(report: Report, causes: Sequence[Finding], base: str | None) -> Iterator[str]:
+def _first_steps(report: Report, base: str | None) -> Iterator[str]:
     """Where to begin: with what stops the launch, else with the most severe; and what need not be done by hand."""
+    causes = report.causes()
     grave = [each for each in causes if each.severity in ("error", "warning")]
-    if len(grave) > 1:
+    if len(causes) > _FEW and grave:
         stops = [each for each in grave if each.effect == "stops-launch"]
         begin = min(stops, key=lambda each: each.launch_order, default=grave[0])
         why = ", which stops the launch" if stops else ""
